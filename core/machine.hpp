@@ -1,0 +1,91 @@
+// The machine as configured, in the units its user writes (mm, mm/s), and the same in the units of motion.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/units.hpp"
+
+namespace lockstep {
+
+inline constexpr std::size_t kMaxAxes = 32;
+
+/// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
+struct HomingConfig {
+    bool toward_min = true;
+    double search_velocity_mm_s = 0;  // not above start_velocity: the switch stops the pulses at once
+    double latch_velocity_mm_s = 0;   // the slow second approach that sets the zero
+    double pulloff_mm = 0;            // how far off the switch before the latch
+    double switch_position_mm = 0;    // where the switch closes, in machine coordinates
+    double park_mm = 0;               // where the axis waits after homing
+};
+
+/// What the simulated hardware behind an axis is like.
+struct PlantConfig {
+    double start_position_mm = 0;       // where the slide stands at power-up, in machine coordinates
+    double travel_margin_mm = 0;        // from the end of travel to the limit switch
+    double max_torque_accel_mm_s2 = 0;  // the motor loses steps above this
+    double max_jump_mm_s = 0;           // and when asked to jump further than this
+};
+
+struct AxisConfig {
+    std::string name;
+    double steps_per_mm = 0;
+    double start_velocity_mm_s = 0;
+    double max_velocity_mm_s = 0;
+    double max_accel_mm_s2 = 0;
+    double max_decel_mm_s2 = 0;
+    double position_min_mm = 0;
+    double position_max_mm = 0;
+    HomingConfig homing;
+    PlantConfig plant;
+};
+
+/// The setpoint protocol's times, in slots (see core/protocol). Lengths: slot_us microseconds each.
+struct ProtocolTiming {
+    std::int64_t slot_us = 10'000;
+    int stall_slots = 10;       // s: how long a process may stall and the machine still runs on
+    int freshness_slots = 11;   // m >= s + 1
+    int send_ahead_slots = 30;  // A >= V + m + 5
+    int frame_slots = 23;       // >= m + s + 2
+
+    constexpr int check_slots() const { return 4 + stall_slots; }                          // V
+    constexpr int send_deadline_slots() const { return check_slots() + freshness_slots + 3; }  // V + m + 3
+};
+
+struct NetworkConfig {
+    std::string interface = "lo";
+    std::uint32_t domain = 0;
+    std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+};
+
+struct MachineConfig {
+    std::string name;
+    std::int64_t tick_ns = 1000;
+    ProtocolTiming timing;
+    NetworkConfig network;
+    std::vector<AxisConfig> axes;
+
+    constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }
+    Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
+    Ticks frame_ticks() const { return slot_ticks() * timing.frame_slots; }
+};
+
+/// An axis's limits in the units of motion. The doubles are for planning, in steps and ticks.
+struct AxisLimits {
+    double start_velocity = 0;    // steps per tick
+    double max_velocity = 0;      // steps per tick
+    double max_acceleration = 0;  // steps per tick^2
+    double max_deceleration = 0;  // steps per tick^2
+    std::int64_t min_steps = 0;
+    std::int64_t max_steps = 0;
+};
+
+AxisLimits limits_of(const AxisConfig& axis, std::int64_t tick_ns);
+
+/// The nearest whole step to a place in mm.
+std::int64_t to_steps(const AxisConfig& axis, double mm);
+double to_mm(const AxisConfig& axis, double steps);
+
+}  // namespace lockstep

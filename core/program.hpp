@@ -1,0 +1,37 @@
+// A motion program: what a G-code file becomes and what a coordinator plans. Everything modal is resolved.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lockstep {
+
+/// A straight move to an absolute place in machine coordinates, one number per axis of the program.
+struct LinearMove {
+    std::vector<double> target_mm;
+    double feed_mm_s = 0;  // along the path; unused when rapid
+    bool rapid = false;    // as fast as the axes' limits allow
+};
+
+struct Dwell {
+    double seconds = 0;
+};
+
+/// Rest until a person says to go on (M0).
+struct Pause {};
+
+struct Block {
+    std::int32_t line = 0;  // in the G-code file, from 1; 0 where there is none
+    std::variant<LinearMove, Dwell, Pause> action;
+};
+
+struct Program {
+    std::string name;
+    std::vector<std::string> axes;
+    std::vector<double> start_mm;  // where the machine stood when the program was made; refused from elsewhere
+    std::vector<Block> blocks;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,136 @@
+// What coordinator, axes and clients say to each other, as plain values. The services translate these to DDS.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/static_vector.hpp"
+#include "core/step/segment.hpp"
+
+namespace lockstep {
+
+/// A sequence of frames that starts from rest. Never reused: it is the coordinator's start time plus a counter.
+using Epoch = std::uint64_t;
+/// Frames of an epoch are numbered from 1 without gaps.
+using FrameNumber = std::uint64_t;
+/// A period of the axes' state messages: machine time divided by the slot's length.
+using Slot = std::int64_t;
+/// Who speaks: made anew at every start of a process.
+using Identity = std::uint64_t;
+
+inline constexpr std::size_t kMaxBodyPieces = 96;  // per axis and frame; the planner keeps moves long enough
+inline constexpr std::size_t kMaxTailPieces = 8;
+
+/// One axis's share of a frame. The tail starts where the body ends.
+struct AxisTrack {
+    Position from;
+    StaticVector<Piece, kMaxBodyPieces> body;
+    StaticVector<Piece, kMaxTailPieces> tail;
+    bool operator==(const AxisTrack&) const = default;
+};
+
+/// Frame k: every axis's motion in [start, start + ticks), and the tail that brings it to rest from there.
+struct Frame {
+    Identity coordinator = 0;
+    Epoch epoch = 0;
+    FrameNumber number = 0;
+    Tick start;
+    Ticks ticks;
+    bool last = false;  // the epoch ends with this frame, at rest; the tail is empty
+    std::vector<AxisTrack> axes;
+};
+
+/// The six states of an axis, and Fault.
+enum class AxisPhase : std::uint8_t { Initialize, Standby, Accelerate, Cruise, Decelerate, Stop, Fault };
+
+/// What an axis says of itself once a slot. It is all that others know of it.
+struct AxisState {
+    Identity identity = 0;
+    std::uint32_t axis = 0;  // its place in the configuration
+    Slot stamp = 0;
+    Epoch epoch = 0;                    // the newest epoch it has taken frames of
+    FrameNumber held = 0;               // every frame up to this one is held; 0: none
+    std::optional<FrameNumber> veto;    // the lowest frame of the epoch that may not be run, merged from all heard
+    FrameNumber ran = 0;                // the highest frame of the epoch the device has begun
+    bool at_rest = true;
+    bool homed = false;
+    AxisPhase phase = AxisPhase::Initialize;
+    std::uint16_t fault = 0;            // FaultCode; 0: none
+    Position position;                  // machine coordinates, as the pulses have it
+    Velocity velocity;
+    Tick tick;                          // when position and velocity were read
+    std::int64_t following_error_steps = 0;  // encoder minus count
+    std::uint64_t command_done = 0;     // the newest AxisCommand carried out or refused
+    std::uint16_t command_fault = 0;    // why it was refused; 0: it was carried out
+    std::uint64_t config_hash = 0;      // of the configuration it runs with
+    std::uint64_t refused_frames = 0;   // since start
+};
+
+enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow };
+
+/// Coordinator to one axis. Repeated each slot until the axis's state says it is done.
+struct AxisCommand {
+    Identity coordinator = 0;
+    std::uint64_t sequence = 0;  // rises; an axis carries out each once
+    std::uint32_t axis = 0;
+    AxisCommandKind kind = AxisCommandKind::Home;
+};
+
+enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding, Paused, Stopping, Fault };
+
+/// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
+struct MachineState {
+    Identity coordinator = 0;
+    Slot stamp = 0;
+    Tick tick;
+    MachinePhase phase = MachinePhase::Waiting;
+    std::uint16_t fault = 0;
+    std::uint32_t fault_axis = 0;        // meaningful where fault is not 0 and names an axis
+    Epoch epoch = 0;
+    FrameNumber sent = 0;                // the highest frame sent
+    std::optional<FrameNumber> veto;     // the coordinator's own, of this epoch
+    std::uint64_t job = 0;               // counts the jobs done or begun since start
+    std::int32_t line = 0;               // of the G-code now in motion
+    double progress = 0;                 // 0 ... 1 of the job's planned time
+    double remaining_s = 0;
+    std::uint32_t axes_present = 0;      // bit i: axis i is heard
+    std::uint64_t config_hash = 0;
+};
+
+enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset };
+
+/// A client to the coordinator. Answered by a Reply with the same client and sequence; never replayed.
+struct Command {
+    Identity client = 0;
+    std::uint64_t sequence = 0;
+    CommandKind kind = CommandKind::Stop;
+    std::uint32_t axes = 0;              // Home: bit i for axis i; 0 means all
+    std::uint64_t program = 0;           // Move, Run: the program sent before in chunks
+};
+
+/// A part of a program's Protobuf bytes. Each part is answered by a Reply; parts may come again or out of order.
+struct ProgramChunk {
+    Identity client = 0;
+    std::uint64_t sequence = 0;
+    std::uint64_t program = 0;
+    std::uint32_t index = 0;
+    std::uint32_t count = 0;
+    std::vector<std::uint8_t> bytes;
+};
+
+enum class ReplyStatus : std::uint8_t { Accepted, Refused };
+
+struct Reply {
+    Identity client = 0;
+    std::uint64_t sequence = 0;
+    ReplyStatus status = ReplyStatus::Accepted;
+    std::uint16_t fault = 0;   // FaultCode of a refusal
+    std::uint64_t job = 0;     // the job a command began
+    std::string text;          // what, where, the limit and the remedy, for a person
+};
+
+}  // namespace lockstep
