@@ -1,0 +1,73 @@
+// Charts that people look at: rows of line charts over one shared x axis, as one self-contained SVG.
+//
+// Data are plain arrays in the units their labels name. A figure stays small whatever it is given: a curve over a
+// rising x keeps its first, lowest, highest and last value in every pixel column, so that no peak is lost; any other
+// path is thinned to within a fifth of a pixel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clients/drawing/palette.hpp"
+
+namespace lockstep::drawing {
+
+struct Stroke {
+    std::string colour{palette::kInk};  // as SVG writes it, "#1f77b4"
+    double width = 1.5;                 // pixels
+    double opacity = 1;
+    bool dashed = false;
+};
+
+/// One curve. x and y are of one length. A value that is not finite breaks the curve there.
+struct Series {
+    std::string label{};  // in the legend, once per label and figure; empty: not in the legend
+    std::vector<double> x{};
+    std::vector<double> y{};
+    Stroke stroke{};
+};
+
+/// A named level across a chart, such as a limit. It is drawn where it is within the chart's range, and does not
+/// widen it.
+struct Level {
+    double y = 0;
+    std::string label{};
+};
+
+/// A shaded stretch of x, such as one whose data are missing.
+struct Span {
+    double from = 0;
+    double to = 0;
+};
+
+/// A dot with a word beside it.
+struct Mark {
+    double x = 0;
+    double y = 0;
+    std::string label{};
+    std::string colour{palette::kInk};
+};
+
+struct Chart {
+    std::string title{};    // at its upper left: "X"
+    std::string y_label{};  // beside it, with the unit: "speed, mm/s"
+    std::vector<Series> series{};
+    std::vector<Level> levels{};
+    std::vector<Span> spans{};
+    std::vector<Mark> marks{};
+};
+
+/// `equal_aspect`: a millimetre is as long upwards as sideways.
+struct Figure {
+    std::string title{};
+    std::string subtitle{};    // the figures that matter, in a line
+    std::string x_label{};     // with the unit: "time, s"
+    std::string span_label{};  // what the spans are, in the legend where there are any
+    std::vector<Chart> rows{};
+    bool equal_aspect = false;
+};
+
+/// The figure as an SVG document. Without any finite value the axes stand empty from 0 to 1.
+std::string to_svg(const Figure& figure);
+
+}  // namespace lockstep::drawing

@@ -1,0 +1,79 @@
+#include "clients/drawing/figure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "clients/drawing/layout.hpp"
+#include "tests/unit/drawing/xml_check.hpp"
+
+namespace lockstep::drawing {
+namespace {
+
+using test::xml_problem;
+
+Series ramp(std::string label, int points) {
+    Series series{.label = std::move(label)};
+    for (int i = 0; i < points; ++i) {
+        series.x.push_back(i * 0.001);
+        series.y.push_back(i % 100);
+    }
+    return series;
+}
+
+std::size_t count(std::string_view text, std::string_view part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) { ++found; }
+    return found;
+}
+
+TEST(Figure, IsWellFormedWhateverTheWordsHold) {
+    Figure figure{.title = "a < b & \"c\"", .subtitle = "x > y\x01", .x_label = "time, s", .rows = {Chart{}}};
+    figure.rows[0].series = {ramp("<&>", 10)};
+    figure.rows[0].marks = {{0, 0, "start & end"}};
+    figure.rows[0].levels = {{5, "limit <5>"}};
+    EXPECT_EQ(xml_problem(to_svg(figure)), std::nullopt);
+}
+
+TEST(Figure, StandsWithEmptyAxesWhereThereIsNothingToShow) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Figure figure{.title = "nothing", .rows = {Chart{}, Chart{.series = {Series{.x = {none}, .y = {1}}}}}};
+    EXPECT_EQ(xml_problem(to_svg(figure)), std::nullopt);
+    EXPECT_EQ(xml_problem(to_svg({})), std::nullopt);
+    EXPECT_EQ(count(to_svg(figure), "nan"), 0U);
+}
+
+TEST(Figure, StaysSmallForAMillionPoints) {
+    Figure figure{.rows = {Chart{.series = {ramp("noise", 1'000'000)}}}};
+    EXPECT_LT(to_svg(figure).size(), 80'000U);
+}
+
+TEST(Figure, BreaksACurveWhereAValueIsMissing) {
+    Series series{.x = {0, 1, 2, 3, 4}, .y = {1, 2, std::numeric_limits<double>::quiet_NaN(), 2, 1}};
+    const std::string svg = to_svg({.rows = {Chart{.series = {series}}}});
+    EXPECT_EQ(count(svg, "M"), 2U);
+}
+
+TEST(Figure, NamesEachLabelOnceInTheLegend) {
+    const Chart row{.series = {ramp("as asked", 10)}};
+    EXPECT_EQ(count(to_svg({.rows = {row, row, row}}), "as asked"), 1U);
+}
+
+TEST(Figure, MakesAMillimetreAsLongUpwardsAsSideways) {
+    for (const double height : {1.0, 30.0, 900.0}) {
+        const Figure figure{.rows = {Chart{.series = {Series{.x = {0, 120}, .y = {0, height}}}}}, .equal_aspect = true};
+        const Panel panel = arrange(figure).panels.at(0);
+        EXPECT_NEAR(panel.box.width / panel.x.span(), panel.box.height / panel.y.span(), 1e-9);
+    }
+}
+
+TEST(Figure, GivesEveryRowTheSameTime) {
+    const Figure figure{.rows = {Chart{.series = {ramp("", 10)}}, Chart{.series = {ramp("", 9000)}}}};
+    const Layout layout = arrange(figure);
+    EXPECT_EQ(layout.panels[0].x, layout.panels[1].x);
+    EXPECT_EQ(layout.panels[0].box.x, layout.panels[1].box.x);
+}
+
+}  // namespace
+}  // namespace lockstep::drawing
