@@ -1,0 +1,32 @@
+// The services' log: one line per event, "time level service axis code message", to standard error or a file.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <spdlog/spdlog.h>
+
+#include "core/faults.hpp"
+
+namespace lockstep {
+
+struct LogTarget {
+    std::string service;                      // "coordinator", "axis", ...
+    std::string axis;                         // empty: none
+    std::optional<std::filesystem::path> file = {};  // none: standard error
+};
+
+/// Makes it spdlog's default logger. Error: the file cannot be opened; the text names it and says why.
+std::expected<void, std::string> open_log(const LogTarget& target);
+
+/// One line about a fault: its stable name as the code, or "-" for FaultCode::None.
+void log_event(spdlog::level::level_enum level, FaultCode code, std::string_view message);
+
+inline void log_info(std::string_view message) { log_event(spdlog::level::info, FaultCode::None, message); }
+inline void log_warning(std::string_view message) { log_event(spdlog::level::warn, FaultCode::None, message); }
+inline void log_error(std::string_view message) { log_event(spdlog::level::err, FaultCode::None, message); }
+
+}  // namespace lockstep
