@@ -1,0 +1,205 @@
+#include "core/motion/lookahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// mm of path per step of the lead axis: turns speeds of one move into those of the next.
+double mm_per_lead(const PathMove& move) { return move.length_mm / static_cast<double>(move.lead); }
+
+/// Steps of axis i per mm of path.
+double slope(const PathMove& move, std::size_t i) {
+    return static_cast<double>(move.to[i] - move.from[i]) / move.length_mm;
+}
+
+/// The path speed (mm per tick) at which no axis changes its speed by more than its start velocity.
+double corner_speed(const PathMove& before, const PathMove& after, std::span<const AxisLimits> limits) {
+    double speed = kUnbounded;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const double change = std::abs(slope(after, i) - slope(before, i));
+        if (change > 0) { speed = std::min(speed, limits[i].start_velocity / change); }
+    }
+    return speed;
+}
+
+double start_speed(const PathMove& move) { return move.limits.start_velocity * mm_per_lead(move); }
+double top_speed(const PathMove& move) { return move.limits.max_velocity * mm_per_lead(move); }
+double remaining_mm(const PathMove& move, Displacement along) {
+    return move.length_mm - along.as_steps() * mm_per_lead(move);
+}
+
+/// How much of a squared speed the move can take away or add over a length: 2 a s.
+double brakes(const PathMove& move, double mm) { return 2 * move.limits.max_deceleration * mm_per_lead(move) * mm; }
+double gains(const PathMove& move, double mm) { return 2 * move.limits.max_acceleration * mm_per_lead(move) * mm; }
+
+/// Speeds (mm per tick) at the joints of moves[first, last): joints[0] before the first, all from rest to rest.
+std::vector<double> joint_speeds(std::span<const PathMove> moves, Displacement along,
+                                 std::span<const AxisLimits> limits, const PathBounds& bounds) {
+    const std::size_t n = moves.size();
+    std::vector<double> speed(n + 1);
+    speed[0] = std::min(start_speed(moves[0]), top_speed(moves[0]));
+    speed[n] = std::min(start_speed(moves[n - 1]), top_speed(moves[n - 1]));
+    std::vector<double> brakes_before(n + 1, 0);  // the sum of what moves[0, i) can take away
+    for (std::size_t i = 0; i < n; ++i) {
+        brakes_before[i + 1] = brakes_before[i] + brakes(moves[i], moves[i].length_mm);
+    }
+    for (std::size_t i = 1; i < n; ++i) {
+        const std::size_t horizon = std::min(n, i + bounds.stop_moves - 1);
+        speed[i] = std::min({corner_speed(moves[i - 1], moves[i], limits), top_speed(moves[i - 1]),
+                             top_speed(moves[i]), std::sqrt(brakes_before[horizon] - brakes_before[i])});
+    }
+    for (std::size_t i = n - 1; i >= 1; --i) {
+        speed[i] = std::min(speed[i], std::sqrt(speed[i + 1] * speed[i + 1] + brakes(moves[i], moves[i].length_mm)));
+    }
+    for (std::size_t i = 1; i <= n; ++i) {
+        const double mm = i == 1 ? remaining_mm(moves[0], along) : moves[i - 1].length_mm;
+        speed[i] = std::min(speed[i], std::sqrt(speed[i - 1] * speed[i - 1] + gains(moves[i - 1], mm)));
+    }
+    // A first move shorter than its start speed needs to brake: enter it more slowly.
+    const double reach = speed[1] * speed[1] + brakes(moves[0], remaining_mm(moves[0], along));
+    speed[0] = std::min(speed[0], std::sqrt(reach));
+    return speed;
+}
+
+/// Profiles for moves that are joined at speed, from rest to rest.
+void plan_joined(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
+                 const PathBounds& bounds) {
+    const std::vector<double> speed = joint_speeds(moves, along, limits, bounds);
+    const std::int64_t quantum = moves.size() == 1 ? kSubticksPerTick : 1;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        PathMove& move = moves[i];
+        const double scale = mm_per_lead(move);
+        move.profile = plan_fastest({.from = i == 0 ? along : Displacement{},
+                                     .to = Displacement::steps(move.lead),
+                                     .entry = speed[i] / scale,
+                                     .exit = speed[i + 1] / scale,
+                                     .limits = move.limits,
+                                     .quantum = quantum});
+    }
+}
+
+/// What is left of a profile whose last phase is in progress, its time starting at 0.
+Profile remainder_of(const Profile& profile, Subticks t) {
+    const Phase& fall = profile.phases.back();
+    const Subticks into = t - (profile.duration() - fall.duration);
+    const auto entry = static_cast<std::int64_t>(std::llround(fall.velocity_at(into) * 0x1p48));
+    Profile rest;
+    (void)rest.phases.push_back({fall.at(into), fall.to, entry, fall.duration - into});
+    return rest;
+}
+
+/// Whether the path comes to rest in the phase in progress at t, by braking or slowly enough to stop.
+bool is_last_fall(const Path& path, std::size_t i, Subticks t) {
+    const bool last_move = i + 1 == path.moves.size() || path.moves[i + 1].lead == 0;
+    const PathMove& move = path.moves[i];
+    return last_move && move.end() - t <= move.profile.phases.back().duration &&
+           move.profile.phases.back().acceleration() < 0;
+}
+
+}  // namespace
+
+PathBounds bounds_of(const MachineConfig& machine) {
+    constexpr std::int64_t kMovesPerFrame = kMaxBodyPieces / 3 - 4;  // three phases each, and what the edges cut
+    return {{machine.frame_ticks().value / kMovesPerFrame + 1}, kMaxTailPieces - 4};
+}
+
+PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,
+                   std::span<const double> steps_per_mm, double feed_mm_per_tick) {
+    PathMove move{.from = from, .to = to};
+    double square = 0;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        move.lead = std::max(move.lead, std::abs(to[i] - from[i]));
+        const double mm = static_cast<double>(to[i] - from[i]) / steps_per_mm[i];
+        square += mm * mm;
+    }
+    if (move.lead == 0) { return move; }
+    move.length_mm = std::sqrt(square);
+    const double feed = feed_mm_per_tick > 0 ? feed_mm_per_tick / mm_per_lead(move) : kUnbounded;
+    move.limits = {kUnbounded, feed, kUnbounded, kUnbounded};
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const double share = std::abs(move.share(i));
+        if (share == 0) { continue; }
+        move.limits.start_velocity = std::min(move.limits.start_velocity, limits[i].start_velocity / share);
+        move.limits.max_velocity = std::min(move.limits.max_velocity, limits[i].max_velocity / share);
+        move.limits.max_acceleration = std::min(move.limits.max_acceleration, limits[i].max_acceleration / share);
+        move.limits.max_deceleration = std::min(move.limits.max_deceleration, limits[i].max_deceleration / share);
+    }
+    return move;
+}
+
+Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
+               const PathBounds& bounds) {
+    Path path{std::move(moves)};
+    for (PathMove& move : path.moves) {
+        if (move.lead == 0) { continue; }
+        const double fastest = static_cast<double>(move.lead) / static_cast<double>(bounds.least_move.value);
+        move.limits.max_velocity = std::min(move.limits.max_velocity, fastest);
+        move.limits.start_velocity = std::min(move.limits.start_velocity, move.limits.max_velocity);
+    }
+    Subticks clock;
+    for (std::size_t first = 0; first < path.moves.size();) {
+        std::size_t last = first;
+        while (last < path.moves.size() && path.moves[last].lead != 0) { ++last; }
+        if (last == first) {
+            path.moves[first].profile = plan_dwell({}, path.moves[first].dwell);
+            last = first + 1;
+        } else {
+            plan_joined(std::span(path.moves).subspan(first, last - first), first == 0 ? along : Displacement{},
+                        limits, bounds);
+        }
+        for (; first < last; ++first) {
+            path.moves[first].start = clock;
+            clock = path.moves[first].end();
+        }
+        clock = subticks(clock.ceil());
+    }
+    return path;
+}
+
+Path brake_from(const Path& path, Subticks t) {
+    Path rest;
+    std::size_t i = path.move_at(t);
+    if (t >= path.moves[i].end() || path.moves[i].lead == 0) { return rest; }
+    if (is_last_fall(path, i, t)) {
+        PathMove move = path.moves[i];
+        move.profile = remainder_of(move.profile, t - move.start);
+        move.start = {};
+        rest.moves.push_back(move);
+        return rest;
+    }
+    double speed = path.moves[i].profile.velocity_at(t - path.moves[i].start) * mm_per_lead(path.moves[i]);
+    double halt_speed = kUnbounded;  // the least of the moves passed: a stop just behind a corner is not a second jump
+    Displacement from = path.moves[i].profile.at(t - path.moves[i].start);
+    Subticks clock;
+    for (; i < path.moves.size() && path.moves[i].lead != 0; ++i, from = {}) {
+        PathMove move = path.moves[i];
+        const Displacement whole = Displacement::steps(move.lead);
+        if (from >= whole) { continue; }
+        const double scale = mm_per_lead(move);
+        halt_speed = std::min(halt_speed, start_speed(move));
+        const double entry = speed / scale;
+        const double halt = halt_speed / scale;
+        if (entry <= halt) { break; }
+        const double needs = (entry * entry - halt * halt) / (2 * move.limits.max_deceleration);
+        const double left = (whole - from).as_steps();
+        const bool halts = needs < left;
+        const double exit = halts ? halt : std::sqrt(entry * entry - 2 * move.limits.max_deceleration * left);
+        move.profile = halts ? plan_brake_to(from, entry, halt, move.limits.max_deceleration)
+                             : plan_brake_through(from, whole, entry, exit);
+        move.start = clock;
+        clock = move.end();
+        speed = exit * scale;
+        rest.moves.push_back(move);
+        if (halts) { break; }
+    }
+    return rest;
+}
+
+}  // namespace lockstep

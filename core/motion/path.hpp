@@ -1,0 +1,51 @@
+// A path: straight moves joined end to end, from rest to rest, each with its speed profile.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/motion/profile.hpp"
+#include "core/static_vector.hpp"
+
+namespace lockstep {
+
+using AxisCounts = StaticVector<std::int64_t, kMaxAxes>;
+
+/// One straight move of all axes from one whole place to another, or a dwell (nothing moves).
+struct PathMove {
+    std::int32_t line = 0;      // of the program
+    std::uint32_t block = 0;    // of the program
+    AxisCounts from;            // steps
+    AxisCounts to;
+    std::int64_t lead = 0;      // steps of the axis that has the most; 0: a dwell
+    double length_mm = 0;
+    PathLimits limits;          // of the lead axis, so that no axis breaks its own; feed included
+    Ticks dwell;                // where lead is 0
+    Subticks start;             // after the path's start
+    Profile profile;
+
+    Subticks end() const { return start + profile.duration(); }
+    /// Steps of axis `i` over steps of the lead axis, with its sign.
+    double share(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / static_cast<double>(lead); }
+    /// Where axis `i` is when the lead axis has gone `s`: exact, floor of the magnitude.
+    Position axis_at(std::size_t i, Displacement s) const;
+};
+
+/// Moves in order; times are relative to the path's start.
+struct Path {
+    std::vector<PathMove> moves;
+
+    bool empty() const { return moves.empty(); }
+    Subticks duration() const { return moves.empty() ? Subticks{} : moves.back().end(); }
+    /// The move in progress at t, the later one where two meet; the last one after the end.
+    std::size_t move_at(Subticks t) const;
+};
+
+/// A place on a path that is at rest: in `block`, `along` its move's lead axis.
+struct PathPlace {
+    std::uint32_t block = 0;
+    Displacement along;
+};
+
+}  // namespace lockstep

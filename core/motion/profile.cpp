@@ -1,0 +1,211 @@
+#include "core/motion/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/wide_math.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kRawPerStepPerTick = 0x1p48;  // 2^64 per step, 2^16 subticks per tick
+
+std::int64_t to_raw(double steps_per_tick) { return std::llround(steps_per_tick * kRawPerStepPerTick); }
+
+/// What constant acceleration adds to constant speed over the whole phase.
+Int128 curvature(const Phase& phase) {
+    return phase.to.raw - phase.from.raw - Int128{phase.entry} * phase.duration.value;
+}
+
+std::int64_t round_up(double ticks, std::int64_t quantum) {
+    const double quanta = ticks * static_cast<double>(kSubticksPerTick) / static_cast<double>(quantum);
+    return static_cast<std::int64_t>(std::ceil(quanta - 1e-9)) * quantum;
+}
+
+/// Whole numbers of subticks for the three phases, and the peak speed that covers the distance in them.
+struct Shape {
+    Int128 distance = 0;
+    std::int64_t entry = 0, exit = 0;
+    std::int64_t rise = 0, cruise = 0, fall = 0;
+
+    std::int64_t peak() const {
+        const Int128 twice = 2 * distance - Int128{entry} * rise - Int128{exit} * fall;
+        return static_cast<std::int64_t>(floor_div(twice, Int128{rise} + 2 * Int128{cruise} + fall));
+    }
+};
+
+/// Where rounding up has left the peak below an end's speed, that end's ramp is part of the cruise.
+void drop_inverted_ramps(Shape& shape) {
+    if (shape.rise > 0 && shape.peak() < shape.entry) {
+        shape.cruise += shape.rise;
+        shape.rise = 0;
+    }
+    if (shape.fall > 0 && shape.peak() < shape.exit) {
+        shape.cruise += shape.fall;
+        shape.fall = 0;
+    }
+    if (shape.rise > 0 && shape.peak() < shape.entry) {
+        shape.cruise += shape.rise;
+        shape.rise = 0;
+    }
+}
+
+Profile build(Displacement from, const Shape& shape) {
+    const std::int64_t peak = shape.peak();
+    const Displacement to{from.raw + shape.distance};
+    const Int128 risen_by = (Int128{shape.entry} + peak) * shape.rise / 2;
+    const Int128 falls_by = (Int128{peak} + shape.exit) * shape.fall / 2;
+    // What rounding the peak has left over is shared by time, so that no phase is bent by another's length.
+    const Int128 time = Int128{shape.rise} + 2 * Int128{shape.cruise} + shape.fall;
+    const Int128 left = shape.distance - risen_by - falls_by - Int128{peak} * shape.cruise;
+    Displacement risen{from.raw + risen_by + left * shape.rise / time};
+    Displacement falling{to.raw - falls_by - left * shape.fall / time};
+    if (shape.cruise == 0) { risen = falling = shape.fall == 0 ? to : (shape.rise == 0 ? from : risen); }
+    if (shape.rise == 0) { risen = from; }
+    Profile profile;
+    auto add = [&](Displacement a, Displacement b, std::int64_t entry, std::int64_t n) {
+        if (n > 0) { (void)profile.phases.push_back({a, b, entry, {n}}); }
+    };
+    add(from, risen, shape.entry, shape.rise);
+    add(risen, falling, peak, shape.cruise);
+    add(falling, to, peak, shape.fall);
+    return profile;
+}
+
+/// The farthest that can be gone in `ticks` from rest to rest, and back to rest, within limits.
+double longest_in(double ticks, double acceleration, const PathLimits& limits) {
+    const double top = limits.start_velocity + acceleration * ticks / 2;
+    if (top <= limits.max_velocity) { return (limits.start_velocity + top) / 2 * ticks; }
+    const double ramp = (limits.max_velocity - limits.start_velocity) / acceleration;
+    return (limits.start_velocity + limits.max_velocity) * ramp + limits.max_velocity * (ticks - 2 * ramp);
+}
+
+}  // namespace
+
+Displacement Phase::at(Subticks t) const {
+    const Int128 bend = curvature(*this);
+    const Int128 magnitude = bend < 0 ? -bend : bend;
+    const Int128 part = mul_div(mul_div(magnitude, t.value, duration.value), t.value, duration.value);
+    return {from.raw + Int128{entry} * t.value + (bend < 0 ? -part : part)};
+}
+
+double Phase::velocity_at(Subticks t) const {
+    const double n = static_cast<double>(duration.value);
+    const double per_subtick =
+        static_cast<double>(entry) + 2 * static_cast<double>(curvature(*this)) * static_cast<double>(t.value) / (n * n);
+    return per_subtick / kRawPerStepPerTick;
+}
+
+double Phase::acceleration() const {
+    const double n = static_cast<double>(duration.value);
+    return 2 * static_cast<double>(curvature(*this)) / (n * n) / kRawPerStepPerTick *
+           static_cast<double>(kSubticksPerTick);
+}
+
+Subticks Profile::duration() const {
+    Subticks sum;
+    for (const Phase& phase : phases) { sum = sum + phase.duration; }
+    return sum;
+}
+
+Displacement Profile::at(Subticks t) const {
+    for (const Phase& phase : phases) {
+        if (t <= phase.duration) { return phase.at(t); }
+        t = t - phase.duration;
+    }
+    return phases.back().to;
+}
+
+double Profile::velocity_at(Subticks t) const {
+    for (const Phase& phase : phases) {
+        if (t <= phase.duration) { return phase.velocity_at(t); }
+        t = t - phase.duration;
+    }
+    return phases.back().velocity_at(phases.back().duration);
+}
+
+double Profile::peak_velocity() const {
+    double peak = 0;
+    for (const Phase& phase : phases) {
+        peak = std::max({peak, phase.velocity_at({0}), phase.velocity_at(phase.duration)});
+    }
+    return peak;
+}
+
+Profile plan_fastest(const ProfileRequest& request) {
+    const double a = request.limits.max_acceleration;
+    const double d = request.limits.max_deceleration;
+    const double e = request.entry;
+    const double x = request.exit;
+    const double distance = (request.to - request.from).as_steps();
+    const double apex = std::sqrt((2 * a * d * distance + d * e * e + a * x * x) / (a + d));
+    const double peak = std::max({std::min(apex, request.limits.max_velocity), e, x});
+    const double rise = (peak - e) / a;
+    const double fall = (peak - x) / d;
+    const double cruise = std::max(0.0, (distance - (e + peak) / 2 * rise - (peak + x) / 2 * fall) / peak);
+    Shape shape{.distance = (request.to - request.from).raw,
+                .entry = to_raw(e),
+                .exit = to_raw(x),
+                .rise = round_up(rise, request.quantum),
+                .cruise = round_up(cruise, request.quantum),
+                .fall = round_up(fall, request.quantum)};
+    if (shape.rise + shape.cruise + shape.fall == 0) { shape.cruise = request.quantum; }
+    drop_inverted_ramps(shape);
+    return build(request.from, shape);
+}
+
+Profile plan_brake_through(Displacement from, Displacement to, double entry, double exit) {
+    const double subticks = 2 * (to - from).as_steps() / (entry + exit) * static_cast<double>(kSubticksPerTick);
+    Profile profile;
+    (void)profile.phases.push_back(
+        {from, to, to_raw(entry), {std::max<std::int64_t>(1, static_cast<std::int64_t>(subticks))}});
+    return profile;
+}
+
+Profile plan_brake_to(Displacement from, double entry, double exit, double deceleration) {
+    const std::int64_t n = std::max<std::int64_t>(1, round_up((entry - exit) / deceleration, 1));
+    const double ticks = static_cast<double>(n) / static_cast<double>(kSubticksPerTick);
+    const double distance = (entry - deceleration * ticks / 2) * ticks;
+    Profile profile;
+    (void)profile.phases.push_back({from, {from.raw + static_cast<Int128>(distance * 0x1p64)}, to_raw(entry), {n}});
+    return profile;
+}
+
+Profile plan_dwell(Displacement at, Ticks ticks) {
+    Profile profile;
+    (void)profile.phases.push_back({at, at, 0, subticks(ticks)});
+    return profile;
+}
+
+std::expected<Profile, Infeasible> plan_in_time(Displacement distance, Ticks ticks, const PathLimits& limits) {
+    const double n = distance.as_steps();
+    const double t = static_cast<double>(ticks.value);
+    const double a = std::min(limits.max_acceleration, limits.max_deceleration);
+    const double start = limits.start_velocity;
+    const auto infeasible = [&] {
+        PathLimits symmetric = limits;
+        symmetric.max_acceleration = symmetric.max_deceleration = a;
+        const Profile fastest = plan_fastest({{}, distance, start, start, symmetric});
+        const double longest = longest_in(t, a, limits);
+        return std::unexpected(Infeasible{fastest.duration().ceil(), {static_cast<Int128>(longest * 0x1p64)}});
+    };
+    if (ticks.value <= 0 || n > limits.max_velocity * t) { return infeasible(); }
+
+    Shape shape{.distance = distance.raw, .entry = to_raw(start), .exit = to_raw(start)};
+    const double top = 2 * n / t - start;
+    double ramp = 0;  // below the start velocity: constant speed
+    if (n / t > start) {
+        ramp = top <= limits.max_velocity ? t / 2 : (limits.max_velocity * t - n) / (limits.max_velocity - start);
+    }
+    const auto ramp_ticks = static_cast<std::int64_t>(std::floor(ramp + 1e-6));
+    shape.rise = shape.fall = ramp_ticks * kSubticksPerTick;
+    shape.cruise = subticks(ticks).value - 2 * shape.rise;
+    const double peak = static_cast<double>(shape.peak()) / kRawPerStepPerTick;
+    const bool jumps = ramp_ticks == 0 && peak > start * (1 + 1e-9);
+    if (jumps || (ramp_ticks > 0 && (peak - start) / static_cast<double>(ramp_ticks) > a * (1 + 1e-6))) {
+        return infeasible();
+    }
+    return build({}, shape);
+}
+
+}  // namespace lockstep
