@@ -1,12 +1,16 @@
 // A motion program: what a G-code file becomes and what a coordinator plans. Everything modal is resolved.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace lockstep {
+
+inline constexpr std::size_t kMaxProgramBlocks = 1'000'000;
+inline constexpr double kMaxFeed_mm_s = 1e6;
 
 /// A straight move to an absolute place in machine coordinates, one number per axis of the program.
 struct LinearMove {

@@ -1,0 +1,121 @@
+// No bytes, however wrong, bring the reader down or get past its limits; and the same bytes read the same.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "core/gcode/gcode.hpp"
+
+namespace lockstep {
+namespace {
+
+const GcodeSetup& setup() {
+    static const GcodeSetup value{.program_name = "any",
+                                  .axes = {{"X", 0, 200, 5, 0}, {"Y", -50, 50, 0, 1}, {"A", -360, 360, 0, 0}}};
+    return value;
+}
+
+void check_target(const std::vector<double>& target) {
+    RC_ASSERT(target.size() == setup().axes.size());
+    for (std::size_t axis = 0; axis < target.size(); ++axis) {
+        RC_ASSERT(target[axis] >= setup().axes[axis].min_mm);
+        RC_ASSERT(target[axis] <= setup().axes[axis].max_mm);
+    }
+}
+
+void check_block(const Block& block) {
+    RC_ASSERT(block.line >= 1);
+    if (const auto* move = std::get_if<LinearMove>(&block.action)) {
+        check_target(move->target_mm);
+        RC_ASSERT(move->rapid || (move->feed_mm_s > 0 && move->feed_mm_s <= kMaxFeed_mm_s));
+    } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
+        RC_ASSERT(dwell->seconds >= 0 && std::isfinite(dwell->seconds));
+    }
+}
+
+/// Either a program within travel, or errors with a place in the text.
+void check(const std::string& text) {
+    const auto result = parse_gcode(text, setup());
+    if (!result) {
+        RC_ASSERT(!result.error().empty());
+        for (const GcodeError& error : result.error()) {
+            RC_ASSERT(error.line >= 1 && error.column >= 1 && !error.message.empty());
+        }
+        RC_ASSERT(parse_gcode(text, setup()).error() == result.error());
+        return;
+    }
+    for (const Block& block : result->blocks) { check_block(block); }
+}
+
+/// A line of G-code that is right by itself more often than not.
+rc::Gen<std::string> line() {
+    const auto code = rc::gen::element<std::string>("G0", "G1", "G4 P1", "G20", "G21", "G28", "G90", "G91", "G92",
+                                                    "G92.1", "M0", "M1", "N7 G1 F300", "G0 X1", "G1 F60 Y-2", "(c)",
+                                                    "/", "%", "");
+    const auto words = rc::gen::container<std::vector<std::string>>(rc::gen::map(
+        rc::gen::pair(rc::gen::element('X', 'y', 'A', 'F', 'Z'), rc::gen::inRange(-4000, 4000)),
+        [](const auto& word) { return " " + std::string(1, word.first) + std::to_string(word.second / 20.0); }));
+    return rc::gen::map(rc::gen::pair(code, rc::gen::resize(3, words)), [](const auto& parts) {
+        std::string text = parts.first;
+        for (const std::string& word : parts.second) { text += word; }
+        return text + "\n";
+    });
+}
+
+rc::Gen<std::string> program() {
+    return rc::gen::map(rc::gen::container<std::vector<std::string>>(line()), [](const auto& lines) {
+        std::string text = "G1 F300\n";
+        for (const std::string& one : lines) { text += one; }
+        return text;
+    });
+}
+
+/// Overwrites, takes away or puts in bytes anywhere.
+std::string mutated(std::string text) {
+    const auto count = *rc::gen::inRange<std::size_t>(1, 8);
+    for (std::size_t i = 0; i < count && !text.empty(); ++i) {
+        const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
+        const char byte = *rc::gen::arbitrary<char>();
+        switch (*rc::gen::inRange(0, 3)) {
+            case 0: text[at] = byte; break;
+            case 1: text.erase(at, 1); break;
+            default: text.insert(at, 1, byte); break;
+        }
+    }
+    return text;
+}
+
+RC_GTEST_PROP(GcodeOfAnyBytes, IsReadOrRefused, (const std::string& text)) { check(text); }
+
+RC_GTEST_PROP(GcodeOfAnyBytes, ProgramsKeepWithinTravelOrAreRefused, ()) { check(*program()); }
+
+RC_GTEST_PROP(GcodeOfAnyBytes, MutatedProgramsAreReadOrRefused, ()) { check(mutated(*program())); }
+
+/// Bytes that rarely make words by chance do so here.
+RC_GTEST_PROP(GcodeOfAnyBytes, SoupsOfItsOwnCharactersAreReadOrRefused, ()) {
+    check(*rc::gen::container<std::string>(rc::gen::elementOf(std::string("GMNFPXYA0129.-+/%;() \t\r\n"))));
+}
+
+/// Absolute and relative tell of the same place.
+RC_GTEST_PROP(GcodeOfAnyBytes, RelativeMovesReachWhatAbsoluteOnesDo, ()) {
+    const auto places = *rc::gen::nonEmpty(
+        rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 200)));
+    std::string absolute = "G0\n";
+    std::string relative = "G91 G0\n";
+    for (int at = 0; const int place : places) {
+        absolute += "X" + std::to_string(place) + "\n";
+        relative += "X" + std::to_string(place - at) + "\n";
+        at = place;
+    }
+    const auto one = parse_gcode(absolute, setup());
+    const auto other = parse_gcode(relative, setup());
+    RC_ASSERT(one.has_value() && other.has_value());
+    RC_ASSERT(one->blocks.size() == other->blocks.size());
+    for (std::size_t i = 0; i < one->blocks.size(); ++i) {
+        RC_ASSERT(std::get<LinearMove>(one->blocks[i].action).target_mm ==
+                  std::get<LinearMove>(other->blocks[i].action).target_mm);
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
