@@ -1,0 +1,49 @@
+// A stretch is a part of a piece whose ticks all go the same way, and are all slow or all fast. It is described as
+// forward motion: backward motion is mirrored (phase -> not phase, velocity -> -velocity), which turns a borrow of
+// `phase - speed` into the carry of `~phase + speed` on the same tick.
+//
+// Ticks are numbered 1 ... ticks. Tick n has the speed u + (n-1)a and ends n*u + a*n(n-1)/2 beyond the start.
+#pragma once
+
+#include <cstdint>
+
+#include "core/units.hpp"
+
+namespace lockstep {
+
+struct Stretch {
+    std::uint64_t phase = 0;        // before the first tick
+    std::uint64_t speed = 0;        // u, of the first tick, at most 2^63; all speeds of the stretch are >= 0
+    std::int64_t acceleration = 0;  // a, of the speed: slowing down is negative
+    std::int64_t ticks = 0;
+    bool backward = false;
+    bool fast = false;  // speeds are all >= the crossover, else all below
+
+    /// The speed of tick n, n >= 1.
+    std::uint64_t speed_at(std::int64_t n) const {
+        return speed + static_cast<std::uint64_t>(n - 1) * static_cast<std::uint64_t>(acceleration);
+    }
+    /// The phase register after tick n, n >= 1. Wraps; n(n-1)/2 is one factor halved times the other.
+    std::uint64_t phase_after(std::int64_t n) const {
+        const auto k = static_cast<std::uint64_t>(n);
+        return phase + k * speed + (k >> 1) * ((k - 1) | 1) * static_cast<std::uint64_t>(acceleration);
+    }
+    /// The distance covered in the first n ticks, exactly.
+    Int128 travel(std::int64_t n) const {
+        const Int128 k = n;
+        return k * speed + k * (k - 1) / 2 * acceleration;
+    }
+    /// How many steps fall in the first n ticks.
+    std::int64_t steps_in(std::int64_t n) const { return static_cast<std::int64_t>((Int128{phase} + travel(n)) >> 64); }
+    /// Whether tick n makes a step: the phase after a carry is less than what was added.
+    bool carries_at(std::int64_t n) const { return phase_after(n) < speed_at(n); }
+};
+
+/// The longest stretch that the next `ticks` >= 1 ticks of an axis begin with. `velocity` is the register before its
+/// first tick. A stretch ends where the velocity changes sign or the speed passes `crossover`.
+Stretch next_stretch(Position from, Velocity velocity, Acceleration acceleration, Ticks ticks, std::uint64_t crossover);
+
+/// The tick of step k, 1 <= k <= steps_in(ticks), by bisection: exact and bounded, the last resort of faster ways.
+std::int64_t search_step(const Stretch& stretch, std::int64_t k);
+
+}  // namespace lockstep
