@@ -1,0 +1,57 @@
+#include "clients/analysis/axis_statistics.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace lockstep::analysis {
+
+void AxisStatistics::on_batch(const StepBatch& batch) {
+    std::int64_t position = batch.position_before_steps;
+    for (const StepEdge& edge : batch.steps) { take(edge, position += edge.direction); }
+    steps_ += static_cast<std::int64_t>(batch.steps.size());
+}
+
+void AxisStatistics::on_break(const Break& what) {
+    meter_.interrupt();
+    ++break_count_;
+    if (what.missing_batches > 0) {
+        missing_batches_ += what.missing_batches;
+        missing_steps_ += std::abs(what.position_change);
+    }
+    if (breaks_.size() < kBreaksKept) {
+        breaks_.push_back(what);
+    }
+}
+
+void AxisStatistics::finish() {
+    meter_.interrupt();
+    if (last_) {
+        course_.add({last_->tick, 0});
+    }
+}
+
+void AxisStatistics::take(StepEdge edge, std::int64_t position) {
+    if (!first_) {
+        first_ = StepPlace{edge.tick, position};
+        lowest_ = highest_ = position;
+        course_.add({edge.tick, 0});
+    }
+    lowest_ = std::min(lowest_, position);
+    highest_ = std::max(highest_, position);
+    show_rest(edge.tick);
+    if (const auto sample = meter_.step(edge)) {
+        course_.add(*sample);
+    }
+    last_ = StepPlace{edge.tick, position};
+}
+
+/// A rest is 0 from its first instant to its last.
+void AxisStatistics::show_rest(Tick until) {
+    if (!last_ || until - last_->tick <= SpeedMeter::kRest) {
+        return;
+    }
+    course_.add({last_->tick, 0});
+    course_.add({until, 0});
+}
+
+}  // namespace lockstep::analysis

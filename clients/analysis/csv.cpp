@@ -1,0 +1,69 @@
+#include "clients/analysis/csv.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+namespace lockstep::analysis {
+namespace {
+
+constexpr std::size_t kBuffer = std::size_t{1} << 20;
+
+}  // namespace
+
+std::expected<CsvFile, std::string> CsvFile::create(const std::filesystem::path& path, std::string_view header) {
+    errno = 0;
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    if (!out) {
+        return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
+    }
+    CsvFile file(path, std::move(out));
+    file.buffer_.reserve(kBuffer + 128);
+    file.buffer_.append(header).push_back('\n');
+    return file;
+}
+
+template <typename Number>
+CsvFile& CsvFile::append(Number value) {
+    std::array<char, 32> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+    buffer_.append(text.data(), error == std::errc{} ? end : text.data());
+    buffer_.push_back(',');
+    return *this;
+}
+
+CsvFile& CsvFile::cell(std::int64_t value) { return append(value); }
+CsvFile& CsvFile::cell(double value) { return append(value); }
+
+void CsvFile::end_line() {
+    buffer_.back() = '\n';
+    if (buffer_.size() >= kBuffer) {
+        flush();
+    }
+}
+
+void CsvFile::flush() {
+    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+}
+
+std::expected<void, std::string> CsvFile::close() {
+    flush();
+    errno = 0;
+    out_.close();
+    if (!out_) {
+        return std::unexpected(path_.string() + ": not written whole: " + std::strerror(errno));
+    }
+    return {};
+}
+
+void StepCsv::on_batch(const StepBatch& batch) {
+    std::int64_t position = batch.position_before_steps;
+    for (const StepEdge& edge : batch.steps) {
+        position += edge.direction;
+        file_.cell(edge.tick.value).cell(position).end_line();
+    }
+}
+
+}  // namespace lockstep::analysis

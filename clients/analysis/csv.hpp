@@ -1,0 +1,51 @@
+// Lines of whole numbers and decimals to a file, fast.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "clients/analysis/step_stream.hpp"
+
+namespace lockstep::analysis {
+
+/// A CSV file. Numbers are written exactly, decimals in their shortest form that reads back the same.
+class CsvFile {
+public:
+    /// Makes the file anew with its header line. The error names the file and the reason.
+    static std::expected<CsvFile, std::string> create(const std::filesystem::path& path, std::string_view header);
+
+    CsvFile& cell(std::int64_t value);
+    CsvFile& cell(double value);
+    void end_line();
+    /// Writes what is left. The error names the file and the reason.
+    std::expected<void, std::string> close();
+
+private:
+    CsvFile(std::filesystem::path path, std::ofstream out) : path_(std::move(path)), out_(std::move(out)) {}
+    template <typename Number>
+    CsvFile& append(Number value);
+    void flush();
+
+    std::filesystem::path path_;
+    std::ofstream out_;
+    std::string buffer_;
+};
+
+/// `steps_<axis>.csv`: tick and position (steps) after each step.
+class StepCsv final : public StepListener {
+public:
+    static constexpr std::string_view kHeader = "tick,position";
+
+    explicit StepCsv(CsvFile file) : file_(std::move(file)) {}
+    void on_batch(const StepBatch& batch) override;
+    std::expected<void, std::string> close() { return file_.close(); }
+
+private:
+    CsvFile file_;
+};
+
+}  // namespace lockstep::analysis

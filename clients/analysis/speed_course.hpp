@@ -1,0 +1,38 @@
+// An axis's speed over time in a bounded number of points, peaks included.
+//
+// Time is cut into equal bins; each keeps its first, lowest, highest and last sample. Where the bins become too many,
+// neighbours merge and the bins double in width.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "clients/analysis/speed_meter.hpp"
+
+namespace lockstep::analysis {
+
+class SpeedCourse {
+public:
+    static constexpr std::size_t kMaxBins = 4096;
+    static constexpr Ticks kFinest{1000};
+
+    /// Samples come in the order of time; one from before the first is left out.
+    void add(SpeedSample sample);
+    std::vector<SpeedSample> samples() const;
+
+private:
+    struct Bin {
+        bool empty = true;
+        SpeedSample first, lowest, highest, last;
+        void add(SpeedSample sample);
+        void add(const Bin& later);
+    };
+
+    void widen();
+
+    Tick origin_;
+    Ticks width_ = kFinest;
+    std::vector<Bin> bins_;
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,103 @@
+// One axis's steps in order, from batches that may be missing, repeated, late or of a restarted process.
+//
+// What is missing is said, never smoothed over: which batches, between which ticks, and by how many steps the
+// position differs on either side.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/step/segment.hpp"
+#include "core/units.hpp"
+
+namespace lockstep::analysis {
+
+/// Every step of an axis since the batch before. Ticks rise strictly; directions are +1 or -1.
+struct StepBatch {
+    std::int64_t incarnation = 0;  // of the axis's process; sequences start anew with each
+    std::int64_t sequence = 0;     // without gaps
+    std::int64_t position_before_steps = 0;
+    std::vector<StepEdge> steps{};
+};
+
+/// Where the steps on either side do not join.
+struct Break {
+    enum class Kind : std::uint8_t {
+        Missing,   // batches are missing from the log
+        Restart,   // the axis's process started anew
+        Rezeroed,  // nothing is missing, yet positions count from another zero: the axis was homed
+    };
+    Kind kind = Kind::Missing;
+    std::optional<Tick> from{};        // the last step before; none where the log begins so
+    std::optional<Tick> to{};          // the first step after; none where the log ends so
+    std::int64_t missing_batches = 0;  // by their numbers
+    std::int64_t position_change = 0;  // steps, after minus before: of steps missing, the balance of their directions
+};
+
+/// What a stream's steps are told to, in order.
+class StepListener {
+public:
+    virtual ~StepListener() = default;
+    virtual void on_batch(const StepBatch& batch) = 0;
+    /// Between the batch before and the batch to come.
+    virtual void on_break(const Break& /*what*/) {}
+};
+
+struct StreamCounts {
+    std::int64_t batches = 0;     // told
+    std::int64_t steps = 0;       // in them
+    std::int64_t duplicates = 0;  // batches that came again: left out
+    std::int64_t late = 0;        // batches that came after they were given up as missing: left out
+    std::int64_t disordered = 0;  // batches with steps before those of the batch in front: left out
+    std::int64_t restarts = 0;
+};
+
+class StepStream {
+public:
+    static constexpr std::int64_t kFirstSequence = 1;
+    /// How many batches wait for one that is missing before it is given up: datagrams may overtake each other.
+    static constexpr std::size_t kPatience = 16;
+
+    explicit StepStream(std::vector<StepListener*> listeners) : listeners_(std::move(listeners)) {}
+
+    void take(StepBatch batch);
+    /// Tells what still waits. Call once, at the end of the log.
+    void finish();
+
+    const StreamCounts& counts() const { return counts_; }
+    /// After the last step told; none before the first batch.
+    std::optional<std::int64_t> position_steps() const { return position_; }
+    std::optional<Tick> last_tick() const { return last_tick_; }
+
+private:
+    struct Numbers {
+        std::int64_t from = 0;
+        std::int64_t end = 0;  // not among them
+    };
+
+    bool has_passed(const StepBatch& batch);
+    void begin_incarnation(std::int64_t incarnation);
+    void tell_in_order(bool wait);
+    void tell(const StepBatch& batch);
+    void note_missing(std::int64_t sequence);
+    void note_position(std::int64_t position_before);
+    Break& open_break(Break::Kind kind);
+    void close_break(std::optional<Tick> to);
+
+    std::vector<StepListener*> listeners_;
+    StreamCounts counts_;
+    std::optional<std::int64_t> incarnation_;
+    std::set<std::int64_t> past_incarnations_;
+    std::int64_t expected_ = kFirstSequence;
+    std::deque<Numbers> given_up_;               // of this incarnation, the newest few
+    std::map<std::int64_t, StepBatch> waiting_;  // by sequence
+    std::optional<Break> break_;                 // open until the next step says where it ends
+    std::optional<std::int64_t> position_;
+    std::optional<Tick> last_tick_;
+};
+
+}  // namespace lockstep::analysis

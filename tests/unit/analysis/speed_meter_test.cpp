@@ -1,0 +1,81 @@
+#include "clients/analysis/speed_meter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "clients/analysis/axis_statistics.hpp"
+#include "tests/unit/analysis/step_makers.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+using test::batch;
+using test::even_steps;
+using test::trapezoid;
+
+AxisStatistics statistics_of(const std::vector<StepEdge>& steps) {
+    AxisStatistics statistics;
+    statistics.on_batch(batch(1, 0, steps));
+    statistics.finish();
+    return statistics;
+}
+
+TEST(SpeedMeter, IsExactWhereStepsAreEven) {
+    EXPECT_DOUBLE_EQ(statistics_of(even_steps(0, 20, 1000)).peak_steps_per_tick(), 0.05);
+    EXPECT_DOUBLE_EQ(statistics_of(even_steps(0, 20, 1000)).peak_steps_per_tick2(), 0);
+}
+
+TEST(SpeedMeter, IsNotMisledByWholeTicks) {
+    for (const double cruise : {0.0101, 0.0497, 0.0943, 0.31}) {
+        const auto statistics = statistics_of(trapezoid(5000, cruise, cruise / 150'000, 60'000));
+        EXPECT_NEAR(statistics.peak_steps_per_tick() / cruise, 1, 0.0015);
+        EXPECT_NEAR(statistics.peak_steps_per_tick2() / (cruise / 150'000), 1, 0.04);
+    }
+}
+
+TEST(SpeedMeter, MeasuresAShortMoveAsAWhole) {
+    EXPECT_DOUBLE_EQ(statistics_of(even_steps(0, 50, 3)).peak_steps_per_tick(), 0.02);
+    EXPECT_DOUBLE_EQ(statistics_of(even_steps(0, 50, 1)).peak_steps_per_tick(), 0);
+}
+
+TEST(SpeedMeter, DoesNotMixStretchesThatDoNotJoin) {
+    AxisStatistics statistics;
+    statistics.on_batch(batch(1, 0, even_steps(0, 100, 200)));
+    statistics.on_break({.kind = Break::Kind::Missing, .missing_batches = 1, .position_change = 500});
+    statistics.on_batch(batch(3, 700, even_steps(20'001, 100, 200)));
+    statistics.finish();
+    EXPECT_DOUBLE_EQ(statistics.peak_steps_per_tick(), 0.01);
+    EXPECT_DOUBLE_EQ(statistics.peak_steps_per_tick2(), 0);
+    EXPECT_EQ(statistics.missing_steps(), 500);
+}
+
+TEST(SpeedCourse, IsZeroInRestsAndSignedBackwards) {
+    AxisStatistics statistics;
+    statistics.on_batch(batch(1, 0, even_steps(0, 100, 200)));
+    statistics.on_batch(batch(2, 200, even_steps(1'000'000, 50, 200, -1)));
+    statistics.finish();
+    for (const SpeedSample& sample : statistics.speed()) {
+        if (sample.at > Tick{20'000} && sample.at < Tick{1'000'000}) {
+            EXPECT_EQ(sample.steps_per_tick, 0);
+        }
+        EXPECT_LE(sample.steps_per_tick, 0.01);
+        EXPECT_GE(sample.steps_per_tick, -0.02);
+    }
+    EXPECT_EQ(statistics.lowest_steps(), 0);
+    EXPECT_EQ(statistics.highest_steps(), 200);
+}
+
+TEST(SpeedCourse, StaysBoundedAndKeepsThePeak) {
+    SpeedCourse course;
+    for (std::int64_t i = 0; i < 3'000'000; ++i) { course.add({Tick{i * 2000}, i == 1'234'567 ? 9.0 : 1.0}); }
+    const auto samples = course.samples();
+    EXPECT_LE(samples.size(), 4 * SpeedCourse::kMaxBins);
+    const auto peak = std::ranges::max_element(samples, {}, &SpeedSample::steps_per_tick);
+    EXPECT_EQ(peak->steps_per_tick, 9.0);
+    EXPECT_EQ(peak->at, Tick{1'234'567 * 2000LL});
+    EXPECT_TRUE(std::ranges::is_sorted(samples, {}, &SpeedSample::at));
+}
+
+}  // namespace
+}  // namespace lockstep::analysis
