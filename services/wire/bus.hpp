@@ -1,0 +1,69 @@
+// What each role hears and says, as one value. Members are made in order on the participant.
+#pragma once
+
+#include <condition_variable>
+#include <chrono>
+#include <expected>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "services/wire/endpoints.hpp"
+
+namespace lockstep {
+
+/// Lets a thread sleep until something has come.
+class Arrivals {
+public:
+    void notify();
+    /// True: something came since the last call. False: the time passed.
+    bool wait_for(std::chrono::nanoseconds time);
+
+private:
+    std::mutex mutex_;
+    std::condition_variable condition_;
+    bool arrived_ = false;
+};
+
+struct AxisBus {
+    Participant participant;
+    Reader<Frame> frames{participant};
+    Reader<AxisState> states{participant};  // the other axes'
+    Reader<MachineState> machine{participant};
+    Reader<AxisCommand> commands{participant};
+    Writer<AxisState> state{participant};
+};
+
+struct CoordinatorBus {
+    Participant participant;
+    Reader<AxisState> states{participant};
+    Reader<MachineState> other_coordinators{participant};
+    Reader<Command> commands{participant};
+    Reader<ProgramChunk> chunks{participant};
+    Writer<Frame> frames{participant};
+    Writer<MachineState> machine{participant};
+    Writer<AxisCommand> axis_commands{participant};
+    Writer<Reply> replies{participant};
+};
+
+struct ClientBus {
+    Participant participant;
+    std::unique_ptr<Arrivals> arrivals = std::make_unique<Arrivals>();  // of replies and machine states
+    Reader<Reply> replies{participant, [to = arrivals.get()] { to->notify(); }};
+    Reader<MachineState> machine{participant, [to = arrivals.get()] { to->notify(); }};
+    Reader<AxisState> states{participant};
+    Writer<Command> commands{participant};
+    Writer<ProgramChunk> chunks{participant};
+};
+
+/// Error: the participant's, or the first topic's that could not be opened.
+template <typename Bus>
+std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine) {
+    auto participant = Participant::open(network, machine);
+    if (!participant) { return std::unexpected(participant.error()); }
+    Bus bus{std::move(*participant)};
+    if (const auto& failure = bus.participant.failure()) { return std::unexpected(*failure); }
+    return bus;
+}
+
+}  // namespace lockstep

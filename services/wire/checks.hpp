@@ -1,0 +1,64 @@
+// Questions asked of a sample from the wire before core sees it. The first wrong answer is the refusal.
+//
+// They keep core's arithmetic from overflowing, whatever a sender says: magnitudes of 2^62 leave room for sums, and
+// pieces of less than 2^31 ticks keep a piece's displacement within 128 bits. Whether a motion is allowed is not
+// asked here: an axis checks that itself.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace lockstep {
+
+class Checks {
+public:
+    /// message: what is checked, for the refusal's text.
+    explicit Checks(const char* message) : message_(message) {}
+
+    bool passed() const { return !refusal_; }
+    const std::string& refusal() const { return *refusal_; }
+
+    template <typename Number>
+    void within(const char* field, Number value, Number least, Number most) {
+        if (!(value >= least && value <= most)) { refuse(field, std::to_string(value)); }
+    }
+    /// An instant, a slot or a count of steps.
+    void far(const char* field, std::int64_t value) { within(field, value, -kFarthest, kFarthest); }
+    /// A velocity or acceleration: any but the one that cannot be negated.
+    void rate(const char* field, std::int64_t value) {
+        within(field, value, -kFastest, kFastest);
+    }
+    void same(const char* field, std::size_t count, std::size_t expected) { within(field, count, expected, expected); }
+    void finite(const char* field, double value) {
+        if (!std::isfinite(value)) { refuse(field, "not finite"); }
+    }
+
+    /// Core's enumerator for a value on the wire, which has core's order: 0 ... last.
+    template <typename Enum, typename WireEnum>
+    Enum choice(const char* field, const WireEnum& value, Enum last) {
+        const auto number = std::bit_cast<std::uint32_t>(value);
+        within(field, number, std::uint32_t{0}, static_cast<std::uint32_t>(last));
+        return static_cast<Enum>(std::min(number, static_cast<std::uint32_t>(last)));
+    }
+
+private:
+    static constexpr std::int64_t kFarthest = std::int64_t{1} << 62;
+    static constexpr std::int64_t kFastest = std::numeric_limits<std::int64_t>::max();
+
+    void refuse(const char* field, const std::string& value) {
+        if (!refusal_) { refusal_ = std::string(message_) + ": " + field + " is " + value + ", out of range"; }
+    }
+
+    const char* message_;
+    std::optional<std::string> refusal_;
+};
+
+/// The longest piece or frame: 35 minutes at 1 us.
+inline constexpr std::int64_t kMaxPieceTicks = std::numeric_limits<std::int32_t>::max();
+
+}  // namespace lockstep

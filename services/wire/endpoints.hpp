@@ -1,0 +1,118 @@
+// Typed readers and writers of core's messages: what they send is translated, what they receive is checked first.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "services/wire/entity.hpp"
+#include "services/wire/participant.hpp"
+#include "services/wire/topics.hpp"
+#include "services/wire/translate.hpp"
+
+namespace lockstep {
+
+/// Called on a thread of DDS when samples have come: do little, and do not throw.
+using OnData = std::function<void()>;
+
+namespace detail {
+/// On failure the participant notes it, and the entity is not good.
+Entity make_writer(Participant& participant, const TopicSpec& spec);
+Entity make_reader(Participant& participant, const TopicSpec& spec, const OnData* on_data);
+std::uint32_t matched_readers(const Entity& writer);
+std::uint32_t matched_writers(const Entity& reader);
+}  // namespace detail
+
+template <typename T>
+class Writer {
+public:
+    explicit Writer(Participant& participant) : entity_(detail::make_writer(participant, Topic<T>::kSpec)) {}
+
+    /// Never waits. False: the network's buffers are full, or DDS is shutting down.
+    bool write(const T& value) {
+        const auto message = to_wire(value);
+        const typename Topic<T>::Wire* sample = &message;
+        return dds_write(entity_.handle(), sample) == DDS_RETCODE_OK;
+    }
+
+    /// How many readers listen. What is written to none is heard by none: a first command waits for one.
+    std::uint32_t matched() const { return detail::matched_readers(entity_); }
+
+private:
+    Entity entity_;
+};
+
+/// What a reader was sent and did not believe.
+struct Refusals {
+    std::uint64_t count = 0;
+    std::string last;  // why
+};
+
+template <typename T>
+class Reader {
+public:
+    explicit Reader(Participant& participant, OnData on_data = {})
+        : on_data_(on_data ? std::make_unique<OnData>(std::move(on_data)) : nullptr),
+          entity_(detail::make_reader(participant, Topic<T>::kSpec, on_data_.get())) {}
+
+    /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many.
+    template <typename Use>
+    std::size_t take(Use use) {
+        std::size_t used = 0;
+        for (std::size_t batch = 0; batch < kMaxBatches; ++batch) {
+            const std::size_t taken = take_batch(use, used);
+            if (taken < kBatch) { break; }
+        }
+        return used;
+    }
+
+    const Refusals& refusals() const { return refusals_; }
+    std::uint32_t matched() const { return detail::matched_writers(entity_); }
+
+private:
+    static constexpr std::size_t kBatch = 64;
+    static constexpr std::size_t kMaxBatches = 64;  // a flood is left for the next call
+
+    /// Samples lent by DDS, given back at the end of the scope.
+    struct Loan {
+        dds_entity_t reader;
+        std::array<void*, kBatch> samples{};
+        std::array<dds_sample_info_t, kBatch> infos{};
+        int count = 0;
+        explicit Loan(dds_entity_t from) : reader(from) {
+            count = dds_take(reader, samples.data(), infos.data(), kBatch, kBatch);
+        }
+        Loan(const Loan&) = delete;
+        Loan& operator=(const Loan&) = delete;
+        ~Loan() {
+            if (count > 0) { dds_return_loan(reader, samples.data(), count); }
+        }
+    };
+
+    template <typename Use>
+    std::size_t take_batch(Use& use, std::size_t& used) {
+        const Loan loan(entity_.handle());
+        const auto count = static_cast<std::size_t>(std::max(0, loan.count));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!loan.infos[i].valid_data) { continue; }  // a sender left
+            auto value = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]));
+            if (value) {
+                use(std::move(*value));
+                ++used;
+            } else {
+                ++refusals_.count;
+                refusals_.last = std::move(value.error());
+            }
+        }
+        return count;
+    }
+
+    std::unique_ptr<OnData> on_data_;  // DDS holds its address: it stays put and outlives the entity
+    Entity entity_;
+    Refusals refusals_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,59 @@
+// Core's messages to their types on the wire and back: one function each way and type.
+//
+// To the wire nothing can fail: core keeps its bounds. From the wire nothing is believed: counts must match, numbers be
+// in range, and choices exist, or the sample is refused with the field, its value and why.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "core/protocol/messages.hpp"
+#include "idl/dds/axis.h"
+#include "idl/dds/client.h"
+#include "idl/dds/machine.h"
+#include "idl/dds/setpoint.h"
+
+namespace lockstep {
+
+/// The most bytes a ProgramChunk may have.
+inline constexpr std::size_t kMaxChunkBytes = lockstep_wire_MAX_CHUNK_BYTES;
+/// The most chunks a program may have: 128 MB.
+inline constexpr std::uint32_t kMaxChunks = 4096;
+
+/// A setpoint and what it points to. Movable, since vectors keep their elements' place; not copyable.
+struct SetpointMessage : lockstep_wire_Setpoint {
+    SetpointMessage() : lockstep_wire_Setpoint{} {}
+    SetpointMessage(SetpointMessage&&) = default;
+
+    struct Storage {
+        std::vector<std::int64_t> from_count;
+        std::vector<std::uint64_t> from_phase;
+        std::vector<std::uint16_t> body_count, tail_count;
+        std::vector<std::int64_t> ticks, velocity, acceleration;
+    } storage;
+};
+
+SetpointMessage to_wire(const Frame& frame);
+lockstep_wire_AxisState to_wire(const AxisState& state);
+lockstep_wire_AxisCommand to_wire(const AxisCommand& command);
+lockstep_wire_MachineState to_wire(const MachineState& state);
+lockstep_wire_Command to_wire(const Command& command);
+/// Points to the chunk's bytes: valid as long as they are. At most kMaxChunkBytes.
+lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk);
+/// A text that is too long is cut between two characters.
+lockstep_wire_Reply to_wire(const Reply& reply);
+
+template <typename T>
+using FromWire = std::expected<T, std::string>;
+
+FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire);
+FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire);
+FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire);
+FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire);
+FromWire<Command> from_wire(const lockstep_wire_Command& wire);
+FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire);
+FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
+
+}  // namespace lockstep

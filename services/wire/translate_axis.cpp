@@ -1,0 +1,81 @@
+#include "services/wire/checks.hpp"
+#include "services/wire/translate.hpp"
+
+namespace lockstep {
+
+// The enumerations on the wire have core's order.
+static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
+static_assert(lockstep_wire_AXIS_STOP_NOW == static_cast<int>(AxisCommandKind::StopNow));
+
+lockstep_wire_AxisState to_wire(const AxisState& state) {
+    return {.axis = state.axis,
+            .identity = state.identity,
+            .stamp = state.stamp,
+            .epoch = state.epoch,
+            .held = state.held,
+            .has_veto = state.veto.has_value(),
+            .veto = state.veto.value_or(0),
+            .ran = state.ran,
+            .at_rest = state.at_rest,
+            .homed = state.homed,
+            .phase = static_cast<lockstep_wire_AxisPhase>(state.phase),
+            .fault = state.fault,
+            .position_count = state.position.count(),
+            .position_phase = state.position.phase(),
+            .velocity = state.velocity.raw,
+            .tick = state.tick.value,
+            .following_error_steps = state.following_error_steps,
+            .command_done = state.command_done,
+            .command_fault = state.command_fault,
+            .config_hash = state.config_hash,
+            .refused_frames = state.refused_frames};
+}
+
+FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
+    Checks check("axis state");
+    check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
+    check.far("stamp", wire.stamp);
+    check.far("position_count", wire.position_count);
+    check.rate("velocity", wire.velocity);
+    check.far("tick", wire.tick);
+    check.far("following_error_steps", wire.following_error_steps);
+    const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return AxisState{.identity = wire.identity,
+                     .axis = wire.axis,
+                     .stamp = wire.stamp,
+                     .epoch = wire.epoch,
+                     .held = wire.held,
+                     .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+                     .ran = wire.ran,
+                     .at_rest = wire.at_rest,
+                     .homed = wire.homed,
+                     .phase = phase,
+                     .fault = wire.fault,
+                     .position = Position::from_count(wire.position_count, wire.position_phase),
+                     .velocity = {wire.velocity},
+                     .tick = {wire.tick},
+                     .following_error_steps = wire.following_error_steps,
+                     .command_done = wire.command_done,
+                     .command_fault = wire.command_fault,
+                     .config_hash = wire.config_hash,
+                     .refused_frames = wire.refused_frames};
+}
+
+lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
+    return {.coordinator = command.coordinator,
+            .sequence_number = command.sequence,
+            .axis = command.axis,
+            .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind)};
+}
+
+FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
+    Checks check("axis command");
+    check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::StopNow);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return AxisCommand{
+        .coordinator = wire.coordinator, .sequence = wire.sequence_number, .axis = wire.axis, .kind = kind};
+}
+
+}  // namespace lockstep

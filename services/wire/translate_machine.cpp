@@ -1,0 +1,53 @@
+#include "services/wire/checks.hpp"
+#include "services/wire/translate.hpp"
+
+namespace lockstep {
+
+static_assert(lockstep_wire_MACHINE_FAULT == static_cast<int>(MachinePhase::Fault));
+
+lockstep_wire_MachineState to_wire(const MachineState& state) {
+    return {.coordinator = state.coordinator,
+            .stamp = state.stamp,
+            .tick = state.tick.value,
+            .phase = static_cast<lockstep_wire_MachinePhase>(state.phase),
+            .fault = state.fault,
+            .fault_axis = state.fault_axis,
+            .epoch = state.epoch,
+            .sent = state.sent,
+            .has_veto = state.veto.has_value(),
+            .veto = state.veto.value_or(0),
+            .job = state.job,
+            .line = state.line,
+            .progress = state.progress,
+            .remaining_s = state.remaining_s,
+            .axes_present = state.axes_present,
+            .config_hash = state.config_hash};
+}
+
+FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
+    Checks check("machine state");
+    check.far("stamp", wire.stamp);
+    check.far("tick", wire.tick);
+    check.within<std::size_t>("fault_axis", wire.fault_axis, 0, kMaxAxes - 1);
+    check.within("progress", wire.progress, 0.0, 1.0);
+    check.finite("remaining_s", wire.remaining_s);
+    const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Fault);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return MachineState{.coordinator = wire.coordinator,
+                        .stamp = wire.stamp,
+                        .tick = {wire.tick},
+                        .phase = phase,
+                        .fault = wire.fault,
+                        .fault_axis = wire.fault_axis,
+                        .epoch = wire.epoch,
+                        .sent = wire.sent,
+                        .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+                        .job = wire.job,
+                        .line = wire.line,
+                        .progress = wire.progress,
+                        .remaining_s = wire.remaining_s,
+                        .axes_present = wire.axes_present,
+                        .config_hash = wire.config_hash};
+}
+
+}  // namespace lockstep
