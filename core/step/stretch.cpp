@@ -28,8 +28,8 @@ Stretch next_stretch(Position from, Velocity velocity, Acceleration acceleration
         stretch = {~from.phase(), 0 - first, static_cast<std::int64_t>(0 - a), ticks.value, true};
     }
     stretch.fast = stretch.speed >= crossover;
-    stretch.ticks = stretch.fast ? ticks_within(stretch, crossover, kHalfStep)
-                                 : ticks_within(stretch, 0, Int128{crossover} - 1);
+    stretch.ticks =
+        stretch.fast ? ticks_within(stretch, crossover, kHalfStep) : ticks_within(stretch, 0, Int128{crossover} - 1);
     return stretch;
 }
 

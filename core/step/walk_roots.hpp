@@ -5,8 +5,9 @@
 // it is the tick, and if not, on which side the tick lies. No seed depends on another, so the processor overlaps them.
 //
 // Why the wrapping registers suffice: with g below 2^42 the position at x is within 2^-50 * g < 2^-8 step of g. So the
-// seed's own position lies between g - 2^-8 and g + 2^-8 + speed, where the speed is at most 1/2: a carry at the seed can
-// only be that of step k; a seed too early leaves a phase near 1, one too late a phase of little more than 1/2 at most.
+// seed's own position lies between g - 2^-8 and g + 2^-8 + speed, where the speed is at most 1/2: a carry at the seed
+// can only be that of step k; a seed too early leaves a phase near 1, one too late a phase of little more than 1/2 at
+// most.
 #pragma once
 
 #include <algorithm>
