@@ -1,0 +1,234 @@
+#include "services/axis/device_driver.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+using namespace registers;
+
+constexpr std::uint64_t kNoVeto = std::numeric_limits<std::uint64_t>::max();
+/// An update takes well under a microsecond; one that lasts longer than this many looks will not end.
+constexpr int kMaxLooks = 100'000;
+
+static_assert(static_cast<std::uint64_t>(Trigger::None) == kTriggerNone &&
+              static_cast<std::uint64_t>(Trigger::HomeCloses) == kTriggerHomeCloses &&
+              static_cast<std::uint64_t>(Trigger::HomeOpens) == kTriggerHomeOpens);
+
+std::string hex(std::uint64_t value) {
+    char text[19];
+    std::snprintf(text, sizeof text, "0x%016" PRIX64, value);
+    return text;
+}
+
+/// A word that tells whether host and device can work together at all.
+struct Identification {
+    const char* name;
+    std::size_t offset;
+    std::uint64_t expected;
+    const char* remedy;
+};
+
+/// How many entries a ring holds, where that can be.
+std::expected<std::uint64_t, std::string> entries_in(const char* ring, std::uint64_t head, std::uint64_t tail,
+                                                     std::uint64_t capacity) {
+    if (head - tail <= capacity) {
+        return head - tail;
+    }
+    return std::unexpected(std::string("device: ") + ring + " head " + hex(head) + " and tail " + hex(tail) +
+                           " cannot be: it holds " + std::to_string(capacity) + "; restart the device");
+}
+
+std::expected<std::uint64_t, std::string> segments_in(const RegisterWindow& window) {
+    return entries_in("segment ring", window.load(kSegmentHead), window.load(kSegmentTail), kSegmentRingEntries);
+}
+
+std::expected<std::uint64_t, std::string> captures_in(const RegisterWindow& window) {
+    return entries_in("capture ring", window.load(kCaptureHead), window.load(kCaptureTail), kCaptureRingEntries);
+}
+
+/// Writes one frame's entries behind each other, and publishes them together.
+class FrameWriter {
+public:
+    FrameWriter(RegisterWindow window, const device::LoadFrame& frame)
+        : window_(std::move(window)),
+          run_(window_.load(kRunRequest)),
+          frame_(frame),
+          head_(window_.load(kSegmentHead)),
+          tick_(frame.start),
+          position_(frame.track.from) {}
+
+    void write(const Piece& piece, std::uint64_t flags) {
+        const std::size_t at = kSegmentRing + (head_++ % kSegmentRingEntries) * kSegmentRingEntryBytes;
+        window_.store(at + kSegmentRingRun, run_);
+        window_.store(at + kSegmentRingFrame, frame_.number);
+        window_.store(at + kSegmentRingFlags, flags | (frame_.last ? kSegmentRingFlagsLastFrame : 0));
+        store(at + kSegmentRingStart, tick_.value);
+        store(at + kSegmentRingTicks, piece.ticks.value);
+        store(at + kSegmentRingCount, position_.count());
+        window_.store(at + kSegmentRingPhase, position_.phase());
+        store(at + kSegmentRingVelocity, piece.velocity.raw);
+        store(at + kSegmentRingAcceleration, piece.acceleration.raw);
+        tick_ += piece.ticks;
+        position_ = position_ + piece.covered();
+    }
+    void publish() { window_.store(kSegmentHead, head_); }
+
+private:
+    void store(std::size_t offset, std::int64_t value) { window_.store(offset, static_cast<std::uint64_t>(value)); }
+
+    RegisterWindow window_;
+    std::uint64_t run_;
+    const device::LoadFrame& frame_;
+    std::uint64_t head_;
+    Tick tick_;
+    Position position_;
+};
+
+}  // namespace
+
+std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow window, std::int64_t tick_ns) {
+    const Identification words[] = {
+        {"MAGIC", kMagic, kMagicValue, "is this a Lockstep axis device, and powered up?"},
+        {"VERSION", kVersion, kVersionValue, "use device and host of the same release"},
+        {"MAP_CHECKSUM", kMapChecksum, kMapChecksumValue, "use device and host of the same release"},
+        {"TICK_NS", kTickNs, static_cast<std::uint64_t>(tick_ns), "give device and host the same tick_ns"},
+    };
+    for (const auto& [name, offset, expected, remedy] : words) {
+        if (const std::uint64_t found = window.load(offset); found != expected) {
+            return std::unexpected(std::string("device: ") + name + " reads " + hex(found) + ", expected " +
+                                   hex(expected) + "; " + remedy);
+        }
+    }
+    if (const auto segments = segments_in(window); !segments) {
+        return std::unexpected(segments.error());
+    }
+    if (const auto captures = captures_in(window); !captures) {
+        return std::unexpected(captures.error());
+    }
+    return DeviceDriver(std::move(window));
+}
+
+std::expected<DeviceStatus, std::string> DeviceDriver::read() const {
+    for (int look = 0; look < kMaxLooks; ++look) {
+        const std::uint64_t before = window_.load(kSequence);
+        DeviceStatus status = read_words();
+        const auto loaded = segments_in(window_);
+        if (before % 2 != 0 || window_.load(kSequence) != before) {
+            continue;
+        }
+        if (!loaded) {
+            return std::unexpected(loaded.error());
+        }
+        status.free_segments = static_cast<std::uint32_t>(kSegmentRingEntries - *loaded);
+        return status;
+    }
+    return std::unexpected("device: SEQUENCE reads " + hex(window_.load(kSequence)) +
+                           ": it stopped in the middle of an update; restart it");
+}
+
+DeviceStatus DeviceDriver::read_words() const {
+    const std::uint64_t status = window_.load(kStatus);
+    const auto has = [status](std::uint64_t bit) { return (status & bit) != 0; };
+    return {
+        .now = {signed_word(kTick)},
+        .position = Position::from_count(signed_word(kCount), window_.load(kPhase)),
+        .velocity = {signed_word(kVelocity)},
+        .moving = has(kStatusMoving),
+        .run = window_.load(kRun),
+        .frame = window_.load(kFrame),
+        .finished = has(kStatusFinished),
+        .in_tail = has(kStatusInTail),
+        .limit_min = has(kStatusLimitMin),
+        .limit_max = has(kStatusLimitMax),
+        .home = has(kStatusHome),
+        .stopped_by_limit = has(kStatusStoppedByLimit),
+        .stopped_by_trigger = has(kStatusStoppedByTrigger),
+        .stopped_by_host = has(kStatusStoppedByHost),
+        .trigger_count = signed_word(kTriggerCount),
+        .bad_segment = has(kStatusBadSegment),
+        .capture_overflow = has(kStatusCaptureOverflow),
+        .encoder_count = signed_word(kEncoder),
+    };
+}
+
+std::expected<void, std::string> DeviceDriver::apply(const DeviceOrder& order) {
+    return std::visit([this](const auto& one) { return apply_one(one); }, order);
+}
+
+/// In this order: withdrawn before permitted, and the run's number last. The device reads them the other way round.
+DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
+    if (order.run == 0) {
+        return std::unexpected("device: runs are numbered from 1");
+    }
+    window_.store(kArmed, 0);
+    window_.store(kVeto, kNoVeto);
+    window_.store(kTrigger, static_cast<std::uint64_t>(order.trigger));
+    window_.store(kRunRequest, order.run);
+    return {};
+}
+
+DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
+    const auto refuse = [&order](const std::string& why) {
+        return std::unexpected("device: frame " + std::to_string(order.number) + " not loaded: " + why);
+    };
+    const auto loaded = segments_in(window_);
+    if (!loaded) {
+        return std::unexpected(loaded.error());
+    }
+    const std::size_t needed = order.track.body.size() + order.track.tail.size();
+    const std::size_t room = kSegmentRingEntries - *loaded;
+    if (needed > room) {
+        return refuse("it has " + std::to_string(needed) + " segments, the ring has room for " + std::to_string(room));
+    }
+    if (order.track.body.empty()) {
+        return refuse("it has no body");
+    }
+    if (window_.load(kRunRequest) == 0) {
+        return refuse("no run has been begun");
+    }
+    FrameWriter writer(window_, order);
+    for (const Piece& piece : order.track.body) {
+        writer.write(piece, &piece == order.track.body.begin() ? kSegmentRingFlagsFirst : 0);
+    }
+    for (const Piece& piece : order.track.tail) {
+        writer.write(piece, kSegmentRingFlagsTail);
+    }
+    writer.publish();
+    return {};
+}
+
+DeviceDriver::Result DeviceDriver::apply_one(const device::Arm& order) {
+    window_.store(kArmed, std::max(window_.load(kArmed), order.number));
+    return {};
+}
+
+DeviceDriver::Result DeviceDriver::apply_one(const device::Veto& order) {
+    window_.store(kVeto, std::min(window_.load(kVeto), order.number));
+    return {};
+}
+
+DeviceDriver::Result DeviceDriver::apply_one(const device::StopNow&) {
+    window_.store(kStop, window_.load(kRunRequest));
+    return {};
+}
+
+std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std::function<void(StepEdge)>& on_step) {
+    const auto captured = captures_in(window_);
+    if (!captured) {
+        return captured;
+    }
+    const std::uint64_t tail = window_.load(kCaptureTail);
+    for (std::uint64_t index = tail; index != tail + *captured; ++index) {
+        const std::size_t slot = index % kCaptureRingEntries;
+        const std::uint64_t word = window_.load(kCaptureRing + slot * kCaptureRingEntryBytes);
+        on_step({.tick = {static_cast<std::int64_t>(word) >> 1}, .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)});
+    }
+    window_.store(kCaptureTail, tail + *captured);
+    return captured;
+}
+
+}  // namespace lockstep

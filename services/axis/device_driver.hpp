@@ -1,0 +1,49 @@
+// The host's end of the register map: an axis controller's orders become register writes, registers become values.
+// Nothing read from the window is trusted: what cannot be is an error that says what was read and what to do.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "core/axis/device.hpp"
+#include "sim_fpga/register_window.hpp"
+
+namespace lockstep {
+
+/// One at a time per device. It takes over where the one before it left the rings.
+class DeviceDriver {
+public:
+    /// tick_ns: the configuration's. Errors: no device there, another version of the map, another tick, rings whose
+    /// ends contradict each other.
+    static std::expected<DeviceDriver, std::string> attach(RegisterWindow window, std::int64_t tick_ns);
+
+    /// One consistent look. Error where the device stopped in the middle of an update, or its words make no sense.
+    std::expected<DeviceStatus, std::string> read() const;
+
+    /// Error, and nothing has changed: a frame that does not fit the ring or has no body, or that comes before any run.
+    std::expected<void, std::string> apply(const DeviceOrder& order);
+
+    /// Calls back with every step made since the last call, in order. Returns how many. Error: wild ring ends.
+    std::expected<std::uint64_t, std::string> drain_capture(const std::function<void(StepEdge)>& on_step);
+    /// Steps since the device's power-up that came while the capture ring was full.
+    std::uint64_t lost_captures() const { return window_.load(registers::kCaptureLost); }
+
+private:
+    using Result = std::expected<void, std::string>;
+    explicit DeviceDriver(RegisterWindow window) : window_(std::move(window)) {}
+
+    Result apply_one(const device::BeginRun& order);
+    Result apply_one(const device::LoadFrame& order);
+    Result apply_one(const device::Arm& order);
+    Result apply_one(const device::Veto& order);
+    Result apply_one(const device::StopNow& order);
+    DeviceStatus read_words() const;
+    std::int64_t signed_word(std::size_t offset) const { return static_cast<std::int64_t>(window_.load(offset)); }
+
+    RegisterWindow window_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,89 @@
+// The simulated hardware of one axis, down to its registers: executes frames by itself, tick by tick in effect.
+//
+// A run goes from rest to rest. The host begins one by a new number in RUN_REQUEST, which is taken at rest only. Then:
+// - At the start tick of frame 1 its body runs, if ARMED >= 1 and VETO > 1. Vetoed, the run ends there. Found armed
+//   only after that tick, it is refused (BAD_SEGMENT).
+// - At the end of frame k's body, the run is finished if k was the last. Else, if frame k+1 is loaded, ARMED >= k+1 and
+//   VETO > k+1, its body runs: it must start at this tick and position, exactly. In every other case frame k's tail
+//   runs and the run is finished; a frame k+1 that was armed but does not join, or is malformed, sets BAD_SEGMENT.
+// - The first frame starts where the axis stands, or at rest_position(count): the same place, its phase put to rest.
+// - Pulses cease at once, the run finished, at a closed limit switch (none goes into it), at the home level asked for,
+//   and by STOP.
+// The host's words count as they are when advance is called: in real time, as of the loop's last round.
+#pragma once
+
+#include <cstdint>
+
+#include "core/step/engine.hpp"
+#include "core/step/segment.hpp"
+#include "sim_fpga/capture_ring.hpp"
+#include "sim_fpga/plant.hpp"
+#include "sim_fpga/register_window.hpp"
+#include "sim_fpga/segment_ring.hpp"
+
+namespace lockstep {
+
+class SimulatedDevice {
+public:
+    /// Power-up at rest, having executed `now`: resets all registers. The window is this device's from here on; a
+    /// driver attaches to a copy. tick_ns: what TICK_NS says.
+    SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now);
+
+    /// Executes all ticks up to and including `until`, then publishes its state. At or before now(), it only looks at
+    /// the host's words and acts on them.
+    void advance(Tick until);
+
+    Tick now() const { return engine_.now(); }
+    const Plant& plant() const { return plant_; }
+    /// To disturb it. The inputs are looked at again at the next call of advance.
+    Plant& plant() { return plant_; }
+
+private:
+    enum class Phase : std::uint8_t { AtRest, Waiting, Body, Tail };
+
+    void reset(std::int64_t tick_ns);
+    void take_run();
+    Tick decide(Tick until);
+    Tick decide_first_frame(Tick until);
+    void next_piece();
+    void end_body();
+    void begin_frame();
+    void begin_tail();
+    void finish(std::uint64_t reason);
+
+    bool may_run(FrameNumber frame) const;
+    bool vetoed(FrameNumber frame) const;
+    bool stop_asked() const;
+    bool rebase_to(Position from);
+    bool runs_into_limit(int direction) const;
+    bool triggered() const;
+
+    void run(Tick until);
+    bool on_step(StepEdge step);
+    void cease(std::uint64_t reason);
+
+    std::uint64_t status_word() const;
+    void publish();
+
+    RegisterWindow window_;
+    SegmentRing segments_;
+    CaptureRing capture_;
+    Plant plant_;
+    StepEngine engine_;
+
+    Phase phase_ = Phase::AtRest;
+    LoadedFrame frame_;  // the one in progress
+    LoadedFrame next_;
+    std::size_t piece_ = 0;  // of frame_, the one in progress
+
+    std::uint64_t run_ = 0;
+    std::uint64_t trigger_ = registers::kTriggerNone;
+    std::uint64_t run_bits_ = 0;  // the bits of STATUS that a new run clears
+    std::uint64_t cease_ = 0;     // why pulses cease; 0: they do not
+    std::int64_t count_ = 0;
+    std::int64_t trigger_count_ = 0;
+    PlantInputs inputs_;
+    std::uint64_t sequence_ = 0;
+};
+
+}  // namespace lockstep

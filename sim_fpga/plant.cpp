@@ -1,0 +1,32 @@
+#include "sim_fpga/plant.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+/// Whole steps from power-up to a place in mm, the side where a switch there is closed included: a place that is a
+/// whole step up to rounding is that step.
+constexpr double kRounding = 1e-6;
+std::int64_t steps_down(double steps) { return std::llround(std::floor(steps + kRounding)); }
+std::int64_t steps_up(double steps) { return std::llround(std::ceil(steps - kRounding)); }
+
+}  // namespace
+
+Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
+    : steps_per_mm_(axis.steps_per_mm), start_mm_(axis.plant.start_position_mm) {
+    const auto steps_to = [&](double mm) { return (mm - start_mm_) * steps_per_mm_; };
+    limit_min_at_ = steps_down(steps_to(axis.position_min_mm - axis.plant.travel_margin_mm));
+    limit_max_at_ = steps_up(steps_to(axis.position_max_mm + axis.plant.travel_margin_mm));
+    home_toward_min_ = axis.homing.toward_min;
+    const double home = steps_to(axis.homing.switch_position_mm);
+    home_at_ = home_toward_min_ ? steps_down(home) : steps_up(home);
+
+    const double tick_s = static_cast<double>(tick_ns) * 1e-9;
+    max_acceleration_ = axis.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
+    max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(max_acceleration_);
+}
+
+double Plant::position_mm() const { return start_mm_ + static_cast<double>(slide_) / steps_per_mm_; }
+
+}  // namespace lockstep

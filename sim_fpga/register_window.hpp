@@ -1,0 +1,49 @@
+// The register map's window over whatever memory stands behind it: this process's own, shared memory by name, or
+// anything that can be mapped (a file, a UIO device). Source of the map: registers.json.
+//
+// Ordering: every word is read with acquire and written with release order. So who sees a new head, sequence or run
+// number also sees everything the other side wrote before it, which is all that rings and consistent reads need.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "sim_fpga/registers.hpp"
+
+namespace lockstep {
+
+/// A handle: copies see the same words. The last copy unmaps, and removes the name if it was made here.
+class RegisterWindow {
+public:
+    /// Zeroed memory of this process.
+    static RegisterWindow in_process();
+    /// Makes zeroed shared memory /dev/shm/NAME, in place of one that a dead process left. Errors name the cause: a
+    /// name with '/', one that a living process holds, what the system refused.
+    static std::expected<RegisterWindow, std::string> create_shared(const std::string& name);
+    /// Attaches to what create_shared made, here or in another process.
+    static std::expected<RegisterWindow, std::string> open_shared(const std::string& name);
+    /// Attaches to a file or device that can be mapped read-write from its start. Error also where a file is too short.
+    static std::expected<RegisterWindow, std::string> open_file(const std::filesystem::path& path);
+
+    /// offset: in bytes, a multiple of 8, below registers::kWindowBytes.
+    std::uint64_t load(std::size_t offset) const { return word(offset).load(std::memory_order_acquire); }
+    void store(std::size_t offset, std::uint64_t value) { word(offset).store(value, std::memory_order_release); }
+
+private:
+    explicit RegisterWindow(std::shared_ptr<std::uint64_t[]> words) : words_(std::move(words)) {}
+    std::atomic_ref<std::uint64_t> word(std::size_t offset) const {
+        return std::atomic_ref(words_[static_cast<std::ptrdiff_t>(offset / sizeof(std::uint64_t))]);
+    }
+    static std::expected<RegisterWindow, std::string> map(int file, const std::string& what, std::string unlink_name);
+
+    static_assert(std::atomic_ref<std::uint64_t>::is_always_lock_free, "words are shared between processes");
+    std::shared_ptr<std::uint64_t[]> words_;
+};
+
+}  // namespace lockstep

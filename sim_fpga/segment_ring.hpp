@@ -1,0 +1,57 @@
+// The device's end of the segment ring: whole frames, checked as they are taken off.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "core/protocol/messages.hpp"
+#include "core/static_vector.hpp"
+#include "core/step/segment.hpp"
+#include "sim_fpga/register_window.hpp"
+
+namespace lockstep {
+
+/// One entry as the host wrote it: nothing is checked yet.
+struct SegmentEntry {
+    std::uint64_t run = 0;
+    FrameNumber frame = 0;
+    std::uint64_t flags = 0;
+    Segment segment;
+
+    bool first() const { return (flags & registers::kSegmentRingFlagsFirst) != 0; }
+    bool tail() const { return (flags & registers::kSegmentRingFlagsTail) != 0; }
+    bool last_frame() const { return (flags & registers::kSegmentRingFlagsLastFrame) != 0; }
+};
+
+/// A frame whose pieces join each other and can be executed: the body's pieces, then the tail's.
+struct LoadedFrame {
+    FrameNumber number = 0;
+    bool last = false;
+    std::size_t body_pieces = 0;
+    StaticVector<Piece, registers::kSegmentRingEntries> pieces;
+};
+
+class SegmentRing {
+public:
+    explicit SegmentRing(RegisterWindow window) : window_(std::move(window)) {}
+
+    /// Entries taken off since power-up.
+    std::uint64_t taken() const { return tail_; }
+    /// The oldest entry. None where the ring is empty, or where the host's head makes no sense.
+    std::optional<SegmentEntry> front() const;
+    /// Takes off entries as long as the oldest is of `run`, or of any other run.
+    void drop_run(std::uint64_t run);
+    void drop_other_runs(std::uint64_t run);
+    /// Takes the oldest entry's frame off. False, and `frame` is not to be used, where it does not begin with its
+    /// first piece, a piece does not start where and when the one before ends, or a piece cannot be executed.
+    [[nodiscard]] bool take_frame(LoadedFrame& frame);
+
+private:
+    SegmentEntry entry(std::uint64_t index) const;
+
+    RegisterWindow window_;
+    std::uint64_t tail_ = 0;
+};
+
+}  // namespace lockstep
