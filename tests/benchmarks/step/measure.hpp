@@ -1,0 +1,32 @@
+// What the step benchmarks count.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cstdint>
+
+namespace lockstep::bench {
+
+/// Where the times of steps go: a step is computed when its time is in memory.
+class Times {
+public:
+    void operator()(std::int64_t time) { ring_[count_++ % ring_.size()] = time; }
+    std::uint64_t count() const { return count_; }
+
+private:
+    std::array<std::int64_t, 4096> ring_{};
+    std::uint64_t count_ = 0;
+};
+
+/// Counters ns_per_step and ns_per_tick; `steps` and `ticks` are those of one iteration, of all axes together.
+inline void report_cost(benchmark::State& state, double steps, double ticks) {
+    const auto nanoseconds_per = [](double total) {
+        return benchmark::Counter(total * 1e-9,
+                                  benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    };
+    state.counters["ns_per_step"] = nanoseconds_per(steps);
+    state.counters["ns_per_tick"] = nanoseconds_per(ticks);
+}
+
+}  // namespace lockstep::bench
