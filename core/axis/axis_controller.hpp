@@ -1,0 +1,143 @@
+// One axis, as a state machine fed with messages and time: `step` is all there is to it.
+//
+// What it is given each loop: the time, one look at its device, and every message that came. What it gives back: orders
+// for the device, its state once a slot, and a record of what was run. It does no I/O and reads no clock.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/axis/device.hpp"
+#include "core/axis/fsm.hpp"
+#include "core/axis/homing.hpp"
+#include "core/axis/setpoint_follower.hpp"
+
+namespace lockstep {
+
+struct AxisInputs {
+    Tick now;  // machine time
+    DeviceStatus device;
+    std::span<const Frame> frames;
+    std::span<const AxisState> peers;
+    std::span<const MachineState> coordinator;
+    std::span<const AxisCommand> commands;
+};
+
+/// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against.
+struct RunRecord {
+    Epoch epoch = 0;  // 0: the axis's own move
+    FrameNumber frame = 0;
+    bool tail = false;
+    Tick start;
+    Position from;
+    std::vector<Piece> pieces;
+    bool cut = false;             // pulses ceased early
+    std::int64_t stop_count = 0;  // at its end
+    std::int64_t zero_count = 0;
+};
+
+/// What happened, for the log.
+struct AxisNotice {
+    enum class Kind : std::uint8_t {
+        CoordinatorAdopted, EpochBegun, EpochEnded, FrameRefused, Vetoed, HomingStage, Homed, Fault, Reset, CommandRefused
+    };
+    Kind kind = Kind::Fault;
+    FaultCode fault = FaultCode::None;
+    std::uint64_t number = 0;  // an epoch, a frame, a stage: as the kind says
+};
+
+struct AxisOutputs {
+    std::optional<AxisState> state;  // once a slot
+    std::vector<DeviceOrder> orders;
+    std::vector<RunRecord> records;
+    std::vector<AxisNotice> notices;
+};
+
+class AxisController {
+public:
+    /// `identity` is new at every start of the process.
+    AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash);
+
+    AxisOutputs step(const AxisInputs& inputs);
+
+    AxisPhase phase() const { return phase_; }
+    bool homed() const { return homed_; }
+    /// Machine coordinates are the device's counts minus this.
+    std::int64_t zero_count() const { return zero_count_; }
+
+private:
+    struct LocalRun {
+        LocalMove move;
+        HeldFrame frame;
+        int tries = 0;
+    };
+    enum class Mode : std::uint8_t { Rest, Following, Local };
+
+    void observe(const DeviceStatus& device, AxisOutputs& out);
+    void record_progress(const DeviceStatus& device, AxisOutputs& out);
+    void record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out);
+    void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, AxisOutputs& out);
+    void follow_speed(const DeviceStatus& device);
+    void end_run(const DeviceStatus& device, AxisOutputs& out);
+    void end_following(AxisOutputs& out);
+    void end_local(const DeviceStatus& device, AxisOutputs& out);
+
+    void hear(const AxisInputs& inputs, AxisOutputs& out);
+    bool adopts(Identity coordinator, Slot now, AxisOutputs& out);
+    void carry_out(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);
+    void begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);
+    void reset(AxisOutputs& out);
+    void refuse(const AxisCommand& command, FaultCode why, AxisOutputs& out);
+    void done(FaultCode fault);
+
+    void take_frames(const AxisInputs& inputs, AxisOutputs& out);
+    void begin_following(Epoch epoch, AxisOutputs& out);
+    void load(const HeldFrame& frame, AxisOutputs& out) const;
+    void take_homing_step(const HomingStep& step, AxisOutputs& out);
+    void start_local(const LocalMove& move, int tries, AxisOutputs& out);
+
+    void happen(AxisEvent event);
+    void fail(FaultCode fault, AxisOutputs& out);
+    bool may_follow() const { return homed_ && mode_ == Mode::Rest && phase_ == AxisPhase::Standby && fault_ == FaultCode::None; }
+    Position machine_position(Position device) const { return device - Displacement::steps(zero_count_); }
+    AxisState state(Slot slot) const;
+
+    static constexpr int kMaxTries = 10;
+    static constexpr std::int64_t kMaxFollowingError = 3;  // steps
+
+    std::size_t axis_;
+    MachineConfig machine_;
+    AxisLimits limits_;
+    Identity identity_;
+    std::uint64_t config_hash_;
+    Ticks slot_;
+    SetpointFollower follower_;
+    Homing homing_;
+
+    Mode mode_ = Mode::Rest;
+    AxisPhase phase_ = AxisPhase::Initialize;
+    FaultCode fault_ = FaultCode::None;
+    bool homed_ = false;
+    std::int64_t zero_count_ = 0;
+    std::uint64_t run_ = 0;              // the device run begun last
+    FrameNumber recorded_ = 0;           // bodies of the run recorded so far
+    FrameNumber ran_ = 0;                // bodies of the epoch begun so far
+    bool was_in_tail_ = false;
+    std::optional<LocalRun> local_;
+    double last_speed_ = 0;
+
+    DeviceStatus device_;
+    Tick now_;
+    std::optional<Slot> state_slot_;
+    std::optional<Identity> coordinator_;
+    Slot coordinator_heard_ = 0;
+    std::uint64_t command_taken_ = 0;
+    std::uint64_t command_done_ = 0;
+    FaultCode command_fault_ = FaultCode::None;
+    bool command_open_ = false;
+    std::uint64_t refused_frames_ = 0;
+    FaultCode last_refusal_ = FaultCode::None;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,73 @@
+#include "core/axis/frame_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace lockstep {
+namespace {
+
+constexpr double kRounding = 1e-6;  // relative: what integers make of doubles
+
+/// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
+constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
+
+bool within_speed(double velocity, const AxisLimits& limits, double one_tick) {
+    return std::abs(velocity) <= limits.max_velocity * (1 + kRounding) + one_tick;
+}
+
+bool within_acceleration(double before, double after, double acceleration, const AxisLimits& limits) {
+    const bool speeds_up = std::abs(after) > std::abs(before);
+    const double most = speeds_up ? limits.max_acceleration : limits.max_deceleration;
+    return std::abs(acceleration) <= most * (1 + kRounding);
+}
+
+bool within_travel(Position at, const AxisLimits& limits) {
+    return at.count() >= limits.min_steps && at.count() <= limits.max_steps;
+}
+
+FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, MotionPoint& point) {
+    const double one_tick = 2 * std::max(limits.max_acceleration, limits.max_deceleration);
+    for (const Piece& piece : pieces) {
+        if (piece.ticks.value <= 0 || piece.ticks.value > kMaxPieceTicks) { return FaultCode::BadProgram; }
+        const double a = piece.acceleration.steps_per_tick2();
+        const double before = piece.velocity.steps_per_tick() + a / 2;
+        const double after = before + a * static_cast<double>(piece.ticks.value);
+        const bool fits = within_speed(before, limits, one_tick) && within_speed(after, limits, one_tick) &&
+                          within_acceleration(before, after, a, limits) &&
+                          std::abs(before - point.velocity) <= limits.start_velocity * (1 + kRounding) + one_tick;
+        if (!fits) { return FaultCode::FrameBeyondLimits; }
+        point = {point.position + piece.covered(), after};
+        if (!within_travel(point.position, limits)) { return FaultCode::FrameOutsideTravel; }
+    }
+    return FaultCode::None;
+}
+
+Ticks total(std::span<const Piece> pieces) {
+    Ticks sum;
+    for (const Piece& piece : pieces) { sum += piece.ticks; }
+    return sum;
+}
+
+}  // namespace
+
+FaultCode check_track(const AxisTrack& track, Ticks ticks, bool last, const AxisLimits& limits, MotionPoint& from) {
+    if (track.from != from.position) { return FaultCode::FrameDiscontinuous; }
+    MotionPoint point = from;
+    const std::span<const Piece> body(track.body.begin(), track.body.end());
+    if (const FaultCode fault = check_pieces(body, limits, point); fault != FaultCode::None) { return fault; }
+    if (total(body) != ticks || (last && !track.tail.empty())) { return FaultCode::BadProgram; }
+
+    MotionPoint end = point;
+    const std::span<const Piece> tail(track.tail.begin(), track.tail.end());
+    if (const FaultCode fault = check_pieces(tail, limits, end); fault != FaultCode::None) { return fault; }
+    const double one_tick = 2 * std::max(limits.max_acceleration, limits.max_deceleration);
+    if (std::abs(end.velocity) > limits.start_velocity * (1 + kRounding) + one_tick) {
+        return FaultCode::FrameBeyondLimits;
+    }
+    from = point;
+    return FaultCode::None;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,101 @@
+// The axis's six states and Fault: a table, and nothing but a table, decides what follows what.
+//
+// After H. Y. Lam and P. Ehkan, "Bipolar Stepper Motor Controller for Linear Slide Application": Initialize, Standby,
+// Accelerate, Cruise, Decelerate, Stop.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+inline constexpr std::array kAxisPhases{AxisPhase::Initialize, AxisPhase::Standby,    AxisPhase::Accelerate,
+                                        AxisPhase::Cruise,     AxisPhase::Decelerate, AxisPhase::Stop,
+                                        AxisPhase::Fault};
+
+enum class AxisEvent : std::uint8_t {
+    SpeedRises,      // the pulses come faster than before, also out of rest
+    SpeedSteady,
+    SpeedFalls,
+    MotionEnds,      // at rest, as planned
+    SwitchStops,     // the home switch ended the search or the latch
+    LimitStops,      // a limit switch ended the motion
+    HostStops,       // an emergency stop ended it
+    Zeroed,          // after a stop at the switch: the position is set; homing goes on or parks
+    Released,        // after a limit or emergency stop: back to Initialize, to be homed again
+    HomingBegins,
+    Fails,
+    ResetHomed,      // out of Fault, position still known
+    ResetUnhomed,    // out of Fault, to be homed again
+};
+inline constexpr std::size_t kAxisEvents = 13;
+
+struct AxisTransition {
+    AxisPhase from;
+    AxisEvent event;
+    AxisPhase to;
+};
+
+/// Every transition there is; an event that is not here leaves the state as it is.
+inline constexpr std::array kAxisTransitions{
+    // Initialize: unhomed, or searching, pulling off and latching.
+    AxisTransition{AxisPhase::Initialize, AxisEvent::SwitchStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Initialize, AxisEvent::LimitStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Initialize, AxisEvent::Fails, AxisPhase::Fault},
+    // Standby: homed, at rest.
+    AxisTransition{AxisPhase::Standby, AxisEvent::HomingBegins, AxisPhase::Initialize},
+    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedRises, AxisPhase::Accelerate},
+    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedSteady, AxisPhase::Cruise},
+    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedFalls, AxisPhase::Decelerate},
+    AxisTransition{AxisPhase::Standby, AxisEvent::HostStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Standby, AxisEvent::LimitStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Standby, AxisEvent::Fails, AxisPhase::Fault},
+    // In motion.
+    AxisTransition{AxisPhase::Accelerate, AxisEvent::SpeedSteady, AxisPhase::Cruise},
+    AxisTransition{AxisPhase::Accelerate, AxisEvent::SpeedFalls, AxisPhase::Decelerate},
+    AxisTransition{AxisPhase::Accelerate, AxisEvent::MotionEnds, AxisPhase::Standby},
+    AxisTransition{AxisPhase::Accelerate, AxisEvent::LimitStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Accelerate, AxisEvent::HostStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Accelerate, AxisEvent::Fails, AxisPhase::Fault},
+    AxisTransition{AxisPhase::Cruise, AxisEvent::SpeedRises, AxisPhase::Accelerate},
+    AxisTransition{AxisPhase::Cruise, AxisEvent::SpeedFalls, AxisPhase::Decelerate},
+    AxisTransition{AxisPhase::Cruise, AxisEvent::MotionEnds, AxisPhase::Standby},
+    AxisTransition{AxisPhase::Cruise, AxisEvent::LimitStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Cruise, AxisEvent::HostStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Cruise, AxisEvent::Fails, AxisPhase::Fault},
+    AxisTransition{AxisPhase::Decelerate, AxisEvent::SpeedRises, AxisPhase::Accelerate},
+    AxisTransition{AxisPhase::Decelerate, AxisEvent::SpeedSteady, AxisPhase::Cruise},
+    AxisTransition{AxisPhase::Decelerate, AxisEvent::MotionEnds, AxisPhase::Standby},
+    AxisTransition{AxisPhase::Decelerate, AxisEvent::LimitStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Decelerate, AxisEvent::HostStops, AxisPhase::Stop},
+    AxisTransition{AxisPhase::Decelerate, AxisEvent::Fails, AxisPhase::Fault},
+    // Stop: pulses have ceased at a switch or by command.
+    AxisTransition{AxisPhase::Stop, AxisEvent::Zeroed, AxisPhase::Standby},
+    AxisTransition{AxisPhase::Stop, AxisEvent::Released, AxisPhase::Initialize},
+    AxisTransition{AxisPhase::Stop, AxisEvent::HomingBegins, AxisPhase::Initialize},
+    AxisTransition{AxisPhase::Stop, AxisEvent::Fails, AxisPhase::Fault},
+    // Fault: latched until a person resets it.
+    AxisTransition{AxisPhase::Fault, AxisEvent::ResetHomed, AxisPhase::Standby},
+    AxisTransition{AxisPhase::Fault, AxisEvent::ResetUnhomed, AxisPhase::Initialize},
+};
+
+/// The state that follows; nothing where the event means nothing in this state.
+constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
+    for (const AxisTransition& t : kAxisTransitions) {
+        if (t.from == from && t.event == event) { return t.to; }
+    }
+    return std::nullopt;
+}
+
+constexpr std::string_view name_of(AxisPhase phase) {
+    constexpr std::array<std::string_view, 7> kNames{"Initialize", "Standby",    "Accelerate", "Cruise",
+                                                     "Decelerate", "Stop", "Fault"};
+    return kNames[static_cast<std::size_t>(phase)];
+}
+
+}  // namespace lockstep

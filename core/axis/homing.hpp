@@ -1,0 +1,68 @@
+// The homing sequence: search the switch, stop and zero, pull off, latch slowly, park. No network between the switch
+// and the stop: the device itself ends a move at the switch.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/axis/device.hpp"
+#include "core/faults.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park };
+
+/// One move of an axis on its own, in steps from where it stands.
+struct LocalMove {
+    std::int64_t steps = 0;        // signed
+    double speed_steps_per_tick = 0;
+    Trigger trigger = Trigger::None;
+};
+
+/// How a local move came to its end.
+struct LocalEnd {
+    bool by_trigger = false;
+    bool by_limit = false;
+    bool home_closed = false;      // the switch, now
+    std::int64_t count = 0;        // the device's
+    std::int64_t trigger_count = 0;
+};
+
+/// What comes next: a move, or the end of homing well or badly.
+struct HomingStep {
+    std::optional<LocalMove> move;
+    bool zeroed = false;             // from now on the machine's count is the device's minus zero_count
+    std::int64_t zero_count = 0;
+    bool done = false;
+    FaultCode fault = FaultCode::None;
+};
+
+class Homing {
+public:
+    Homing(const AxisConfig& axis, std::int64_t tick_ns);
+
+    /// Begins with the search, or off the switch where it is closed already.
+    HomingStep begin(bool home_closed);
+    /// After each move's end.
+    HomingStep next(const LocalEnd& end);
+    void abandon() { stage_ = HomingStage::Idle; }
+
+    HomingStage stage() const { return stage_; }
+
+private:
+    HomingStep pull_off();
+    HomingStep zero_and_park(const LocalEnd& end);
+    HomingStep fail(FaultCode fault);
+    std::int64_t toward_switch(double mm) const;
+
+    static constexpr int kMaxPullOffs = 16;
+
+    AxisConfig axis_;
+    double tick_s_;
+    HomingStage stage_ = HomingStage::Idle;
+    int pull_offs_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,118 @@
+#include "core/axis/setpoint_follower.hpp"
+
+namespace lockstep {
+
+SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machine)
+    : axis_(axis),
+      axes_(machine.axes.size()),
+      timing_(machine.timing),
+      slot_(machine.slot_ticks()),
+      limits_(limits_of(machine.axes[axis], machine.tick_ns)),
+      peers_(machine.axes.size()) {}
+
+void SetpointFollower::hear(const AxisState& peer) {
+    if (peer.axis >= axes_ || peer.axis == axis_) { return; }
+    peers_[peer.axis].hear(peer);
+    if (open_ && peer.epoch == epoch_) { add_veto(peer.veto); }
+}
+
+void SetpointFollower::hear(const MachineState& coordinator) {
+    if (open_ && coordinator.epoch == epoch_) { add_veto(coordinator.veto); }
+}
+
+FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> rest) {
+    if (frame.axes.size() != axes_) { return FaultCode::ConfigMismatch; }
+    const AxisTrack& track = frame.axes[axis_];
+    if (frame.epoch > epoch_ && frame.number == 1 && rest && !open_) {
+        // At rest an axis may set out from its whole step as well as from the very fraction it came to rest on.
+        const std::int64_t count = rest->count();
+        const bool whole = track.from == rest_position(count, false) || track.from == rest_position(count, true);
+        begin(frame, whole ? track.from : *rest);
+    }
+    const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_;
+    if (!next || frames_.size() == kMaxFrames) { return FaultCode::None; }
+    if (held_ > 0 && frame.start != end_tick_) { return FaultCode::FrameDiscontinuous; }
+    if (frame.start.value % slot_.value != 0 || frame.ticks.value <= 0) { return FaultCode::BadProgram; }
+    const FaultCode fault = check_track(track, frame.ticks, frame.last, limits_, end_);
+    if (fault != FaultCode::None) { return fault; }
+    held_ = frame.number;
+    last_held_ = frame.last;
+    end_tick_ = frame.start + frame.ticks;
+    frames_.push_back({frame.number, frame.start, frame.ticks, frame.last, track});
+    return FaultCode::None;
+}
+
+void SetpointFollower::begin(const Frame& frame, Position from) {
+    open_ = true;
+    epoch_ = frame.epoch;
+    held_ = checked_ = 0;
+    veto_.reset();
+    device_veto_.reset();
+    end_ = {from, 0};
+    end_tick_ = frame.start;
+    last_held_ = false;
+    frames_.clear();
+}
+
+std::optional<Slot> SetpointFollower::start_slot(FrameNumber k) const {
+    if (k == held_ + 1 && !last_held_) { return rules::slot_of(end_tick_, slot_); }
+    const HeldFrame* frame = find(k);
+    return frame == nullptr ? std::nullopt : std::optional(rules::slot_of(frame->start, slot_));
+}
+
+bool SetpointFollower::every_other_holds(FrameNumber k, Slot start) const {
+    for (std::size_t i = 0; i < axes_; ++i) {
+        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { return false; }
+    }
+    return true;
+}
+
+std::vector<DeviceOrder> SetpointFollower::decide(Slot now) {
+    std::vector<DeviceOrder> orders;
+    std::optional<FrameNumber> unarmed;  // never to be armed, though others may run it
+    for (FrameNumber k = checked_ + 1; open_; ++k) {
+        const std::optional<Slot> start = start_slot(k);
+        if (!start) { break; }
+        const rules::CheckTime time = rules::check_time(now, *start, timing_);
+        if (time == rules::CheckTime::Early) { break; }
+        checked_ = k;
+        if (time == rules::CheckTime::TooLate) {
+            add_veto(rules::veto_when_too_late(k));
+            unarmed = rules::merge(unarmed, k);
+        } else if (rules::may_arm(k, {held_, veto_, every_other_holds(k, *start)})) {
+            orders.emplace_back(device::Arm{k});
+        } else {
+            add_veto(rules::veto_when_failed(k));
+        }
+        if (k > held_) { break; }
+    }
+    const auto veto = rules::merge(rules::merge(veto_, unarmed), device_veto_);
+    if (veto != device_veto_) {
+        device_veto_ = veto;
+        orders.emplace_back(device::Veto{*veto});
+    }
+    return orders;
+}
+
+void SetpointFollower::veto_for_own_reasons(Slot now) {
+    if (!open_) { return; }
+    FrameNumber k = frames_.empty() ? held_ + 1 : frames_.front().number;
+    for (; k <= held_ + 1; ++k) {
+        const std::optional<Slot> start = start_slot(k);
+        if (start && rules::axis_may_veto(now, *start)) { break; }
+    }
+    add_veto(k);
+}
+
+void SetpointFollower::forget_before(FrameNumber number) {
+    while (!frames_.empty() && frames_.front().number < number) { frames_.pop_front(); }
+}
+
+const HeldFrame* SetpointFollower::find(FrameNumber number) const {
+    for (const HeldFrame& frame : frames_) {
+        if (frame.number == number) { return &frame; }
+    }
+    return nullptr;
+}
+
+}  // namespace lockstep

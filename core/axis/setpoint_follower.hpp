@@ -1,0 +1,90 @@
+// An axis's side of hold, arm, veto: which frames it holds, what it has heard, what it decides.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/axis/device.hpp"
+#include "core/axis/frame_check.hpp"
+#include "core/machine.hpp"
+#include "core/protocol/peer_evidence.hpp"
+#include "core/protocol/rules.hpp"
+
+namespace lockstep {
+
+/// A frame as this axis keeps it: its own track only, in machine coordinates.
+struct HeldFrame {
+    FrameNumber number = 0;
+    Tick start;
+    Ticks ticks;
+    bool last = false;
+    AxisTrack track;
+    Tick end() const { return start + ticks; }
+    Position body_end() const {
+        Position at = track.from;
+        for (const Piece& piece : track.body) { at = at + piece.covered(); }
+        return at;
+    }
+};
+
+class SetpointFollower {
+public:
+    /// `axis` of `axes`, by their places in the configuration.
+    SetpointFollower(std::size_t axis, const MachineConfig& machine);
+
+    /// Evidence and vetoes from the others. States of other epochs are evidence of nothing.
+    void hear(const AxisState& peer);
+    void hear(const MachineState& coordinator);
+
+    /// Takes a frame of the epoch in progress, or frame 1 of a newer one when `rest` says where the axis rests.
+    /// Frames held already, of older epochs, or out of order are left alone: None, and nothing changes.
+    /// Otherwise the frame is held (held() says so), or the fault says why not.
+    FaultCode offer(const Frame& frame, std::optional<Position> rest);
+
+    /// Makes the checks that are due. Returns what the device is to be told, in order.
+    std::vector<DeviceOrder> decide(Slot now);
+
+    /// Casts the lowest veto that still reaches everyone: this axis cannot go on.
+    void veto_for_own_reasons(Slot now);
+
+    /// The device has ended the run of this epoch: nothing more of it is held or checked.
+    void close() { open_ = false; }
+    bool open() const { return open_; }
+
+    /// Frames the device has done with are forgotten.
+    void forget_before(FrameNumber number);
+
+    Epoch epoch() const { return epoch_; }
+    FrameNumber held() const { return held_; }
+    std::optional<FrameNumber> veto() const { return veto_; }
+    const HeldFrame* find(FrameNumber number) const;
+
+private:
+    void begin(const Frame& frame, Position from);
+    bool every_other_holds(FrameNumber k, Slot start) const;
+    std::optional<Slot> start_slot(FrameNumber k) const;
+    void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }
+
+    static constexpr std::size_t kMaxFrames = 16;
+
+    std::size_t axis_;
+    std::size_t axes_;
+    ProtocolTiming timing_;
+    Ticks slot_;
+    AxisLimits limits_;
+    std::vector<PeerEvidence> peers_;
+
+    bool open_ = false;
+    Epoch epoch_ = 0;
+    FrameNumber held_ = 0;
+    FrameNumber checked_ = 0;  // every frame up to this one is decided
+    std::optional<FrameNumber> veto_;
+    std::optional<FrameNumber> device_veto_;  // what the device has been told
+    MotionPoint end_;          // of the last body held
+    Tick end_tick_;
+    bool last_held_ = false;
+    std::deque<HeldFrame> frames_;
+};
+
+}  // namespace lockstep

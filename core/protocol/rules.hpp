@@ -1,0 +1,77 @@
+// The setpoint protocol's rules in one table: hold, arm, veto. Both sides decide by these functions alone.
+//
+// There is no commit message. The coordinator publishes frames, each axis decides from what it hears of all others.
+// Every slot every axis says which frames it holds and which it vetoes. At the check instant Y(k) = start(k) - V an
+// axis arms its device for frame k if it holds k, knows no veto of k or before, and has from every other axis a state
+// stamped in [Y-1-m, Y-1] that holds k; else it vetoes k. The device runs k at start(k) if it is armed, k-1 was run
+// and no veto came since; else it runs the tail of k-1 by itself. Nobody has to notice anything for the machine to stop.
+#pragma once
+
+#include <optional>
+
+#include "core/machine.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep::rules {
+
+/// A message sent in one slot is used in the next or the one after.
+inline constexpr Slot kHopSlots = 2;
+/// A veto must reach an axis over two hops before the frame starts: no check is made later than this before the start.
+inline constexpr Slot kLastCheckSlots = 2 * kHopSlots;
+
+constexpr Slot slot_of(Tick tick, Ticks slot) { return tick.value / slot.value; }
+constexpr Tick start_of(Slot number, Ticks slot) { return {number * slot.value}; }
+
+/// Y(k): when an axis decides, from a frame's start.
+constexpr Slot check_slot(Slot start, const ProtocolTiming& t) { return start - t.check_slots(); }
+
+enum class CheckTime { Early, Due, TooLate };
+
+/// Whether a frame that starts at `start` is to be checked at `now`. A late check decides as a punctual one would,
+/// since the evidence is fixed by its stamps.
+constexpr CheckTime check_time(Slot now, Slot start, const ProtocolTiming& t) {
+    if (now < check_slot(start, t)) { return CheckTime::Early; }
+    return now <= start - kLastCheckSlots ? CheckTime::Due : CheckTime::TooLate;
+}
+
+/// Whether a state with this stamp is evidence for a frame that starts at `start`.
+constexpr bool is_evidence(Slot stamp, Slot start, const ProtocolTiming& t) {
+    const Slot last = check_slot(start, t) - 1;
+    return stamp >= last - t.freshness_slots && stamp <= last;
+}
+
+/// Whether frame k may be armed for all this axis knows: the check itself.
+struct Evidence {
+    FrameNumber held = 0;                // by this axis
+    std::optional<FrameNumber> veto;     // the lowest known
+    bool every_other_holds = false;      // evidence from every other axis that it holds k
+};
+constexpr bool may_arm(FrameNumber k, const Evidence& e) {
+    return e.held >= k && !(e.veto && *e.veto <= k) && e.every_other_holds;
+}
+
+/// What is vetoed when k fails its check in time, and when its check comes too late: a late veto of k itself would
+/// reach only some.
+constexpr FrameNumber veto_when_failed(FrameNumber k) { return k; }
+constexpr FrameNumber veto_when_too_late(FrameNumber k) { return k + 1; }
+
+/// Whether an axis may still veto a frame that starts at `start` for reasons of its own (a switch, a fault).
+constexpr bool axis_may_veto(Slot now, Slot start) { return now <= start - kLastCheckSlots; }
+/// Whether the coordinator may veto it (a stop, a hold): before any axis has decided.
+constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) { return now < check_slot(start, t); }
+
+/// When a frame is first sent, and the last slot in which it is sent at all.
+constexpr Slot first_send_slot(Slot start, const ProtocolTiming& t) { return start - t.send_ahead_slots; }
+constexpr bool may_send(Slot now, Slot start, const ProtocolTiming& t) { return now <= start - t.send_deadline_slots(); }
+
+/// How long an axis or a coordinator may be unheard before it counts as gone for a machine at rest. A machine in
+/// motion never judges by this.
+constexpr Slot silence_slots(const ProtocolTiming& t) { return 3 * Slot{t.freshness_slots} + 10; }
+
+/// The lowest of two vetoes.
+constexpr std::optional<FrameNumber> merge(std::optional<FrameNumber> a, std::optional<FrameNumber> b) {
+    if (!a) { return b; }
+    return b && *b < *a ? b : a;
+}
+
+}  // namespace lockstep::rules
