@@ -1,0 +1,40 @@
+// A file seen through a window in memory: any stretch of it, without holding all of it.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lockstep {
+
+class FileWindow {
+public:
+    static constexpr std::size_t kWindowBytes = 1 << 20;
+
+    /// Error: not a file that can be read; the text names it and says why. Its size is that of this moment.
+    static std::expected<FileWindow, std::string> open(const std::filesystem::path& path);
+
+    std::uint64_t size() const { return size_; }
+
+    /// The bytes from offset on: `count` of them, or what is left of the file. Valid until the next call. None and
+    /// failed() where reading failed.
+    std::span<const std::uint8_t> view(std::uint64_t offset, std::size_t count);
+
+    bool failed() const { return failed_; }
+
+private:
+    FileWindow(std::ifstream file, std::uint64_t size) : file_(std::move(file)), size_(size) {}
+    void load(std::uint64_t offset, std::size_t count);
+
+    std::ifstream file_;
+    std::uint64_t size_;
+    std::uint64_t start_ = 0;  // of the window
+    std::vector<std::uint8_t> window_;
+    bool failed_ = false;
+};
+
+}  // namespace lockstep

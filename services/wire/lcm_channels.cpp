@@ -1,0 +1,27 @@
+#include "services/wire/lcm_channels.hpp"
+
+namespace lockstep {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+
+std::string upper(std::string_view name) {
+    std::string out;
+    for (const char c : name) {
+        out += is_lower(c) ? static_cast<char>(c - 'a' + 'A') : is_upper(c) || is_digit(c) ? c : '_';
+    }
+    return out;
+}
+
+}  // namespace
+
+AxisChannels channels_of(std::string_view machine, std::string_view axis) {
+    const std::string stem = "LOCKSTEP_" + upper(machine) + "_" + upper(axis);
+    return {.steps = stem + "_STEPS", .position = stem + "_POSITION", .run = stem + "_RUN"};
+}
+
+std::string job_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_JOB"; }
+
+}  // namespace lockstep

@@ -1,0 +1,52 @@
+// Decodes the record's messages from bytes that may be damaged. What lcm-gen makes trusts the lengths inside: a wrong
+// one makes it allocate gigabytes or throw. So the bytes are walked first, by the message's layout.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <lockstep/axis_position_t.hpp>
+#include <lockstep/job_t.hpp>
+#include <lockstep/run_t.hpp>
+#include <lockstep/step_batch_t.hpp>
+
+namespace lockstep {
+
+/// The fields in order: '8', '4', '1' are numbers of so many bytes, 's' is a string, 'n' the number of elements of the
+/// arrays that follow it, given by the size of their elements.
+template <typename Message>
+inline constexpr std::string_view kLcmLayout = "";
+template <>
+inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
+template <>
+inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888ssn8";
+template <>
+inline constexpr std::string_view kLcmLayout<run_t> = "8ss88881888188n888";
+template <>
+inline constexpr std::string_view kLcmLayout<step_batch_t> = "8ss8888n41";
+
+namespace detail {
+/// True: the bytes have exactly this layout.
+bool has_layout(std::span<const std::uint8_t> bytes, std::string_view layout);
+std::uint64_t big_endian(std::span<const std::uint8_t> bytes);
+}  // namespace detail
+
+/// Error: what is wrong with the bytes.
+template <typename Message>
+std::expected<Message, std::string> decode_lcm(std::span<const std::uint8_t> bytes) {
+    const std::string name = Message::getTypeName();
+    if (bytes.size() < 8 || detail::big_endian(bytes.first(8)) != static_cast<std::uint64_t>(Message::getHash())) {
+        return std::unexpected("not a " + name + " of this version");
+    }
+    if (!detail::has_layout(bytes.subspan(8), kLcmLayout<Message>)) { return std::unexpected("a damaged " + name); }
+    Message message{};
+    if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size())) {
+        return std::unexpected("a damaged " + name);
+    }
+    return message;
+}
+
+}  // namespace lockstep

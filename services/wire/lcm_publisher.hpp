@@ -1,0 +1,37 @@
+// Publishes the record. Nothing in control depends on it: what cannot be sent is counted, not waited for.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <memory>
+#include <string>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+class LcmPublisher {
+public:
+    /// Error: the URL, or a multicast route by which the record would leave the configured interface; and the remedy.
+    static std::expected<LcmPublisher, std::string> open(const NetworkConfig& network);
+
+    /// Message: a type that lcm-gen made. False: it was not sent.
+    template <typename Message>
+    bool publish(const std::string& channel, const Message& message) {
+        const bool sent = lcm_->publish(channel, &message) == 0;
+        failures_ += sent ? 0 : 1;
+        return sent;
+    }
+
+    std::uint64_t failures() const { return failures_; }
+
+private:
+    explicit LcmPublisher(std::unique_ptr<lcm::LCM> lcm) : lcm_(std::move(lcm)) {}
+
+    std::unique_ptr<lcm::LCM> lcm_;
+    std::uint64_t failures_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,82 @@
+#include "services/wire/translate_lcm.hpp"
+
+#include "core/axis/fsm.hpp"
+
+namespace lockstep {
+namespace {
+
+std::int64_t utime_of(Tick tick, std::int64_t tick_ns) { return tick.value * tick_ns / 1000; }
+
+/// LCM has no unsigned numbers: the same 64 bits.
+std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+}  // namespace
+
+axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
+    const AxisConfig& axis = machine.axes.at(state.axis);
+    const double steps_per_s = state.velocity.steps_per_tick() * machine.ticks_per_second();
+    axis_position_t out{};
+    out.utime = utime_of(state.tick, machine.tick_ns);
+    out.tick = state.tick.value;
+    out.machine = machine.name;
+    out.axis = axis.name;
+    out.position_steps = state.position.count();
+    out.position_mm = to_mm(axis, static_cast<double>(state.position.count()));
+    out.velocity_steps_per_s = steps_per_s;
+    out.velocity_mm_per_s = steps_per_s / axis.steps_per_mm;
+    out.state = name_of(state.phase);
+    out.homed = state.homed ? 1 : 0;
+    out.fault = state.fault;
+    out.following_error_steps = state.following_error_steps;
+    return out;
+}
+
+run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
+    run_t out{};
+    out.utime = utime_of(record.start, tick_ns);
+    out.machine = record.machine;
+    out.axis = record.axis;
+    out.incarnation = bits(record.incarnation);
+    out.sequence = bits(record.sequence);
+    out.epoch = bits(record.epoch);
+    out.frame = bits(record.frame);
+    out.tail = record.tail ? 1 : 0;
+    out.start_tick = record.start.value;
+    out.start_count = record.from.count();
+    out.start_phase = bits(record.from.phase());
+    out.cut = record.cut_at_steps ? 1 : 0;
+    out.zero_count = record.zero_count;
+    out.pieces = static_cast<std::int32_t>(record.pieces.size());
+    Position end = record.from;
+    for (const Piece& piece : record.pieces) {
+        out.ticks.push_back(piece.ticks.value);
+        out.velocity.push_back(piece.velocity.raw);
+        out.acceleration.push_back(piece.acceleration.raw);
+        end = end + piece.covered();
+    }
+    out.stop_count = record.cut_at_steps.value_or(end.count());
+    return out;
+}
+
+job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns) {
+    job_t out{};
+    out.utime = utime_of(now, tick_ns);
+    out.machine = record.machine;
+    out.coordinator = bits(record.coordinator);
+    out.job = bits(record.job);
+    out.kind = record.kind;
+    out.event = record.event;
+    out.outcome = record.outcome;
+    out.epoch = bits(record.epoch);
+    out.start_tick = record.start.value;
+    out.resume_block = record.resume_block;
+    out.resume_high = static_cast<std::int64_t>(record.resume_along >> 64);
+    out.resume_low = static_cast<std::int64_t>(record.resume_along);
+    out.config = record.config;
+    out.program = record.program;
+    out.axes = static_cast<std::int32_t>(record.start_count.size());
+    out.start_count = record.start_count;
+    return out;
+}
+
+}  // namespace lockstep

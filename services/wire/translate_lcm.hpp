@@ -1,0 +1,59 @@
+// What core knows, as the messages of the record (idl/lcm).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lockstep/axis_position_t.hpp>
+#include <lockstep/job_t.hpp>
+#include <lockstep/run_t.hpp>
+
+#include "core/machine.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+/// Where an axis is. state.axis is an index into the machine's axes.
+axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state);
+
+/// One frame or tail that an axis's device has run.
+struct RunRecord {
+    std::string machine;
+    std::string axis;
+    Identity incarnation = 0;
+    std::uint64_t sequence = 0;  // runs and tails are numbered without gaps
+    Epoch epoch = 0;             // 0: the axis's own move
+    FrameNumber frame = 0;
+    bool tail = false;
+    Tick start;
+    Position from;                             // machine coordinates
+    std::optional<std::int64_t> cut_at_steps;  // where pulses ceased before the pieces' end; none: they ran whole
+    std::int64_t zero_count = 0;               // machine coordinates = device count - zero_count
+    std::span<const Piece> pieces;
+};
+
+run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);
+
+/// What the coordinator says of a job: that it began, goes on in a new epoch, or ended. Fields as in job_t.
+struct JobRecord {
+    std::string machine;
+    Identity coordinator = 0;
+    std::uint64_t job = 0;
+    std::string kind;
+    std::string event;
+    std::string outcome;
+    Epoch epoch = 0;
+    Tick start;
+    std::int64_t resume_block = 0;
+    Int128 resume_along = 0;  // along that block's path
+    std::string config;
+    std::string program;
+    std::vector<std::int64_t> start_count;
+};
+
+job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns);
+
+}  // namespace lockstep
