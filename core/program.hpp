@@ -11,6 +11,8 @@ namespace lockstep {
 
 inline constexpr std::size_t kMaxProgramBlocks = 1'000'000;
 inline constexpr double kMaxFeed_mm_s = 1e6;
+inline constexpr double kMaxPlace_mm = 1e6;  // either way
+inline constexpr double kMaxDwell_s = 86'400;
 
 /// A straight move to an absolute place in machine coordinates, one number per axis of the program.
 struct LinearMove {

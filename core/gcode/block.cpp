@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/gcode/number_text.hpp"
+#include "core/program.hpp"
 
 namespace lockstep {
 namespace {
@@ -146,8 +147,8 @@ private:
             return;
         }
         if (!seconds) { return fail(*immediate, " does not say how long; write P and the seconds"); }
-        if (seconds->value < 0 || seconds->value > kMaxGcodeDwellSeconds) {
-            return fail(*seconds, " s is no dwell; it goes from 0 to " + number_text(kMaxGcodeDwellSeconds) + " s");
+        if (seconds->value < 0 || seconds->value > kMaxDwell_s) {
+            return fail(*seconds, " s is no dwell; it goes from 0 to " + number_text(kMaxDwell_s) + " s");
         }
         block_.dwell_seconds = seconds->value;
     }

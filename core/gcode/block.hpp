@@ -11,8 +11,6 @@
 
 namespace lockstep {
 
-inline constexpr double kMaxGcodeDwellSeconds = 86'400;
-
 namespace gcode {
 
 // The modal groups: at most one word of each in a block.

@@ -37,7 +37,7 @@ private:
             ended_ = begun_;
             return;
         }
-        if (line->words.empty() || (line->deletable && setup_.skip_deletable)) { return; }
+        if (line->words.empty() || (line->deletable && setup_.switches.skip_deletable)) { return; }
         begun_ = true;
         const auto block = read_gcode_block(line->words, letters_, number);
         if (!block) { return interpreter_.report(block.error()); }

@@ -38,11 +38,15 @@ struct GcodeAxis {
     double start_mm = 0;  // where the axis stands when the program begins
 };
 
+struct GcodeSwitches {
+    bool pause_at_m1 = false;    // optional stop
+    bool skip_deletable = true;  // block delete: lines that begin with / are not run
+};
+
 struct GcodeSetup {
     std::string program_name;
     std::vector<GcodeAxis> axes;
-    bool pause_at_m1 = false;     // the optional stop switch
-    bool skip_deletable = true;   // the block delete switch: lines that begin with / are not run
+    GcodeSwitches switches;
 };
 
 /// The same text and setup give the same program, bit for bit. Errors are in the order of lines.

@@ -58,7 +58,8 @@ private:
                     return GcodeError{number_, column, "the comment is not closed; write ) before the line's end"};
                 }
                 if (line_[end] == '(') {
-                    return GcodeError{number_, static_cast<int>(end) + 1, "a comment inside a comment; take one ( away"};
+                    return GcodeError{number_, static_cast<int>(end) + 1,
+                                      "a comment inside a comment; take one ( away"};
                 }
                 i = end;
             } else if (!is_printable(c)) {

@@ -103,7 +103,7 @@ TEST(Gcode, OffsetsDoNotMoveThePark) { EXPECT_THAT(last_target("G92 X50\nG28 X50
 TEST(Gcode, M0PausesAndM1OnlyWhereTheOptionalStopIsOn) {
     GcodeSetup setup = three_axes();
     EXPECT_EQ(parse("M0\nM1\n", setup).blocks.size(), 1U);
-    setup.pause_at_m1 = true;
+    setup.switches.pause_at_m1 = true;
     const Program program = parse("M0\nM1\n", setup);
     ASSERT_EQ(program.blocks.size(), 2U);
     EXPECT_TRUE(std::holds_alternative<Pause>(program.blocks[1].action));
@@ -137,7 +137,7 @@ TEST(Gcode, SpacesCommentsAndSmallLettersAreAllOne) {
 TEST(Gcode, ALineThatBeginsWithASlashIsRunOnlyWhenAsked) {
     GcodeSetup setup = three_axes();
     EXPECT_EQ(parse("/G0 X1\n / N5 Q1 G0 X1\n", setup).blocks.size(), 0U);
-    setup.skip_deletable = false;
+    setup.switches.skip_deletable = false;
     EXPECT_EQ(parse("/G0 X1\n", setup).blocks.size(), 1U);
 }
 

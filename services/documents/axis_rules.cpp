@@ -1,0 +1,185 @@
+#include <cmath>
+
+#include "core/program.hpp"
+#include "services/documents/machine_rules.hpp"
+#include "services/documents/names.hpp"
+#include "services/documents/problem_list.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kMinStepsPerMm = 1e-3;
+constexpr double kMaxStepsPerMm = 1e6;
+constexpr double kMinSpeed_mm_s = 1e-3;
+constexpr double kMaxSpeed_mm_s = 1e6;
+constexpr double kMinAccel_mm_s2 = 1e-3;
+constexpr double kMaxAccel_mm_s2 = 1e9;
+constexpr double kMaxRampSeconds = 600;  // slower is a mistake in the units
+constexpr double kMaxSteps = 0x1p40;     // far inside what plans in double are exact for
+
+class AxisRules {
+public:
+    AxisRules(const MachineConfig& machine, std::size_t index)
+        : machine_(machine), axis_(machine.axes[index]), index_(index),
+          problems_(index, "axis " + axis_.name + ": ") {}
+
+    std::vector<Problem> check() {
+        check_name();
+        check_ranges();
+        check_speeds();
+        check_ramp("max_accel_mm_s2", axis_.max_accel_mm_s2);
+        check_ramp("max_decel_mm_s2", axis_.max_decel_mm_s2);
+        check_travel();
+        check_homing_speeds();
+        check_homing_places();
+        check_plant();
+        return problems_.take();
+    }
+
+private:
+    void check_name() {
+        problems_.add_if(!is_axis_name(axis_.name), "name",
+                         "name is \"" + axis_.name + "\"; a letter, then letters, digits and _, at most " +
+                             std::to_string(kMaxAxisName));
+        for (std::size_t other = 0; other < index_; ++other) {
+            problems_.add_if(same_name(axis_.name, machine_.axes[other].name), "name",
+                             "the name is taken by axis " + std::to_string(other + 1) + ", " +
+                                 machine_.axes[other].name + "; names differ in more than capitals");
+        }
+    }
+
+    void speed(const std::string& key, double value) {
+        problems_.require_range(key, value, kMinSpeed_mm_s, kMaxSpeed_mm_s);
+    }
+    void accel(const std::string& key, double value) {
+        problems_.require_range(key, value, kMinAccel_mm_s2, kMaxAccel_mm_s2);
+    }
+    void place(const std::string& key, double value) {
+        problems_.require_range(key, value, -kMaxPlace_mm, kMaxPlace_mm);
+    }
+    void length(const std::string& key, double value) {
+        problems_.add_if(!(value > 0 && value <= kMaxPlace_mm), key,
+                         key + " is " + number_text(value) + "; it is above 0, to " + number_text(kMaxPlace_mm));
+    }
+
+    void check_ranges() {
+        problems_.require_range("steps_per_mm", axis_.steps_per_mm, kMinStepsPerMm, kMaxStepsPerMm);
+        speed("start_velocity_mm_s", axis_.start_velocity_mm_s);
+        speed("max_velocity_mm_s", axis_.max_velocity_mm_s);
+        accel("max_accel_mm_s2", axis_.max_accel_mm_s2);
+        accel("max_decel_mm_s2", axis_.max_decel_mm_s2);
+        place("position_min_mm", axis_.position_min_mm);
+        place("position_max_mm", axis_.position_max_mm);
+        speed("homing.search_velocity_mm_s", axis_.homing.search_velocity_mm_s);
+        speed("homing.latch_velocity_mm_s", axis_.homing.latch_velocity_mm_s);
+        length("homing.pulloff_mm", axis_.homing.pulloff_mm);
+        place("homing.switch_position_mm", axis_.homing.switch_position_mm);
+        place("homing.park_mm", axis_.homing.park_mm);
+        place("plant.start_position_mm", axis_.plant.start_position_mm);
+        length("plant.travel_margin_mm", axis_.plant.travel_margin_mm);
+        accel("plant.max_torque_accel_mm_s2", axis_.plant.max_torque_accel_mm_s2);
+        speed("plant.max_jump_mm_s", axis_.plant.max_jump_mm_s);
+    }
+
+    double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }
+
+    void above(const std::string& key, double value, const std::string& limit_key, double limit) {
+        problems_.add_if(value > limit, key, key + " is " + number_text(value) + ", above " + limit_key + " " +
+                                                 number_text(limit) + "; lower it");
+    }
+
+    void check_speeds() {
+        problems_.add_if(axis_.max_velocity_mm_s < axis_.start_velocity_mm_s, "max_velocity_mm_s",
+                         "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
+                             ", below start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) + "; raise it");
+        const double fastest = kMaxStepsPerTick / (tick_s() * axis_.steps_per_mm);
+        problems_.add_if(axis_.max_velocity_mm_s > fastest, "max_velocity_mm_s",
+                         "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
+                             ", more than half a step per tick; at most " + number_text(fastest) +
+                             ", or lower tick_ns or steps_per_mm");
+    }
+
+    void check_ramp(const std::string& key, double value) {
+        const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
+        problems_.add_if(value > most, key, key + " is " + number_text(value) +
+                                                ", full speed within a tick; at most " + number_text(most));
+        const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
+        problems_.add_if(value < least, key,
+                         key + " is " + number_text(value) + "; max_velocity_mm_s would take more than " +
+                             number_text(kMaxRampSeconds) + " s; at least " + number_text(least));
+    }
+
+    void check_travel() {
+        problems_.add_if(axis_.position_min_mm >= axis_.position_max_mm, "position_max_mm",
+                         "position_max_mm is " + number_text(axis_.position_max_mm) +
+                             ", not above position_min_mm " + number_text(axis_.position_min_mm) + "; raise it");
+        for (const auto& [key, mm] : {std::pair{"position_min_mm", axis_.position_min_mm},
+                                      std::pair{"position_max_mm", axis_.position_max_mm}}) {
+            problems_.add_if(std::abs(mm) * axis_.steps_per_mm > kMaxSteps, key,
+                             std::string(key) + " is more than " + number_text(kMaxSteps) + " steps from 0");
+        }
+    }
+
+    void check_homing_speeds() {
+        const HomingConfig& homing = axis_.homing;
+        problems_.add_if(homing.search_velocity_mm_s > axis_.start_velocity_mm_s, "homing.search_velocity_mm_s",
+                         "homing.search_velocity_mm_s is " + number_text(homing.search_velocity_mm_s) +
+                             ", above start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) +
+                             ": the switch stops the pulses at once; lower it");
+        above("homing.latch_velocity_mm_s", homing.latch_velocity_mm_s, "homing.search_velocity_mm_s",
+              homing.search_velocity_mm_s);
+    }
+
+    void check_homing_places() {
+        const HomingConfig& homing = axis_.homing;
+        const double margin = axis_.plant.travel_margin_mm;
+        const double middle = (axis_.position_min_mm + axis_.position_max_mm) / 2;
+        const double low = homing.toward_min ? axis_.position_min_mm - margin : middle;
+        const double high = homing.toward_min ? middle : axis_.position_max_mm + margin;
+        const double at = homing.switch_position_mm;
+        const bool on_limit_switch = homing.toward_min ? at <= low : at >= high;
+        problems_.add_if(at < low || at > high || on_limit_switch, "homing.switch_position_mm",
+                         "homing.switch_position_mm is " + number_text(at) + "; it lies on the side homed to, " +
+                             number_text(low) + " to " + number_text(high) + ", and not on the limit switch");
+        check_pulloff(homing.toward_min ? axis_.position_max_mm - at : at - axis_.position_min_mm);
+        problems_.add_if(homing.park_mm < axis_.position_min_mm || homing.park_mm > axis_.position_max_mm,
+                         "homing.park_mm",
+                         "homing.park_mm is " + number_text(homing.park_mm) + ", outside travel; " + travel());
+    }
+
+    void check_pulloff(double room) {
+        const double pulloff = axis_.homing.pulloff_mm;
+        problems_.add_if(pulloff * axis_.steps_per_mm < 1, "homing.pulloff_mm",
+                         "homing.pulloff_mm is " + number_text(pulloff) + ", less than a step; at least " +
+                             number_text(1 / axis_.steps_per_mm));
+        problems_.add_if(pulloff >= room, "homing.pulloff_mm",
+                         "homing.pulloff_mm is " + number_text(pulloff) +
+                             ", not less than the travel from the switch, " + number_text(room) + "; lower it");
+    }
+
+    void check_plant() {
+        const double low = axis_.position_min_mm - axis_.plant.travel_margin_mm;
+        const double high = axis_.position_max_mm + axis_.plant.travel_margin_mm;
+        const double at = axis_.plant.start_position_mm;
+        problems_.add_if(at <= low || at >= high, "plant.start_position_mm",
+                         "plant.start_position_mm is " + number_text(at) +
+                             ", not between the limit switches at " + number_text(low) + " and " + number_text(high));
+    }
+
+    std::string travel() const {
+        return "it goes from " + number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm);
+    }
+
+    const MachineConfig& machine_;
+    const AxisConfig& axis_;
+    std::size_t index_;
+    ProblemList problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> axis_problems(const MachineConfig& machine, std::size_t axis) {
+    return AxisRules(machine, axis).check();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,23 @@
+// What is wrong with a file a person wrote, in the form that editors and compilers use.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lockstep {
+
+struct Diagnostic {
+    int line = 0;    // from 1; 0: the file as a whole
+    int column = 0;  // from 1
+    std::string message;
+};
+
+using Diagnostics = std::vector<Diagnostic>;
+
+/// "file:line:column: error: message", or "file: error: message".
+std::string to_text(const std::string& file, const Diagnostic& diagnostic);
+
+/// One line each.
+std::string to_text(const std::string& file, const Diagnostics& diagnostics);
+
+}  // namespace lockstep

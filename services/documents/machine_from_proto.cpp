@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include "services/documents/machine_proto.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kDefaultLatchShare = 0.2;      // of the search velocity
+constexpr double kDefaultPulloff_mm = 2;
+constexpr double kDefaultPulloffShare = 0.1;    // of the travel, where that is less
+constexpr double kDefaultTravelMargin_mm = 2;
+constexpr double kDefaultPlantReserve = 1.5;    // what the motor can do over what the axis is asked
+
+/// Reads keys into their places; notes what must be there and is not.
+class Reader {
+public:
+    explicit Reader(std::vector<Problem>& missing, std::optional<std::size_t> axis = {})
+        : missing_(missing), axis_(axis) {}
+
+    template <typename T>
+    void require(bool present, const T& value, T& place, const std::string& key) {
+        if (!present) { missing_.push_back({{axis_, key}, key + " is missing; it has no default"}); }
+        place = value;
+    }
+
+private:
+    std::vector<Problem>& missing_;
+    std::optional<std::size_t> axis_;
+};
+
+ProtocolTiming read_timing(const proto::Timing& message) {
+    const ProtocolTiming preset;
+    return {
+        .slot_us = message.has_slot_us() ? message.slot_us() : preset.slot_us,
+        .stall_slots = message.has_stall_slots() ? message.stall_slots() : preset.stall_slots,
+        .freshness_slots = message.has_freshness_slots() ? message.freshness_slots() : preset.freshness_slots,
+        .send_ahead_slots = message.has_send_ahead_slots() ? message.send_ahead_slots() : preset.send_ahead_slots,
+        .frame_slots = message.has_frame_slots() ? message.frame_slots() : preset.frame_slots,
+    };
+}
+
+NetworkConfig read_network(const proto::Network& message) {
+    const NetworkConfig preset;
+    return {
+        .interface = message.has_interface() ? message.interface() : preset.interface,
+        .domain = message.has_domain() ? message.domain() : preset.domain,
+        .lcm_url = message.has_lcm_url() ? message.lcm_url() : preset.lcm_url,
+    };
+}
+
+/// Written without std::clamp, whose order of limits a file may break.
+double nearest_in_travel(const AxisConfig& axis, double mm) {
+    return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
+}
+
+HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
+    const double travel = axis.position_max_mm - axis.position_min_mm;
+    HomingConfig homing;
+    homing.toward_min = message.has_toward_min() ? message.toward_min() : homing.toward_min;
+    homing.search_velocity_mm_s =
+        message.has_search_velocity_mm_s() ? message.search_velocity_mm_s() : axis.start_velocity_mm_s;
+    homing.latch_velocity_mm_s = message.has_latch_velocity_mm_s() ? message.latch_velocity_mm_s()
+                                                                   : homing.search_velocity_mm_s * kDefaultLatchShare;
+    homing.pulloff_mm =
+        message.has_pulloff_mm() ? message.pulloff_mm() : std::min(kDefaultPulloff_mm, travel * kDefaultPulloffShare);
+    homing.switch_position_mm = message.has_switch_position_mm() ? message.switch_position_mm()
+                                : homing.toward_min              ? axis.position_min_mm
+                                                                 : axis.position_max_mm;
+    homing.park_mm = message.has_park_mm() ? message.park_mm() : nearest_in_travel(axis, 0);
+    return homing;
+}
+
+PlantConfig read_plant(const proto::Plant& message, const AxisConfig& axis) {
+    return {
+        .start_position_mm = message.has_start_position_mm() ? message.start_position_mm()
+                                                             : (axis.position_min_mm + axis.position_max_mm) / 2,
+        .travel_margin_mm = message.has_travel_margin_mm() ? message.travel_margin_mm() : kDefaultTravelMargin_mm,
+        .max_torque_accel_mm_s2 = message.has_max_torque_accel_mm_s2()
+                                      ? message.max_torque_accel_mm_s2()
+                                      : kDefaultPlantReserve * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2),
+        .max_jump_mm_s = message.has_max_jump_mm_s() ? message.max_jump_mm_s()
+                                                     : kDefaultPlantReserve * axis.start_velocity_mm_s,
+    };
+}
+
+AxisConfig read_axis(const proto::Axis& message, Reader reader) {
+    AxisConfig axis;
+    reader.require(message.has_name(), message.name(), axis.name, "name");
+    reader.require(message.has_steps_per_mm(), message.steps_per_mm(), axis.steps_per_mm, "steps_per_mm");
+    reader.require(message.has_start_velocity_mm_s(), message.start_velocity_mm_s(), axis.start_velocity_mm_s,
+                   "start_velocity_mm_s");
+    reader.require(message.has_max_velocity_mm_s(), message.max_velocity_mm_s(), axis.max_velocity_mm_s,
+                   "max_velocity_mm_s");
+    reader.require(message.has_max_accel_mm_s2(), message.max_accel_mm_s2(), axis.max_accel_mm_s2, "max_accel_mm_s2");
+    axis.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : axis.max_accel_mm_s2;
+    reader.require(message.has_position_min_mm(), message.position_min_mm(), axis.position_min_mm, "position_min_mm");
+    reader.require(message.has_position_max_mm(), message.position_max_mm(), axis.position_max_mm, "position_max_mm");
+    axis.homing = read_homing(message.homing(), axis);
+    axis.plant = read_plant(message.plant(), axis);
+    return axis;
+}
+
+}  // namespace
+
+MachineDraft machine_from_proto(const proto::Machine& message) {
+    MachineDraft draft;
+    Reader(draft.missing).require(message.has_name(), message.name(), draft.machine.name, "name");
+    draft.machine.tick_ns = message.has_tick_ns() ? message.tick_ns() : draft.machine.tick_ns;
+    draft.machine.timing = read_timing(message.timing());
+    draft.machine.network = read_network(message.network());
+    for (const proto::Axis& axis : message.axis()) {
+        draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));
+    }
+    return draft;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,61 @@
+#include "services/documents/machine_proto.hpp"
+
+namespace lockstep {
+namespace {
+
+void write_timing(const ProtocolTiming& timing, proto::Timing& message) {
+    message.set_slot_us(timing.slot_us);
+    message.set_stall_slots(timing.stall_slots);
+    message.set_freshness_slots(timing.freshness_slots);
+    message.set_send_ahead_slots(timing.send_ahead_slots);
+    message.set_frame_slots(timing.frame_slots);
+}
+
+void write_network(const NetworkConfig& network, proto::Network& message) {
+    message.set_interface(network.interface);
+    message.set_domain(network.domain);
+    message.set_lcm_url(network.lcm_url);
+}
+
+void write_homing(const HomingConfig& homing, proto::Homing& message) {
+    message.set_toward_min(homing.toward_min);
+    message.set_search_velocity_mm_s(homing.search_velocity_mm_s);
+    message.set_latch_velocity_mm_s(homing.latch_velocity_mm_s);
+    message.set_pulloff_mm(homing.pulloff_mm);
+    message.set_switch_position_mm(homing.switch_position_mm);
+    message.set_park_mm(homing.park_mm);
+}
+
+void write_plant(const PlantConfig& plant, proto::Plant& message) {
+    message.set_start_position_mm(plant.start_position_mm);
+    message.set_travel_margin_mm(plant.travel_margin_mm);
+    message.set_max_torque_accel_mm_s2(plant.max_torque_accel_mm_s2);
+    message.set_max_jump_mm_s(plant.max_jump_mm_s);
+}
+
+void write_axis(const AxisConfig& axis, proto::Axis& message) {
+    message.set_name(axis.name);
+    message.set_steps_per_mm(axis.steps_per_mm);
+    message.set_start_velocity_mm_s(axis.start_velocity_mm_s);
+    message.set_max_velocity_mm_s(axis.max_velocity_mm_s);
+    message.set_max_accel_mm_s2(axis.max_accel_mm_s2);
+    message.set_max_decel_mm_s2(axis.max_decel_mm_s2);
+    message.set_position_min_mm(axis.position_min_mm);
+    message.set_position_max_mm(axis.position_max_mm);
+    write_homing(axis.homing, *message.mutable_homing());
+    write_plant(axis.plant, *message.mutable_plant());
+}
+
+}  // namespace
+
+proto::Machine machine_to_proto(const MachineConfig& machine) {
+    proto::Machine message;
+    message.set_name(machine.name);
+    message.set_tick_ns(machine.tick_ns);
+    write_timing(machine.timing, *message.mutable_timing());
+    write_network(machine.network, *message.mutable_network());
+    for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
+    return message;
+}
+
+}  // namespace lockstep

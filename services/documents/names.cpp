@@ -1,0 +1,27 @@
+#include "services/documents/names.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+constexpr char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+constexpr bool is_letter(char c) { return small(c) >= 'a' && small(c) <= 'z'; }
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_name(std::string_view name, std::size_t longest, std::string_view marks) {
+    const auto may_stand = [&](char c) { return is_letter(c) || is_digit(c) || marks.contains(c); };
+    return !name.empty() && name.size() <= longest && is_letter(name.front()) && std::ranges::all_of(name, may_stand);
+}
+
+}  // namespace
+
+bool is_axis_name(std::string_view name) { return is_name(name, kMaxAxisName, "_"); }
+
+bool is_machine_name(std::string_view name) { return is_name(name, kMaxMachineName, "_-"); }
+
+bool same_name(std::string_view one, std::string_view other) {
+    return std::ranges::equal(one, other, {}, small, small);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,81 @@
+#include "services/documents/text_source.hpp"
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+namespace pb = google::protobuf;
+
+constexpr int kMaxNesting = 16;
+constexpr std::size_t kMaxDiagnostics = 50;
+
+/// Protobuf counts lines and columns from 0.
+class Collector : public pb::io::ErrorCollector {
+public:
+    void AddError(int line, pb::io::ColumnNumber column, const std::string& message) override {
+        if (found.size() < kMaxDiagnostics) {
+            found.push_back({std::max(line, 0) + 1, std::max(column, 0) + 1, message});
+        }
+    }
+    Diagnostics found;
+};
+
+/// Goes down from a block to a key, as far as the text has it.
+class Descent {
+public:
+    Descent(const pb::TextFormat::ParseInfoTree& tree, const pb::Descriptor& type) : tree_(&tree), type_(&type) {}
+
+    /// `index` is -1 where the key does not repeat.
+    void enter(const std::string& key, int index) {
+        const pb::FieldDescriptor* field = tree_ == nullptr ? nullptr : type_->FindFieldByName(key);
+        const auto at = field == nullptr ? pb::TextFormat::ParseLocation{} : tree_->GetLocation(field, index);
+        place_.is_of_key = at.line >= 0;
+        if (!place_.is_of_key) {
+            tree_ = nullptr;
+            return;
+        }
+        place_.line = at.line + 1;
+        place_.column = at.column + 1;
+        type_ = field->message_type();
+        tree_ = type_ == nullptr ? nullptr : tree_->GetTreeForNested(field, index);
+    }
+
+    TextSource::Place place() const { return place_; }
+
+private:
+    const pb::TextFormat::ParseInfoTree* tree_;
+    const pb::Descriptor* type_;
+    TextSource::Place place_;
+};
+
+}  // namespace
+
+Diagnostics TextSource::parse(std::string_view text, pb::Message& message) {
+    Collector errors;
+    pb::TextFormat::Parser parser;
+    parser.RecordErrorsTo(&errors);
+    parser.WriteLocationsTo(&places_);
+    parser.SetRecursionLimit(kMaxNesting);
+    pb::io::ArrayInputStream stream(text.data(), static_cast<int>(text.size()));
+    if (!parser.Parse(&stream, &message) && errors.found.empty()) {
+        errors.found.push_back({.message = "the text cannot be read"});
+    }
+    return errors.found;
+}
+
+TextSource::Place TextSource::place_of(const pb::Descriptor& type, const FieldPath& field) const {
+    Descent descent(places_, type);
+    if (field.axis) { descent.enter("axis", static_cast<int>(*field.axis)); }
+    for (std::size_t from = 0; from < field.key.size();) {
+        const std::size_t end = std::min(field.key.find('.', from), field.key.size());
+        descent.enter(field.key.substr(from, end - from), -1);
+        from = end + 1;
+    }
+    return descent.place();
+}
+
+}  // namespace lockstep

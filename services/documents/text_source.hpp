@@ -1,0 +1,29 @@
+// A protobuf message read from text, and where each of its keys stood.
+#pragma once
+
+#include <google/protobuf/text_format.h>
+
+#include <string_view>
+
+#include "services/documents/diagnostic.hpp"
+#include "services/documents/machine_rules.hpp"
+
+namespace lockstep {
+
+class TextSource {
+public:
+    /// Unknown and repeated keys, wrong types and wrong syntax are the answer; empty: all went well.
+    Diagnostics parse(std::string_view text, google::protobuf::Message& message);
+
+    struct Place {
+        int line = 1;
+        int column = 1;
+        bool is_of_key = false;  // the key itself; otherwise the block that it is missing from
+    };
+    Place place_of(const google::protobuf::Descriptor& type, const FieldPath& field) const;
+
+private:
+    google::protobuf::TextFormat::ParseInfoTree places_;
+};
+
+}  // namespace lockstep
