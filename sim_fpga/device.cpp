@@ -18,8 +18,8 @@ SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_
 }
 
 void SimulatedDevice::reset(std::int64_t tick_ns) {
-    for (const std::size_t word : {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead,
-                                   kCaptureTail}) {
+    for (const std::size_t word :
+         {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead, kCaptureTail}) {
         window_.store(word, 0);
     }
     window_.store(kVersion, kVersionValue);

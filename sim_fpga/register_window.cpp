@@ -114,8 +114,8 @@ std::expected<RegisterWindow, std::string> RegisterWindow::map(int file, const s
         ::close(file);
         return error;
     }
-    return RegisterWindow(std::shared_ptr<std::uint64_t[]>(static_cast<std::uint64_t*>(memory),
-                                                           Unmap{file, std::move(unlink_name)}));
+    return RegisterWindow(
+        std::shared_ptr<std::uint64_t[]>(static_cast<std::uint64_t*>(memory), Unmap{file, std::move(unlink_name)}));
 }
 
 }  // namespace lockstep

@@ -15,15 +15,11 @@ std::optional<SegmentEntry> SegmentRing::front() const {
 }
 
 void SegmentRing::drop_run(std::uint64_t run) {
-    for (auto oldest = front(); oldest && oldest->run == run; oldest = front()) {
-        ++tail_;
-    }
+    for (auto oldest = front(); oldest && oldest->run == run; oldest = front()) { ++tail_; }
 }
 
 void SegmentRing::drop_other_runs(std::uint64_t run) {
-    for (auto oldest = front(); oldest && oldest->run != run; oldest = front()) {
-        ++tail_;
-    }
+    for (auto oldest = front(); oldest && oldest->run != run; oldest = front()) { ++tail_; }
 }
 
 bool SegmentRing::take_frame(LoadedFrame& frame) {

@@ -161,8 +161,9 @@ std::expected<void, std::string> DeviceDriver::apply(const DeviceOrder& order) {
 
 /// In this order: withdrawn before permitted, and the run's number last. The device reads them the other way round.
 DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
-    if (order.run == 0) {
-        return std::unexpected("device: runs are numbered from 1");
+    if (order.run == 0 || order.run == window_.load(kRunRequest)) {
+        return std::unexpected("device: run " + std::to_string(order.run) +
+                               " not begun: its number must be new, and not 0; go on from what RUN reads");
     }
     window_.store(kArmed, 0);
     window_.store(kVeto, kNoVeto);
@@ -194,9 +195,7 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
     for (const Piece& piece : order.track.body) {
         writer.write(piece, &piece == order.track.body.begin() ? kSegmentRingFlagsFirst : 0);
     }
-    for (const Piece& piece : order.track.tail) {
-        writer.write(piece, kSegmentRingFlagsTail);
-    }
+    for (const Piece& piece : order.track.tail) { writer.write(piece, kSegmentRingFlagsTail); }
     writer.publish();
     return {};
 }
@@ -225,7 +224,8 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
         const std::size_t slot = index % kCaptureRingEntries;
         const std::uint64_t word = window_.load(kCaptureRing + slot * kCaptureRingEntryBytes);
-        on_step({.tick = {static_cast<std::int64_t>(word) >> 1}, .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)});
+        on_step(
+            {.tick = {static_cast<std::int64_t>(word) >> 1}, .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)});
     }
     window_.store(kCaptureTail, tail + *captured);
     return captured;

@@ -23,7 +23,8 @@ public:
     /// One consistent look. Error where the device stopped in the middle of an update, or its words make no sense.
     std::expected<DeviceStatus, std::string> read() const;
 
-    /// Error, and nothing has changed: a frame that does not fit the ring or has no body, or that comes before any run.
+    /// Error, and nothing has changed: a frame that does not fit the ring or has no body, or that comes before any run;
+    /// a run whose number is not new.
     std::expected<void, std::string> apply(const DeviceOrder& order);
 
     /// Calls back with every step made since the last call, in order. Returns how many. Error: wild ring ends.
