@@ -42,6 +42,7 @@ struct Frame {
     Ticks ticks;
     bool last = false;  // the epoch ends with this frame, at rest; the tail is empty
     std::vector<AxisTrack> axes;
+    bool operator==(const Frame&) const = default;
 };
 
 /// The six states of an axis, and Fault.
@@ -68,6 +69,7 @@ struct AxisState {
     std::uint16_t command_fault = 0;    // why it was refused; 0: it was carried out
     std::uint64_t config_hash = 0;      // of the configuration it runs with
     std::uint64_t refused_frames = 0;   // since start
+    bool operator==(const AxisState&) const = default;
 };
 
 enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow };
@@ -78,6 +80,7 @@ struct AxisCommand {
     std::uint64_t sequence = 0;  // rises; an axis carries out each once
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
+    bool operator==(const AxisCommand&) const = default;
 };
 
 enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding, Paused, Stopping, Fault };
@@ -99,6 +102,7 @@ struct MachineState {
     double remaining_s = 0;
     std::uint32_t axes_present = 0;      // bit i: axis i is heard
     std::uint64_t config_hash = 0;
+    bool operator==(const MachineState&) const = default;
 };
 
 enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset };
@@ -110,6 +114,7 @@ struct Command {
     CommandKind kind = CommandKind::Stop;
     std::uint32_t axes = 0;              // Home: bit i for axis i; 0 means all
     std::uint64_t program = 0;           // Move, Run: the program sent before in chunks
+    bool operator==(const Command&) const = default;
 };
 
 /// A part of a program's Protobuf bytes. Each part is answered by a Reply; parts may come again or out of order.
@@ -120,6 +125,7 @@ struct ProgramChunk {
     std::uint32_t index = 0;
     std::uint32_t count = 0;
     std::vector<std::uint8_t> bytes;
+    bool operator==(const ProgramChunk&) const = default;
 };
 
 enum class ReplyStatus : std::uint8_t { Accepted, Refused };
@@ -131,6 +137,7 @@ struct Reply {
     std::uint16_t fault = 0;   // FaultCode of a refusal
     std::uint64_t job = 0;     // the job a command began
     std::string text;          // what, where, the limit and the remedy, for a person
+    bool operator==(const Reply&) const = default;
 };
 
 }  // namespace lockstep
