@@ -43,7 +43,11 @@ namespace lockstep {
     X(FollowingError, 121, "following-error", "the encoder says that steps were lost",                                \
       "lower the axis's speed or acceleration, then: lockstep reset, lockstep home")                                  \
     X(FrameLate, 122, "frame-late", "a frame came too late to be armed", "the machine comes to rest by itself; "      \
-      "give the slots more time in the configuration if it happens often")
+      "give the slots more time in the configuration if it happens often")                                            \
+    X(PositionMismatch, 123, "position-mismatch", "an axis is not where its frames end",                              \
+      "see its log; lockstep reset, lockstep home")                                                                   \
+    X(FramesDiffer, 124, "frames-differ", "the axes did not all run the same frames: one was cut off",                \
+      "check the network; lockstep reset, lockstep home")
 
 enum class FaultCode : std::uint16_t {
     None = 0,

@@ -13,6 +13,7 @@ inline constexpr std::size_t kMaxAxes = 32;
 
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
+    int sequence = 0;                 // axes with lower numbers home first; equal ones together
     bool toward_min = true;
     double search_velocity_mm_s = 0;  // not above start_velocity: the switch stops the pulses at once
     double latch_velocity_mm_s = 0;   // the slow second approach that sets the zero

@@ -45,6 +45,7 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
 
 void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     device_ = device;
+    if (mode_ == Mode::Rest) { run_ = std::max(run_, device.run); }  // a device may have outlived another process
     if (mode_ != Mode::Rest && device.run == run_) {
         record_progress(device, out);
         follow_speed(device);
@@ -188,7 +189,6 @@ bool AxisController::adopts(Identity coordinator, Slot now, AxisOutputs& out) {
     if (coordinator_ && (!silent || mode_ != Mode::Rest)) { return false; }
     coordinator_ = coordinator;
     coordinator_heard_ = now;
-    command_taken_ = command_done_ = 0;
     out.notices.push_back({AxisNotice::Kind::CoordinatorAdopted, FaultCode::None, coordinator});
     return true;
 }

@@ -1,0 +1,159 @@
+// The coordinator as a state machine fed with messages and time: plans jobs, runs their epochs, homes axes, answers
+// clients. `step` is all there is to it; it does no I/O and reads no clock.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/coordinator/epoch_runner.hpp"
+#include "core/coordinator/program_plan.hpp"
+#include "core/faults.hpp"
+#include "core/machine.hpp"
+#include "core/program.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+enum class JobKind : std::uint8_t { Home, Move, Run };
+enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
+
+/// What the record says of a job: enough to do it again.
+struct JobEvent {
+    enum class Kind : std::uint8_t { Begun, EpochBegun, Ended };
+    Kind kind = Kind::Begun;
+    std::uint64_t job = 0;
+    JobKind job_kind = JobKind::Run;
+    JobOutcome outcome = JobOutcome::Done;        // Ended
+    std::shared_ptr<const Program> program;       // Begun; null for homing
+    Epoch epoch = 0;                              // EpochBegun: its frame 1 starts at `start`
+    Tick start;
+    PathPlace place;                              // EpochBegun: where on the program it starts
+    std::vector<std::int64_t> start_counts;       // Begun
+};
+
+struct CoordinatorNotice {
+    enum class Kind : std::uint8_t { Phase, Fault, AxisSeen, AxisGone, Interrupted, EpochBegun };
+    Kind kind = Kind::Phase;
+    FaultCode fault = FaultCode::None;
+    std::uint64_t number = 0;  // an axis, an epoch, a phase: as the kind says
+};
+
+struct CoordinatorInputs {
+    Tick now;
+    std::span<const AxisState> axes;
+    std::span<const MachineState> others;  // coordinators of the same machine; its own states are left out by identity
+    std::span<const Command> commands;
+};
+
+struct CoordinatorOutputs {
+    std::optional<MachineState> state;  // once a slot
+    std::vector<Frame> frames;
+    std::vector<AxisCommand> axis_commands;
+    std::vector<Reply> replies;
+    std::vector<JobEvent> jobs;
+    std::vector<CoordinatorNotice> notices;
+    bool must_quit = false;             // an older coordinator runs this machine
+};
+
+class Coordinator {
+public:
+    /// `identity` is the machine time of its start in ticks: later coordinators have larger ones, and epochs are
+    /// numbered upwards from it, so that none is used twice.
+    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash);
+
+    /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
+    void accept_program(std::uint64_t id, Program program);
+
+    CoordinatorOutputs step(const CoordinatorInputs& inputs);
+
+    MachinePhase phase() const { return phase_; }
+
+private:
+    struct Job {
+        std::uint64_t number = 0;
+        JobKind kind = JobKind::Run;
+        std::shared_ptr<const Program> program;
+        std::vector<Stretch> stretches;
+        std::size_t stretch = 0;
+        Subticks planned;               // all stretches
+        Subticks planned_behind;        // stretches done
+        std::uint32_t axes = 0;         // homing: which
+        int sequence = 0;               // homing: the group in progress
+        PathPlace resume;               // held or interrupted: where it goes on
+        std::vector<PathMove> remaining;
+        std::vector<Position> positions;
+        int fruitless = 0;              // epochs in a row that ran no frame
+    };
+    enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
+
+    void hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
+    void take_command(const Command& command, CoordinatorOutputs& out);
+    Reply answer(const Command& command, CoordinatorOutputs& out);
+    Reply home(const Command& command, CoordinatorOutputs& out);
+    Reply run(const Command& command, CoordinatorOutputs& out);
+    Reply interrupt(const Command& command, Intent intent, CoordinatorOutputs& out);
+    Reply resume(const Command& command, CoordinatorOutputs& out);
+    Reply reset(const Command& command, CoordinatorOutputs& out);
+    Reply emergency(const Command& command, CoordinatorOutputs& out);
+    Reply accepted(const Command& command) const;
+    static Reply refused(const Command& command, FaultCode why, std::string text);
+    std::optional<Reply> refuse_unless_ready(const Command& command) const;
+
+    void watch_axes(CoordinatorOutputs& out);
+    void advance(CoordinatorOutputs& out);
+    void advance_homing(CoordinatorOutputs& out);
+    void send_homing_group(CoordinatorOutputs& out);
+    void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
+                     CoordinatorOutputs& out);
+    void begin_stretch(CoordinatorOutputs& out);
+    void settle(const EpochEnd& end, CoordinatorOutputs& out);
+    void interrupted(const EpochEnd& end, CoordinatorOutputs& out);
+    void go_on(CoordinatorOutputs& out);
+    void end_job(JobOutcome outcome, CoordinatorOutputs& out);
+    void fail(FaultCode fault, std::size_t axis, CoordinatorOutputs& out);
+    void enter(MachinePhase phase, CoordinatorOutputs& out);
+
+    void order(std::size_t axis, AxisCommandKind kind);
+    bool order_done(std::size_t axis) const;
+    bool present(std::size_t axis) const { return views_[axis].present(now_slot_, machine_.timing); }
+    std::optional<std::size_t> missing_axis() const;
+    AxisCounts counts() const;
+    MachineState state() const;
+
+    static constexpr std::size_t kProgramsKept = 4;
+    static constexpr std::size_t kClientsRemembered = 32;
+    static constexpr int kMaxFruitless = 3;
+
+    MachineConfig machine_;
+    Identity identity_;
+    std::uint64_t config_hash_;
+    Ticks slot_;
+    ProgramPlanner planner_;
+    EpochRunner runner_;
+    std::vector<AxisView> views_;
+    std::vector<std::optional<AxisCommand>> orders_;  // the newest to each axis, until done
+    std::uint64_t order_sequence_;  // like epochs: above all that earlier coordinators used
+
+    MachinePhase phase_ = MachinePhase::Waiting;
+    FaultCode fault_ = FaultCode::None;
+    std::size_t fault_axis_ = 0;
+    Intent intent_ = Intent::GoOn;
+    bool moving_ = false;  // an epoch is in progress
+    std::optional<Job> job_;
+    std::uint64_t jobs_ = 0;
+    Epoch epochs_ = 0;
+    std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;
+    std::vector<std::uint64_t> program_order_;
+    std::map<Identity, Reply> replies_;  // the last one to each client, for commands that come again
+
+    Tick now_;
+    Slot now_slot_ = 0;
+    std::optional<Slot> first_slot_;
+    std::optional<Slot> state_slot_;
+};
+
+}  // namespace lockstep

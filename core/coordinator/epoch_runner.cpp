@@ -1,0 +1,125 @@
+#include "core/coordinator/epoch_runner.hpp"
+
+#include <algorithm>
+
+#include "core/motion/interpolate.hpp"
+
+namespace lockstep {
+
+EpochRunner::EpochRunner(const MachineConfig& machine, Identity coordinator)
+    : machine_(machine), coordinator_(coordinator), slot_(machine.slot_ticks()) {}
+
+void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot now) {
+    constexpr Slot kMargin = 2;
+    epoch_ = epoch;
+    path_ = std::move(path);
+    at_ = std::move(at);
+    start_ = rules::start_of(now + machine_.timing.send_ahead_slots + kMargin, slot_);
+    made_ = {};
+    sent_ = 0;
+    ended_ = late_ = false;
+    veto_.reset();
+    in_flight_.clear();
+    endings_.assign(1, Ending{0, path_.moves.front().profile.phases[0].from, at_, false});
+}
+
+std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
+    FrameNumber held_by_all = sent_;
+    for (const AxisView& axis : axes) {
+        const bool follows = axis.state && axis.state->epoch == epoch_;
+        held_by_all = std::min(held_by_all, follows ? axis.state->held : 0);
+    }
+    std::vector<Frame> frames;
+    std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });
+    for (const Frame& frame : in_flight_) {
+        const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), machine_.timing);
+        if (in_time && frame.number > held_by_all && !(veto_ && *veto_ <= frame.number)) { frames.push_back(frame); }
+    }
+    while (!ended_) {
+        const Slot start = rules::slot_of(start_ + made_, slot_);
+        if (now < rules::first_send_slot(start, machine_.timing)) { break; }
+        if (!rules::may_send(now, start, machine_.timing)) {
+            ended_ = late_ = true;
+            break;
+        }
+        frames.push_back(make_frame());
+        in_flight_.push_back(frames.back());
+    }
+    return frames;
+}
+
+Frame EpochRunner::make_frame() {
+    const Ticks whole = path_.duration().ceil();
+    const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
+    Frame frame{.coordinator = coordinator_, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
+    frame.axes.resize(at_.size());
+    for (std::size_t i = 0; i < at_.size(); ++i) { frame.axes[i].from = at_[i]; }
+    std::vector<Piece> pieces(at_.size());
+    PieceSource source(path_, made_, made_ + ticks, at_);
+    while (source.next(pieces)) {
+        for (std::size_t i = 0; i < pieces.size(); ++i) { (void)frame.axes[i].body.push_back(pieces[i]); }
+    }
+    made_ += ticks;
+    frame.last = ended_ = made_ == whole;
+    endings_.push_back(frame.last ? Ending{path_.moves.size(), {}, at_, true} : fill_tail(frame, made_));
+    if (endings_.size() > kEndingsKept) { endings_.pop_front(); }
+    return frame;
+}
+
+EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
+    const Path tail = brake_from(path_, subticks(end));
+    const std::size_t move = path_.move_at(subticks(end));
+    Ending ending{move, path_.moves[move].profile.at(subticks(end) - path_.moves[move].start), at_, false};
+    if (tail.empty()) { return ending; }
+    std::vector<Piece> pieces(at_.size());
+    PieceSource source(tail, Ticks{0}, tail.duration().ceil(), ending.positions);
+    while (source.next(pieces)) {
+        for (std::size_t i = 0; i < pieces.size(); ++i) { (void)frame.axes[i].tail.push_back(pieces[i]); }
+    }
+    while (path_.moves[ending.move].block != tail.moves.back().block) { ++ending.move; }
+    ending.along = tail.moves.back().profile.phases.back().to;
+    return ending;
+}
+
+void EpochRunner::stop(Slot now) {
+    ended_ = true;
+    if (veto_) { return; }
+    const auto undecided = std::find_if(in_flight_.begin(), in_flight_.end(), [&](const Frame& frame) {
+        return rules::coordinator_may_veto(now, rules::slot_of(frame.start, slot_), machine_.timing);
+    });
+    veto_ = undecided == in_flight_.end() ? sent_ + 1 : undecided->number;
+}
+
+std::optional<EpochEnd> EpochRunner::judge(Slot now, std::span<const AxisView> axes) const {
+    const Slot first_start = rules::slot_of(start_, slot_);
+    std::optional<FrameNumber> ran;
+    EpochEnd end;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (!axes[i].present(now, machine_.timing)) { continue; }
+        const AxisState& state = *axes[i].state;
+        const bool took_part = state.epoch == epoch_;
+        const bool settled = state.at_rest && (took_part || state.stamp > first_start + rules::kHopSlots);
+        if (!settled) { return std::nullopt; }
+        const FrameNumber its = took_part ? state.ran : 0;
+        if (ran && *ran != its) {
+            end.kind = EpochEnd::Kind::FramesDiffer;
+            end.axis = i;
+        }
+        ran = ran ? std::max(*ran, its) : its;
+    }
+    const FrameNumber oldest = sent_ + 1 - endings_.size();
+    if (!ran || *ran > sent_ || *ran < oldest) { end.kind = EpochEnd::Kind::FramesDiffer; }
+    if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
+    const Ending& ending = endings_[*ran - oldest];
+    end = {ending.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, *ran, ending.move, ending.along,
+           ending.positions};
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (axes[i].present(now, machine_.timing) && axes[i].state->position != ending.positions[i] && *ran > 0) {
+            end.kind = EpochEnd::Kind::Misplaced;
+            end.axis = i;
+        }
+    }
+    return end;
+}
+
+}  // namespace lockstep

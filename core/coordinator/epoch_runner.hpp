@@ -1,0 +1,93 @@
+// The coordinator's side of hold, arm, veto, for one epoch: makes frames in time, repeats what is not yet held, and
+// judges from the axes' states how the epoch ended.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/motion/lookahead.hpp"
+#include "core/protocol/messages.hpp"
+#include "core/protocol/rules.hpp"
+
+namespace lockstep {
+
+/// The newest state heard of an axis.
+struct AxisView {
+    std::optional<AxisState> state;
+    Slot heard = 0;
+    bool present(Slot now, const ProtocolTiming& timing) const {
+        return state && now - heard <= rules::silence_slots(timing);
+    }
+};
+
+/// Where an epoch came to rest.
+struct EpochEnd {
+    enum class Kind : std::uint8_t {
+        Complete,     // the path is done
+        Interrupted,  // all axes ran the same frames and rest on the path, where they should
+        FramesDiffer, // they did not all run the same frames
+        Misplaced,    // one is not where its frames end
+    };
+    Kind kind = Kind::Complete;
+    std::size_t axis = 0;             // Misplaced, FramesDiffer: which
+    FrameNumber ran = 0;
+    std::size_t move = 0;             // Interrupted: the path's move it rests in
+    Displacement along;               // and how far along that
+    std::vector<Position> positions;  // exactly
+};
+
+class EpochRunner {
+public:
+    EpochRunner(const MachineConfig& machine, Identity coordinator);
+
+    /// Starts as soon as the send-ahead allows. `at` is where each axis rests, exactly.
+    void begin(Epoch epoch, Path path, std::vector<Position> at, Slot now);
+
+    /// What is to be sent in this slot: new frames that are due and old ones that somebody lacks.
+    std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
+
+    /// No more frames; the lowest frame that nobody can have decided on yet is vetoed.
+    void stop(Slot now);
+
+    /// Nothing while anybody may still move. Axes not present are left out of the judgement.
+    std::optional<EpochEnd> judge(Slot now, std::span<const AxisView> axes) const;
+
+    const Path& path() const { return path_; }
+    Tick start() const { return start_; }
+    Epoch epoch() const { return epoch_; }
+    FrameNumber sent() const { return sent_; }
+    std::optional<FrameNumber> veto() const { return veto_; }
+    bool was_late() const { return late_; }
+
+private:
+    struct Ending {
+        std::size_t move = 0;
+        Displacement along;
+        std::vector<Position> positions;
+        bool complete = false;
+    };
+    static constexpr std::size_t kEndingsKept = 64;  // far more frames than can be in flight
+
+    Frame make_frame();
+    Ending fill_tail(Frame& frame, Ticks end) const;
+
+    MachineConfig machine_;
+    Identity coordinator_;
+    Ticks slot_;
+    Epoch epoch_ = 0;
+    Path path_;
+    Tick start_;
+    Ticks made_;                       // of the path, in frames so far
+    std::vector<Position> at_;
+    FrameNumber sent_ = 0;
+    bool ended_ = false;               // no more frames will be made
+    bool late_ = false;
+    std::optional<FrameNumber> veto_;
+    std::deque<Frame> in_flight_;      // not begun yet
+    std::deque<Ending> endings_;       // how the epoch ends if this frame is the last run; the newest is sent_
+};
+
+}  // namespace lockstep
