@@ -38,13 +38,13 @@ public:
 
 private:
     void check_name() {
-        problems_.add_if(!is_axis_name(axis_.name), "name",
-                         "name is \"" + axis_.name + "\"; a letter, then letters, digits and _, at most " +
-                             std::to_string(kMaxAxisName));
+        problems_.require(is_axis_name(axis_.name), "name",
+                          "name is \"" + axis_.name + "\"; a letter, then letters, digits and _, at most " +
+                              std::to_string(kMaxAxisName));
         for (std::size_t other = 0; other < index_; ++other) {
-            problems_.add_if(same_name(axis_.name, machine_.axes[other].name), "name",
-                             "the name is taken by axis " + std::to_string(other + 1) + ", " +
-                                 machine_.axes[other].name + "; names differ in more than capitals");
+            problems_.require(!same_name(axis_.name, machine_.axes[other].name), "name",
+                              "the name is taken by axis " + std::to_string(other + 1) + ", " +
+                                  machine_.axes[other].name + "; names differ in more than capitals");
         }
     }
 
@@ -58,8 +58,8 @@ private:
         problems_.require_range(key, value, -kMaxPlace_mm, kMaxPlace_mm);
     }
     void length(const std::string& key, double value) {
-        problems_.add_if(!(value > 0 && value <= kMaxPlace_mm), key,
-                         key + " is " + number_text(value) + "; it is above 0, to " + number_text(kMaxPlace_mm));
+        problems_.require(value > 0 && value <= kMaxPlace_mm, key,
+                          key + " is " + number_text(value) + "; it is above 0, to " + number_text(kMaxPlace_mm));
     }
 
     void check_ranges() {
@@ -81,94 +81,106 @@ private:
         speed("plant.max_jump_mm_s", axis_.plant.max_jump_mm_s);
     }
 
-    double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }
-
-    void above(const std::string& key, double value, const std::string& limit_key, double limit) {
-        problems_.add_if(value > limit, key, key + " is " + number_text(value) + ", above " + limit_key + " " +
-                                                 number_text(limit) + "; lower it");
-    }
-
     void check_speeds() {
-        problems_.add_if(axis_.max_velocity_mm_s < axis_.start_velocity_mm_s, "max_velocity_mm_s",
-                         "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
-                             ", below start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) + "; raise it");
+        problems_.require_between({"max_velocity_mm_s", "start_velocity_mm_s"},
+                                  axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
+                                  "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
+                                      ", below start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) +
+                                      "; raise it");
         const double fastest = kMaxStepsPerTick / (tick_s() * axis_.steps_per_mm);
-        problems_.add_if(axis_.max_velocity_mm_s > fastest, "max_velocity_mm_s",
-                         "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
-                             ", more than half a step per tick; at most " + number_text(fastest) +
-                             ", or lower tick_ns or steps_per_mm");
+        problems_.require_between({"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= fastest,
+                                  "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
+                                      ", more than half a step per tick; at most " + number_text(fastest) +
+                                      ", or lower tick_ns or steps_per_mm");
     }
 
-    void check_ramp(const std::string& key, double value) {
+    void check_ramp(std::string_view key, double value) {
+        const std::string what = std::string(key) + " is " + number_text(value);
         const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
-        problems_.add_if(value > most, key, key + " is " + number_text(value) +
-                                                ", full speed within a tick; at most " + number_text(most));
+        problems_.require_between({key, "steps_per_mm"}, value <= most,
+                                  what + ", full speed within a tick; at most " + number_text(most));
         const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
-        problems_.add_if(value < least, key,
-                         key + " is " + number_text(value) + "; max_velocity_mm_s would take more than " +
-                             number_text(kMaxRampSeconds) + " s; at least " + number_text(least));
+        problems_.require_between({key, "max_velocity_mm_s"}, value >= least,
+                                  what + "; max_velocity_mm_s would take more than " + number_text(kMaxRampSeconds) +
+                                      " s; at least " + number_text(least));
     }
 
     void check_travel() {
-        problems_.add_if(axis_.position_min_mm >= axis_.position_max_mm, "position_max_mm",
-                         "position_max_mm is " + number_text(axis_.position_max_mm) +
-                             ", not above position_min_mm " + number_text(axis_.position_min_mm) + "; raise it");
-        for (const auto& [key, mm] : {std::pair{"position_min_mm", axis_.position_min_mm},
-                                      std::pair{"position_max_mm", axis_.position_max_mm}}) {
-            problems_.add_if(std::abs(mm) * axis_.steps_per_mm > kMaxSteps, key,
-                             std::string(key) + " is more than " + number_text(kMaxSteps) + " steps from 0");
-        }
+        problems_.require_between({"position_max_mm", "position_min_mm"},
+                                  axis_.position_max_mm > axis_.position_min_mm,
+                                  "position_max_mm is " + number_text(axis_.position_max_mm) +
+                                      ", not above position_min_mm " + number_text(axis_.position_min_mm) +
+                                      "; raise it");
+        check_steps("position_min_mm", axis_.position_min_mm);
+        check_steps("position_max_mm", axis_.position_max_mm);
+    }
+
+    void check_steps(std::string_view key, double mm) {
+        problems_.require_between({key, "steps_per_mm"}, std::abs(mm) * axis_.steps_per_mm <= kMaxSteps,
+                                  std::string(key) + " is " + number_text(mm) + ", more than " +
+                                      number_text(kMaxSteps) + " steps from 0; bring it nearer");
     }
 
     void check_homing_speeds() {
-        const HomingConfig& homing = axis_.homing;
-        problems_.add_if(homing.search_velocity_mm_s > axis_.start_velocity_mm_s, "homing.search_velocity_mm_s",
-                         "homing.search_velocity_mm_s is " + number_text(homing.search_velocity_mm_s) +
-                             ", above start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) +
-                             ": the switch stops the pulses at once; lower it");
-        above("homing.latch_velocity_mm_s", homing.latch_velocity_mm_s, "homing.search_velocity_mm_s",
-              homing.search_velocity_mm_s);
+        const double search = axis_.homing.search_velocity_mm_s;
+        const double latch = axis_.homing.latch_velocity_mm_s;
+        problems_.require_between({"homing.search_velocity_mm_s", "start_velocity_mm_s"},
+                                  search <= axis_.start_velocity_mm_s,
+                                  "homing.search_velocity_mm_s is " + number_text(search) +
+                                      ", above start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) +
+                                      ": the switch stops the pulses at once; lower it");
+        problems_.require_between({"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
+                                  "homing.latch_velocity_mm_s is " + number_text(latch) +
+                                      ", above homing.search_velocity_mm_s " + number_text(search) + "; lower it");
     }
 
     void check_homing_places() {
         const HomingConfig& homing = axis_.homing;
-        const double margin = axis_.plant.travel_margin_mm;
+        check_switch();
+        check_pulloff(homing.toward_min ? axis_.position_max_mm - homing.switch_position_mm
+                                        : homing.switch_position_mm - axis_.position_min_mm);
+        problems_.require_between({"homing.park_mm", "position_min_mm", "position_max_mm"},
+                                  homing.park_mm >= axis_.position_min_mm && homing.park_mm <= axis_.position_max_mm,
+                                  "homing.park_mm is " + number_text(homing.park_mm) +
+                                      ", outside travel; it goes from " + number_text(axis_.position_min_mm) + " to " +
+                                      number_text(axis_.position_max_mm));
+    }
+
+    /// On the side homed to, and reached before the limit switch is.
+    void check_switch() {
+        const double at = axis_.homing.switch_position_mm;
         const double middle = (axis_.position_min_mm + axis_.position_max_mm) / 2;
-        const double low = homing.toward_min ? axis_.position_min_mm - margin : middle;
-        const double high = homing.toward_min ? middle : axis_.position_max_mm + margin;
-        const double at = homing.switch_position_mm;
-        const bool on_limit_switch = homing.toward_min ? at <= low : at >= high;
-        problems_.add_if(at < low || at > high || on_limit_switch, "homing.switch_position_mm",
-                         "homing.switch_position_mm is " + number_text(at) + "; it lies on the side homed to, " +
-                             number_text(low) + " to " + number_text(high) + ", and not on the limit switch");
-        check_pulloff(homing.toward_min ? axis_.position_max_mm - at : at - axis_.position_min_mm);
-        problems_.add_if(homing.park_mm < axis_.position_min_mm || homing.park_mm > axis_.position_max_mm,
-                         "homing.park_mm",
-                         "homing.park_mm is " + number_text(homing.park_mm) + ", outside travel; " + travel());
+        const bool at_min = axis_.homing.toward_min;
+        const bool holds = at_min ? at > limit_min() && at <= middle : at < limit_max() && at >= middle;
+        problems_.require_between(
+            {"homing.switch_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"}, holds,
+            "homing.switch_position_mm is " + number_text(at) + "; it lies on the side homed to, " +
+                number_text(at_min ? limit_min() : middle) + " to " + number_text(at_min ? middle : limit_max()) +
+                ", and not on the limit switch");
     }
 
     void check_pulloff(double room) {
         const double pulloff = axis_.homing.pulloff_mm;
-        problems_.add_if(pulloff * axis_.steps_per_mm < 1, "homing.pulloff_mm",
-                         "homing.pulloff_mm is " + number_text(pulloff) + ", less than a step; at least " +
-                             number_text(1 / axis_.steps_per_mm));
-        problems_.add_if(pulloff >= room, "homing.pulloff_mm",
-                         "homing.pulloff_mm is " + number_text(pulloff) +
-                             ", not less than the travel from the switch, " + number_text(room) + "; lower it");
+        const std::string what = "homing.pulloff_mm is " + number_text(pulloff);
+        problems_.require_between({"homing.pulloff_mm", "steps_per_mm"}, pulloff * axis_.steps_per_mm >= 1,
+                                  what + ", less than a step; at least " + number_text(1 / axis_.steps_per_mm));
+        problems_.require_between(
+            {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
+            what + ", not less than the travel from the switch, " + number_text(room) + "; lower it");
     }
 
     void check_plant() {
-        const double low = axis_.position_min_mm - axis_.plant.travel_margin_mm;
-        const double high = axis_.position_max_mm + axis_.plant.travel_margin_mm;
         const double at = axis_.plant.start_position_mm;
-        problems_.add_if(at <= low || at >= high, "plant.start_position_mm",
-                         "plant.start_position_mm is " + number_text(at) +
-                             ", not between the limit switches at " + number_text(low) + " and " + number_text(high));
+        problems_.require_between(
+            {"plant.start_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"},
+            at > limit_min() && at < limit_max(),
+            "plant.start_position_mm is " + number_text(at) + ", not between the limit switches at " +
+                number_text(limit_min()) + " and " + number_text(limit_max()));
     }
 
-    std::string travel() const {
-        return "it goes from " + number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm);
-    }
+    double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }
+    double limit_min() const { return axis_.position_min_mm - axis_.plant.travel_margin_mm; }
+    double limit_max() const { return axis_.position_max_mm + axis_.plant.travel_margin_mm; }
 
     const MachineConfig& machine_;
     const AxisConfig& axis_;

@@ -13,24 +13,28 @@ constexpr int kMaxSlots = 10'000;
 constexpr std::uint32_t kMaxDomain = 232;  // the last whose ports are below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
 
-void check_timing(const ProtocolTiming& t, std::int64_t tick_ns, ProblemList& problems) {
+void check_timing(const MachineConfig& machine, ProblemList& problems) {
+    const ProtocolTiming& t = machine.timing;
     problems.require_range("timing.slot_us", static_cast<double>(t.slot_us), 500, 1e6);
-    problems.add_if(tick_ns > 0 && Int128{t.slot_us} * 1000 % tick_ns != 0, "timing.slot_us",
-                    "timing.slot_us is " + std::to_string(t.slot_us) + ", not a whole number of ticks of " +
-                        std::to_string(tick_ns) + " ns; choose another slot or tick_ns");
+    problems.require_between({"timing.slot_us", "tick_ns"},
+                             machine.tick_ns == 0 || Int128{t.slot_us} * 1000 % machine.tick_ns == 0,
+                             "timing.slot_us is " + std::to_string(t.slot_us) + ", not a whole number of ticks of " +
+                                 std::to_string(machine.tick_ns) + " ns; choose another slot or tick_ns");
     problems.require_range("timing.stall_slots", t.stall_slots, 1, kMaxStallSlots);
-    problems.require_range("timing.freshness_slots", t.freshness_slots, 0, kMaxSlots);
-    problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 0, kMaxSlots);
-    problems.require_range("timing.frame_slots", t.frame_slots, 0, kMaxSlots);
+    problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxSlots);
+    problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 1, kMaxSlots);
+    problems.require_range("timing.frame_slots", t.frame_slots, 1, kMaxSlots);
 }
 
+/// The setpoint protocol's inequalities.
 void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
-    const auto require = [&](const std::string& key, std::int64_t value, std::int64_t least, const std::string& rule) {
-        problems.add_if(value < least, key, key + " is " + std::to_string(value) + "; at least " +
-                                                std::to_string(least) + " (" + rule + ")");
+    const auto require = [&](std::string_view key, int value, int least, const std::string& rule) {
+        problems.require_between({key, "timing.stall_slots", "timing.freshness_slots"}, value >= least,
+                                 std::string(key) + " is " + std::to_string(value) + "; at least " +
+                                     std::to_string(least) + " (" + rule + ")");
     };
-    const std::int64_t s = t.stall_slots;
-    const std::int64_t m = t.freshness_slots;
+    const int s = t.stall_slots;
+    const int m = t.freshness_slots;
     require("timing.freshness_slots", m, s + 1, "stall_slots + 1");
     require("timing.send_ahead_slots", t.send_ahead_slots, 4 + s + m + 5, "4 + stall_slots + freshness_slots + 5");
     require("timing.frame_slots", t.frame_slots, m + s + 2, "freshness_slots + stall_slots + 2");
@@ -51,30 +55,27 @@ bool is_lcm_url(std::string_view url) {
 }
 
 void check_network(const NetworkConfig& network, ProblemList& problems) {
-    problems.add_if(!is_interface_name(network.interface), "network.interface",
-                    "network.interface is \"" + network.interface + "\"; name an interface, such as lo or eth0");
-    problems.add_if(network.domain > kMaxDomain, "network.domain",
-                    "network.domain is " + std::to_string(network.domain) + "; it goes from 0 to " +
-                        std::to_string(kMaxDomain));
-    problems.add_if(!is_lcm_url(network.lcm_url), "network.lcm_url",
-                    "network.lcm_url is \"" + network.lcm_url + "\"; it begins with udpm://, tcpq:// or memq://");
+    problems.require(is_interface_name(network.interface), "network.interface",
+                     "network.interface is \"" + network.interface + "\"; name an interface, such as lo or eth0");
+    problems.require_range("network.domain", network.domain, 0, kMaxDomain);
+    problems.require(is_lcm_url(network.lcm_url), "network.lcm_url",
+                     "network.lcm_url is \"" + network.lcm_url + "\"; it begins with udpm://, tcpq:// or memq://");
 }
 
 }  // namespace
 
 std::vector<Problem> machine_problems(const MachineConfig& machine) {
     ProblemList problems;
-    problems.add_if(!is_machine_name(machine.name), "name",
-                    "name is \"" + machine.name + "\"; a letter, then letters, digits, _ and -, at most " +
-                        std::to_string(kMaxMachineName));
+    problems.require(is_machine_name(machine.name), "name",
+                     "name is \"" + machine.name + "\"; a letter, then letters, digits, _ and -, at most " +
+                         std::to_string(kMaxMachineName));
     problems.require_range("tick_ns", static_cast<double>(machine.tick_ns), 100, 1e6);
-    check_timing(machine.timing, machine.tick_ns, problems);
+    check_timing(machine, problems);
     check_protocol(machine.timing, problems);
     check_network(machine.network, problems);
-    problems.add_if(machine.axes.empty(), "", "the machine has no axis; write at least one axis { ... }");
-    problems.add_if(machine.axes.size() > kMaxAxes, "",
-                    "the machine has " + std::to_string(machine.axes.size()) + " axes; at most " +
-                        std::to_string(kMaxAxes));
+    problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
+                     "the machine has " + std::to_string(machine.axes.size()) +
+                         " axes; write one axis { ... } for each, 1 to " + std::to_string(kMaxAxes));
     return problems.take();
 }
 

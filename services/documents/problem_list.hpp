@@ -1,7 +1,9 @@
-// Collects problems: at most one for a key, the first.
+// Collects problems: at most one for a key, and none that only follows from another.
 #pragma once
 
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 #include "core/gcode/number_text.hpp"
 #include "services/documents/machine_rules.hpp"
@@ -10,24 +12,27 @@ namespace lockstep {
 
 class ProblemList {
 public:
+    /// `prefix` begins every message.
     explicit ProblemList(std::optional<std::size_t> axis = {}, std::string prefix = {})
         : axis_(axis), prefix_(std::move(prefix)) {}
 
-    void add(const std::string& key, const std::string& message) {
-        const FieldPath field{axis_, key};
-        if (std::ranges::find(problems_, field, &Problem::field) == problems_.end()) {
-            problems_.push_back({field, prefix_ + message});
-        }
+    bool is_sound(std::string_view key) const {
+        return std::ranges::none_of(problems_, [&](const Problem& problem) { return problem.field.key == key; });
     }
 
-    /// For relations: false with a NaN, which its own range has reported, must mean that nothing is wrong here.
-    void add_if(bool violated, const std::string& key, const std::string& message) {
-        if (violated) { add(key, message); }
+    void require(bool holds, std::string_view key, const std::string& message) {
+        if (!holds && is_sound(key)) { problems_.push_back({{axis_, std::string(key)}, prefix_ + message}); }
     }
 
     void require_range(const std::string& key, double value, double min, double max) {
-        if (value >= min && value <= max) { return; }
-        add(key, key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
+        require(value >= min && value <= max, key,
+                key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
+    }
+
+    /// The first key is to blame. Judged only where nothing is wrong with any of them by itself.
+    void require_between(std::initializer_list<std::string_view> keys, bool holds, const std::string& message) {
+        const bool can_be_judged = std::ranges::all_of(keys, [this](std::string_view key) { return is_sound(key); });
+        require(holds || !can_be_judged, *keys.begin(), message);
     }
 
     std::vector<Problem> take() { return std::move(problems_); }

@@ -1,5 +1,7 @@
 #include "services/documents/program_document.hpp"
 
+#include <google/protobuf/stubs/logging.h>
+
 #include "services/documents/program_proto.hpp"
 #include "services/documents/text_source.hpp"
 
@@ -17,6 +19,7 @@ std::expected<Program, std::string> program_from_bytes(std::span<const std::uint
         return std::unexpected("the program has " + std::to_string(bytes.size()) + " bytes; at most " +
                                std::to_string(kMaxProgramBytes));
     }
+    const google::protobuf::LogSilencer what_is_wrong_is_the_answer;
     proto::Program message;
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
         return std::unexpected("these bytes are not a program");

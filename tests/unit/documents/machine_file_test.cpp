@@ -1,0 +1,83 @@
+// What a configuration comes to: its defaults, its text and its hash.
+#include "services/documents/machine_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/documents/machine_text_examples.hpp"
+
+namespace lockstep {
+namespace {
+
+MachineConfig parse(std::string_view text) {
+    auto machine = parse_machine(text);
+    if (machine) { return *std::move(machine); }
+    ADD_FAILURE() << to_text("machine", machine.error());
+    return {};
+}
+
+TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
+    const MachineConfig machine = parse(kShortest);
+    EXPECT_EQ(machine.tick_ns, 1000);
+    EXPECT_EQ(machine.timing.slot_us, 10'000);
+    EXPECT_EQ(machine.timing.stall_slots, 10);
+    EXPECT_EQ(machine.timing.freshness_slots, 11);
+    EXPECT_EQ(machine.timing.send_ahead_slots, 30);
+    EXPECT_EQ(machine.timing.frame_slots, 23);
+    EXPECT_EQ(machine.network.interface, "lo");
+    EXPECT_EQ(machine.network.domain, 0U);
+    EXPECT_EQ(machine.network.lcm_url, "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304");
+    ASSERT_EQ(machine.axes.size(), 1U);
+    EXPECT_EQ(machine.axes[0].max_decel_mm_s2, 1500);
+}
+
+TEST(MachineFile, HomingDefaultsFollowTheAxis) {
+    const HomingConfig homing = parse(kShortest).axes.at(0).homing;
+    EXPECT_TRUE(homing.toward_min);
+    EXPECT_EQ(homing.search_velocity_mm_s, 10);
+    EXPECT_EQ(homing.latch_velocity_mm_s, 2);
+    EXPECT_EQ(homing.pulloff_mm, 2);
+    EXPECT_EQ(homing.switch_position_mm, 0);
+    EXPECT_EQ(homing.park_mm, 0);
+    const HomingConfig upward = parse(axis_with("homing { toward_min: false }")).axes.at(0).homing;
+    EXPECT_EQ(upward.switch_position_mm, 200);
+    EXPECT_EQ(parse(with("min_mm: 0", "min_mm: 50")).axes.at(0).homing.park_mm, 50);
+    EXPECT_EQ(parse(with("max_mm: 200", "max_mm: 10")).axes.at(0).homing.pulloff_mm, 1);
+}
+
+TEST(MachineFile, PlantDefaultsLeaveTheMotorAReserve) {
+    const PlantConfig plant = parse(axis_with("max_decel_mm_s2: 2000")).axes.at(0).plant;
+    EXPECT_EQ(plant.start_position_mm, 100);
+    EXPECT_EQ(plant.travel_margin_mm, 2);
+    EXPECT_EQ(plant.max_torque_accel_mm_s2, 3000);
+    EXPECT_EQ(plant.max_jump_mm_s, 15);
+}
+
+TEST(MachineFile, ZeroIsAValueAndNotAnAbsence) {
+    const MachineConfig machine = parse(axis_with("plant { start_position_mm: 0 }"));
+    EXPECT_EQ(machine.axes.at(0).plant.start_position_mm, 0);
+}
+
+TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
+    for (const auto& text : {std::string(kShortest), with("80", "53.333333333333336"), machine_with("tick_ns: 250"),
+                             axis_with("homing { toward_min: false park_mm: 0.1 }")}) {
+        const MachineConfig machine = parse(text);
+        EXPECT_EQ(machine_text(parse(machine_text(machine))), machine_text(machine));
+        EXPECT_EQ(config_hash(parse(machine_text(machine))), config_hash(machine));
+    }
+}
+
+TEST(MachineFile, TheHashIsOfWhatIsMeantAndNotOfHowItIsWritten) {
+    const std::uint64_t hash = config_hash(parse(kShortest));
+    EXPECT_NE(hash, 0U);
+    EXPECT_EQ(config_hash(parse("# a comment\n" + machine_with("tick_ns: 1000"))), hash);
+    EXPECT_EQ(config_hash(parse(axis_with("max_decel_mm_s2: 1.5e3"))), hash);
+    EXPECT_NE(config_hash(parse(with("150", "150.00000000000003"))), hash);
+    EXPECT_NE(config_hash(parse(axis_with("homing { park_mm: 1 }"))), hash);
+}
+
+TEST(MachineFile, TheHashIsTheSameOnEveryHost) {
+    EXPECT_EQ(config_hash(parse(kShortest)), 8706101447550703216U);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,120 @@
+// A program crosses the network and files unchanged, and nothing else passes for one.
+#include "services/documents/program_document.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "core/machine.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+Program example() {
+    return {.name = "plate.gcode",
+            .axes = {"X", "Y"},
+            .start_mm = {0, 1.0 / 3},
+            .blocks = {{1, LinearMove{{10, 20}, 0, true}},
+                       {2, LinearMove{{0.1, 1e-9}, 12.5, false}},
+                       {0, Dwell{0.25}},
+                       {4, Pause{}}}};
+}
+
+void expect_same(const Program& one, const Program& other) {
+    EXPECT_EQ(one.name, other.name);
+    EXPECT_EQ(one.axes, other.axes);
+    EXPECT_EQ(one.start_mm, other.start_mm);
+    ASSERT_EQ(one.blocks.size(), other.blocks.size());
+    for (std::size_t i = 0; i < one.blocks.size(); ++i) {
+        EXPECT_EQ(one.blocks[i].line, other.blocks[i].line);
+        ASSERT_EQ(one.blocks[i].action.index(), other.blocks[i].action.index());
+        if (const auto* move = std::get_if<LinearMove>(&one.blocks[i].action)) {
+            const auto& same = std::get<LinearMove>(other.blocks[i].action);
+            EXPECT_EQ(move->target_mm, same.target_mm);
+            EXPECT_EQ(move->feed_mm_s, same.feed_mm_s);
+            EXPECT_EQ(move->rapid, same.rapid);
+        }
+        if (const auto* dwell = std::get_if<Dwell>(&one.blocks[i].action)) {
+            EXPECT_EQ(dwell->seconds, std::get<Dwell>(other.blocks[i].action).seconds);
+        }
+    }
+}
+
+TEST(ProgramDocument, BytesAndTextGiveTheSameProgramBack) {
+    expect_same(program_from_bytes(program_bytes(example())).value(), example());
+    expect_same(program_from_text(program_text(example())).value(), example());
+}
+
+TEST(ProgramDocument, CutOrForeignBytesAreRefused) {
+    const auto bytes = program_bytes(example());
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        const auto cut = program_from_bytes(std::span(bytes).first(size));
+        EXPECT_TRUE(!cut || cut->blocks.size() < example().blocks.size()) << size;
+    }
+    EXPECT_FALSE(program_from_bytes(std::vector<std::uint8_t>(100, 0xff)).has_value());
+    EXPECT_FALSE(program_from_bytes({}).has_value());
+}
+
+TEST(ProgramDocument, EveryByteMayBeWrong) {
+    const auto bytes = program_bytes(example());
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+        for (int flip = 1; flip < 256; flip <<= 1) {
+            auto wrong = bytes;
+            wrong[at] = static_cast<std::uint8_t>(wrong[at] ^ flip);
+            const auto program = program_from_bytes(wrong);
+            if (!program) { EXPECT_FALSE(program.error().empty()); }
+        }
+    }
+}
+
+struct Refusal {
+    std::string says;
+    std::function<void(Program&)> spoil;
+};
+
+class ProgramRefused : public testing::TestWithParam<Refusal> {};
+
+TEST_P(ProgramRefused, WithTheValueAndTheBlock) {
+    Program program = example();
+    GetParam().spoil(program);
+    const auto read = program_from_bytes(program_bytes(program));
+    ASSERT_FALSE(read.has_value()) << GetParam().says;
+    EXPECT_THAT(read.error(), HasSubstr(GetParam().says));
+}
+
+LinearMove& move(Program& program, std::size_t i) { return std::get<LinearMove>(program.blocks[i].action); }
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(Head, ProgramRefused, testing::Values(
+    Refusal{"no axis", [](Program& p) { p.axes.clear(); }},
+    Refusal{"33; at most 32", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
+    Refusal{"axis 2 of the program has no axis's name", [](Program& p) { p.axes[1] = "*"; }},
+    Refusal{"names axis x twice", [](Program& p) { p.axes[1] = "x"; }},
+    Refusal{"256; at most 255", [](Program& p) { p.name.assign(256, 'n'); }},
+    Refusal{"the start has 1 places for 2 axes", [](Program& p) { p.start_mm.pop_back(); }},
+    Refusal{"the start puts Y at nan", [](Program& p) { p.start_mm[1] = kNan; }}));
+
+INSTANTIATE_TEST_SUITE_P(Blocks, ProgramRefused, testing::Values(
+    Refusal{"block 1: the target has 3 places", [](Program& p) { move(p, 0).target_mm.push_back(1); }},
+    Refusal{"block 2: the target puts X at inf", [](Program& p) { move(p, 1).target_mm[0] = 1 / 0.0; }},
+    Refusal{"block 2: the target puts X at 2000000", [](Program& p) { move(p, 1).target_mm[0] = 2e6; }},
+    Refusal{"block 2: the feed is 0", [](Program& p) { move(p, 1).feed_mm_s = 0; }},
+    Refusal{"block 2: the feed is -1", [](Program& p) { move(p, 1).feed_mm_s = -1; }},
+    Refusal{"block 2: the feed is nan", [](Program& p) { move(p, 1).feed_mm_s = kNan; }},
+    Refusal{"block 3: the dwell is -1", [](Program& p) { p.blocks[2].action = Dwell{-1}; }},
+    Refusal{"block 3: the dwell is nan", [](Program& p) { p.blocks[2].action = Dwell{kNan}; }}));
+
+TEST(ProgramDocument, ABlockThatDoesNothingKnownIsRefused) {
+    const auto program = program_from_text("axes: \"X\" start_mm: 0 blocks { line: 3 }");
+    ASSERT_FALSE(program.has_value());
+    EXPECT_EQ(program.error(), "block 1: no action known here");
+    EXPECT_THAT(program_from_text("axes: \"X\"\nstart: 0").error(), HasSubstr("program:2:6"));
+}
+
+}  // namespace
+}  // namespace lockstep
