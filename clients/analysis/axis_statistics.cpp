@@ -33,7 +33,8 @@ void AxisStatistics::finish() {
 void AxisStatistics::take(StepEdge edge, std::int64_t position) {
     if (!first_) {
         first_ = StepPlace{edge.tick, position};
-        lowest_ = highest_ = position;
+        start_ = position - edge.direction;
+        lowest_ = highest_ = start_;
         course_.add({edge.tick, 0});
     }
     lowest_ = std::min(lowest_, position);

@@ -29,6 +29,7 @@ public:
     std::int64_t steps() const { return steps_; }
     const std::optional<StepPlace>& first() const { return first_; }
     const std::optional<StepPlace>& last() const { return last_; }
+    std::int64_t start_steps() const { return start_; }    // before the first step; 0 without steps
     std::int64_t lowest_steps() const { return lowest_; }  // positions reached; 0 without steps
     std::int64_t highest_steps() const { return highest_; }
     double peak_steps_per_tick() const { return meter_.peak_steps_per_tick(); }
@@ -50,6 +51,7 @@ private:
     std::int64_t steps_ = 0;
     std::optional<StepPlace> first_;
     std::optional<StepPlace> last_;
+    std::int64_t start_ = 0;
     std::int64_t lowest_ = 0;
     std::int64_t highest_ = 0;
     std::vector<Break> breaks_;

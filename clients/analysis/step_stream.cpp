@@ -98,7 +98,7 @@ void StepStream::note_missing(std::int64_t sequence) {
 
 void StepStream::note_position(std::int64_t position_before) {
     if (position_ && *position_ != position_before) {
-        open_break(Break::Kind::Rezeroed).position_change += position_before - *position_;
+        open_break(Break::Kind::Jump).position_change += position_before - *position_;
     }
     position_ = position_before;
 }

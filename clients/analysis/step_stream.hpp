@@ -21,19 +21,19 @@ struct StepBatch {
     std::int64_t incarnation = 0;  // of the axis's process; sequences start anew with each
     std::int64_t sequence = 0;     // without gaps
     std::int64_t position_before_steps = 0;
-    std::vector<StepEdge> steps{};
+    std::vector<StepEdge> steps;
 };
 
 /// Where the steps on either side do not join.
 struct Break {
     enum class Kind : std::uint8_t {
-        Missing,   // batches are missing from the log
-        Restart,   // the axis's process started anew
-        Rezeroed,  // nothing is missing, yet positions count from another zero: the axis was homed
+        Missing,  // batches are missing from the log
+        Restart,  // the axis's process started anew
+        Jump,     // nothing is missing, yet positions count on from elsewhere: zeroed, or times of steps lost
     };
     Kind kind = Kind::Missing;
-    std::optional<Tick> from{};        // the last step before; none where the log begins so
-    std::optional<Tick> to{};          // the first step after; none where the log ends so
+    std::optional<Tick> from;          // the last step before; none where the log begins so
+    std::optional<Tick> to;            // the first step after; none where the log ends so
     std::int64_t missing_batches = 0;  // by their numbers
     std::int64_t position_change = 0;  // steps, after minus before: of steps missing, the balance of their directions
 };
@@ -58,12 +58,13 @@ struct StreamCounts {
 
 class StepStream {
 public:
-    static constexpr std::int64_t kFirstSequence = 1;
+    static constexpr std::int64_t kFirstSequence = 0;
     /// How many batches wait for one that is missing before it is given up: datagrams may overtake each other.
     static constexpr std::size_t kPatience = 16;
 
     explicit StepStream(std::vector<StepListener*> listeners) : listeners_(std::move(listeners)) {}
 
+    void listen(StepListener& listener) { listeners_.push_back(&listener); }
     void take(StepBatch batch);
     /// Tells what still waits. Call once, at the end of the log.
     void finish();

@@ -21,17 +21,17 @@ struct Stroke {
 
 /// One curve. x and y are of one length. A value that is not finite breaks the curve there.
 struct Series {
-    std::string label{};  // in the legend, once per label and figure; empty: not in the legend
-    std::vector<double> x{};
-    std::vector<double> y{};
-    Stroke stroke{};
+    std::string label;  // in the legend, once per label and figure; empty: not in the legend
+    std::vector<double> x;
+    std::vector<double> y;
+    Stroke stroke;
 };
 
 /// A named level across a chart, such as a limit. It is drawn where it is within the chart's range, and does not
 /// widen it.
 struct Level {
     double y = 0;
-    std::string label{};
+    std::string label;
 };
 
 /// A shaded stretch of x, such as one whose data are missing.
@@ -44,26 +44,26 @@ struct Span {
 struct Mark {
     double x = 0;
     double y = 0;
-    std::string label{};
+    std::string label;
     std::string colour{palette::kInk};
 };
 
 struct Chart {
-    std::string title{};    // at its upper left: "X"
-    std::string y_label{};  // beside it, with the unit: "speed, mm/s"
-    std::vector<Series> series{};
-    std::vector<Level> levels{};
-    std::vector<Span> spans{};
-    std::vector<Mark> marks{};
+    std::string title;    // at its upper left: "X"
+    std::string y_label;  // beside it, with the unit: "speed, mm/s"
+    std::vector<Series> series;
+    std::vector<Level> levels;
+    std::vector<Span> spans;
+    std::vector<Mark> marks;
 };
 
 /// `equal_aspect`: a millimetre is as long upwards as sideways.
 struct Figure {
-    std::string title{};
-    std::string subtitle{};    // the figures that matter, in a line
-    std::string x_label{};     // with the unit: "time, s"
-    std::string span_label{};  // what the spans are, in the legend where there are any
-    std::vector<Chart> rows{};
+    std::string title;
+    std::string subtitle;    // the figures that matter, in a line
+    std::string x_label;     // with the unit: "time, s"
+    std::string span_label;  // what the spans are, in the legend where there are any
+    std::vector<Chart> rows;
     bool equal_aspect = false;
 };
 

@@ -19,11 +19,11 @@ inline constexpr double kSwatchWidth = 26;
 
 /// One chart's area and the map from its data to pixels.
 struct Panel {
-    Box box{};
-    Range x{};
-    Range y{};
-    std::vector<AxisTick> x_ticks{};
-    std::vector<AxisTick> y_ticks{};
+    Box box;
+    Range x;
+    Range y;
+    std::vector<AxisTick> x_ticks;
+    std::vector<AxisTick> y_ticks;
 
     double across(double value) const { return box.x + (value - x.low) / x.span() * box.width; }
     double up(double value) const { return box.bottom() - (value - y.low) / y.span() * box.height; }
@@ -31,17 +31,17 @@ struct Panel {
 };
 
 struct LegendEntry {
-    Point at{};  // the swatch's left end, at the middle of its height
-    std::string label{};
-    Stroke stroke{};
+    Point at;  // the swatch's left end, at the middle of its height
+    std::string label;
+    Stroke stroke;
     bool area = false;  // a span
 };
 
 struct Layout {
     double width = 0;
     double height = 0;
-    std::vector<LegendEntry> legend{};
-    std::vector<Panel> panels{};  // one per row
+    std::vector<LegendEntry> legend;
+    std::vector<Panel> panels;  // one per row
 };
 
 Layout arrange(const Figure& figure);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace lockstep::drawing::palette {
@@ -18,6 +19,6 @@ inline constexpr std::array<std::string_view, 7> kSeries = {"#1f6fb4", "#e07b00"
                                                             "#3aa6d8", "#a8710f", "#6b5fc7"};
 
 /// The colour of the i-th of several curves; they come round after seven.
-constexpr std::string_view series(std::size_t i) { return kSeries[i % kSeries.size()]; }
+inline std::string series(std::size_t i) { return std::string(kSeries[i % kSeries.size()]); }
 
 }  // namespace lockstep::drawing::palette

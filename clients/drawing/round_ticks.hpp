@@ -16,7 +16,7 @@ struct Range {
 
 struct AxisTick {
     double value = 0;
-    std::string label{};  // "−0.25", "20 000"
+    std::string label;  // "−0.25", "20 000"
 };
 
 /// Marks within the range, about `wanted` of them, never more than 2 * wanted + 2. `range.low < range.high`.

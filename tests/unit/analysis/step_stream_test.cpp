@@ -25,9 +25,9 @@ struct StepStreamTest : testing::Test {
 };
 
 TEST_F(StepStreamTest, TellsEveryStepInOrder) {
-    stream.take(batch(1, 0, even_steps(100, 10, 3)));
-    stream.take(batch(2, 3, {}));
-    stream.take(batch(3, 3, even_steps(130, 10, 2, -1)));
+    stream.take(batch(0, 0, even_steps(100, 10, 3)));
+    stream.take(batch(1, 3, {}));
+    stream.take(batch(2, 3, even_steps(130, 10, 2, -1)));
     stream.finish();
     EXPECT_EQ(told.ticks, (std::vector<std::int64_t>{100, 110, 120, 130, 140}));
     EXPECT_TRUE(told.breaks.empty());
@@ -36,8 +36,8 @@ TEST_F(StepStreamTest, TellsEveryStepInOrder) {
 }
 
 TEST_F(StepStreamTest, SaysWhatIsMissingInStepsAndTicks) {
-    stream.take(batch(1, 0, even_steps(100, 10, 3)));
-    stream.take(batch(4, 10, even_steps(200, 10, 2)));
+    stream.take(batch(0, 0, even_steps(100, 10, 3)));
+    stream.take(batch(3, 10, even_steps(200, 10, 2)));
     stream.finish();
     ASSERT_EQ(told.breaks.size(), 1U);
     EXPECT_EQ(told.breaks[0].kind, Break::Kind::Missing);
@@ -48,17 +48,17 @@ TEST_F(StepStreamTest, SaysWhatIsMissingInStepsAndTicks) {
 }
 
 TEST_F(StepStreamTest, PutsBatchesThatOvertookEachOtherInOrder) {
-    stream.take(batch(2, 2, even_steps(120, 10, 2)));
-    stream.take(batch(1, 0, even_steps(100, 10, 2)));
+    stream.take(batch(1, 2, even_steps(120, 10, 2)));
+    stream.take(batch(0, 0, even_steps(100, 10, 2)));
     stream.finish();
     EXPECT_EQ(told.ticks, (std::vector<std::int64_t>{100, 110, 120, 130}));
     EXPECT_TRUE(told.breaks.empty());
 }
 
 TEST_F(StepStreamTest, LeavesOutWhatComesTwice) {
-    stream.take(batch(1, 0, even_steps(100, 10, 2)));
-    stream.take(batch(1, 0, even_steps(100, 10, 2)));
-    stream.take(batch(2, 2, even_steps(120, 10, 2)));
+    stream.take(batch(0, 0, even_steps(100, 10, 2)));
+    stream.take(batch(0, 0, even_steps(100, 10, 2)));
+    stream.take(batch(1, 2, even_steps(120, 10, 2)));
     stream.finish();
     EXPECT_EQ(stream.counts().steps, 4);
     EXPECT_EQ(stream.counts().duplicates, 1);
@@ -66,10 +66,10 @@ TEST_F(StepStreamTest, LeavesOutWhatComesTwice) {
 }
 
 TEST_F(StepStreamTest, GivesUpAMissingBatchAfterAWhileAndSaysThatItCameLate) {
-    stream.take(batch(1, 0, even_steps(0, 10, 1)));
-    for (int i = 3; i < 30; ++i) { stream.take(batch(i, i - 1, even_steps(i * 10, 10, 1))); }
+    stream.take(batch(0, 0, even_steps(0, 10, 1)));
+    for (int i = 2; i < 29; ++i) { stream.take(batch(i, i, even_steps(i * 10, 10, 1))); }
     EXPECT_EQ(told.breaks.size(), 1U);
-    stream.take(batch(2, 1, even_steps(20, 10, 1)));
+    stream.take(batch(1, 1, even_steps(20, 10, 1)));
     stream.finish();
     EXPECT_EQ(stream.counts().late, 1);
     EXPECT_EQ(stream.counts().steps, 28);
@@ -77,9 +77,9 @@ TEST_F(StepStreamTest, GivesUpAMissingBatchAfterAWhileAndSaysThatItCameLate) {
 }
 
 TEST_F(StepStreamTest, TellsARestartFromAGap) {
-    stream.take(batch(1, 0, even_steps(100, 10, 2), 7));
-    stream.take(batch(1, 0, even_steps(50, 10, 2), 8));
-    stream.take(batch(2, 2, even_steps(120, 10, 2), 7));
+    stream.take(batch(0, 0, even_steps(100, 10, 2), 7));
+    stream.take(batch(0, 0, even_steps(50, 10, 2), 8));
+    stream.take(batch(1, 2, even_steps(120, 10, 2), 7));
     stream.finish();
     EXPECT_EQ(stream.counts().restarts, 1);
     EXPECT_EQ(stream.counts().duplicates, 1) << "a batch of the process that is gone";
@@ -90,16 +90,16 @@ TEST_F(StepStreamTest, TellsARestartFromAGap) {
 }
 
 TEST_F(StepStreamTest, TellsANewZeroFromAGap) {
-    stream.take(batch(1, 0, even_steps(100, 10, 2)));
-    stream.take(batch(2, 1000, even_steps(200, 10, 2)));
+    stream.take(batch(0, 0, even_steps(100, 10, 2)));
+    stream.take(batch(1, 1000, even_steps(200, 10, 2)));
     stream.finish();
     ASSERT_EQ(told.breaks.size(), 1U);
-    EXPECT_EQ(told.breaks[0].kind, Break::Kind::Rezeroed);
+    EXPECT_EQ(told.breaks[0].kind, Break::Kind::Jump);
     EXPECT_EQ(told.breaks[0].position_change, 998);
 }
 
 TEST_F(StepStreamTest, SaysThatTheLogBeganInTheMiddle) {
-    stream.take(batch(41, 500, even_steps(100, 10, 2)));
+    stream.take(batch(40, 500, even_steps(100, 10, 2)));
     stream.finish();
     ASSERT_EQ(told.breaks.size(), 1U);
     EXPECT_EQ(told.breaks[0].missing_batches, 40);
@@ -108,8 +108,8 @@ TEST_F(StepStreamTest, SaysThatTheLogBeganInTheMiddle) {
 }
 
 TEST_F(StepStreamTest, LeavesOutStepsThatLieBeforeThoseTold) {
-    stream.take(batch(1, 0, even_steps(100, 10, 3)));
-    stream.take(batch(2, 3, even_steps(110, 10, 3)));
+    stream.take(batch(0, 0, even_steps(100, 10, 3)));
+    stream.take(batch(1, 3, even_steps(110, 10, 3)));
     stream.finish();
     EXPECT_EQ(stream.counts().disordered, 1);
     EXPECT_EQ(stream.counts().steps, 3);

@@ -1,0 +1,97 @@
+#include "clients/analysis/analysis.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "clients/analysis/figures.hpp"
+#include "clients/analysis/plane_path.hpp"
+#include "clients/analysis/recorder.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+std::expected<void, std::string> make_directory(const std::optional<std::filesystem::path>& directory) {
+    if (!directory) {
+        return {};
+    }
+    std::error_code error;
+    std::filesystem::create_directories(*directory, error);
+    if (error) {
+        return std::unexpected(directory->string() + ": cannot be made: " + error.message());
+    }
+    return {};
+}
+
+std::string of_machine(const std::optional<std::string>& machine) { return machine ? " of machine " + *machine : ""; }
+
+}  // namespace
+
+const AxisConfig* Analysis::axis_config(const std::string& name) const {
+    if (!config) {
+        return nullptr;
+    }
+    const auto found = std::ranges::find(config->axes, name, &AxisConfig::name);
+    return found == config->axes.end() ? nullptr : &*found;
+}
+
+std::optional<double> Analysis::steps_per_mm(const AxisLog& axis) const {
+    const AxisConfig* configured = axis_config(axis.name());
+    return configured ? std::optional(configured->steps_per_mm) : axis.steps_per_mm();
+}
+
+std::optional<Tick> Analysis::first_tick() const {
+    std::optional<Tick> first;
+    for (const auto& axis : axes) {
+        const auto& place = axis->statistics().first();
+        if (place && (!first || place->tick < *first)) {
+            first = place->tick;
+        }
+    }
+    return first;
+}
+
+std::optional<Tick> Analysis::last_tick() const {
+    std::optional<Tick> last;
+    for (const auto& axis : axes) {
+        const auto& place = axis->statistics().last();
+        if (place && (!last || place->tick > *last)) {
+            last = place->tick;
+        }
+    }
+    return last;
+}
+
+std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& log, const AnalysisOptions& options) {
+    for (const auto& directory : {options.csv_dir, options.svg_dir}) {
+        if (auto made = make_directory(directory); !made) {
+            return std::unexpected(made.error());
+        }
+    }
+    Recorder recorder(options);
+    const auto events = read_log(log, recorder, options.progress);
+    if (!events) {
+        return std::unexpected(events.error());
+    }
+    Analysis analysis = recorder.finish();
+    if (recorder.write_error()) {
+        return std::unexpected(*recorder.write_error());
+    }
+    if (analysis.axes.empty() && analysis.jobs.empty()) {
+        return std::unexpected(log.string() + ": nothing in it is recorded by Lockstep" + of_machine(options.machine));
+    }
+    analysis.log = log;
+    analysis.events = *events;
+    const auto plane = compare_in_plane(analysis);
+    if (plane) {
+        analysis.largest_distance_mm = plane->largest_distance_mm;
+    }
+    if (!options.svg_dir) {
+        return analysis;
+    }
+    if (auto drawn = write_figures(analysis, plane, *options.svg_dir); !drawn) {
+        return std::unexpected(drawn.error());
+    }
+    return analysis;
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,80 @@
+// What a log recorded by lcm-logger, or written by the simulator, holds: of each axis and of each job.
+//
+// The log is read once, in bounded memory, however long it is. What is damaged or missing is named and the rest is
+// read all the same.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/axis_log.hpp"
+#include "core/machine.hpp"
+#include "core/program.hpp"
+
+namespace lockstep::analysis {
+
+/// A job as the coordinator recorded it. Microseconds of machine time.
+struct JobLog {
+    std::int64_t coordinator = 0;
+    std::uint64_t job = 0;
+    std::string kind;     // home, move, run
+    std::string outcome;  // done, stopped, failed; empty: the log ends before the job does
+    std::optional<std::int64_t> begun_us;
+    std::optional<std::int64_t> ended_us;
+    std::optional<Tick> first_frame;  // where motion began
+    std::optional<Program> program;
+};
+
+/// A place in the file that cannot be read.
+struct Damage {
+    std::uint64_t offset = 0;  // bytes from the file's beginning
+    std::string what;
+};
+
+struct Analysis {
+    static constexpr std::size_t kDamagesKept = 100;
+
+    std::filesystem::path log;
+    std::string machine;
+    std::optional<MachineConfig> config;           // of the last job that tells
+    std::vector<std::unique_ptr<AxisLog>> axes;    // in the configuration's order; by name without one
+    std::vector<JobLog> jobs;                      // in the order they began
+    std::uint64_t events = 0;                      // read, of every kind
+    std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
+    std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification
+    std::vector<Damage> damages;                   // the first kDamagesKept
+    std::uint64_t damage_count = 0;
+    std::optional<double> largest_distance_mm;  // from the path stepped to the path asked, in the X-Y plane
+
+    std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
+    /// The configured axis of that name, or null.
+    const AxisConfig* axis_config(const std::string& name) const;
+    /// From the configuration, or else from the axis's own messages; none where neither tells.
+    std::optional<double> steps_per_mm(const AxisLog& axis) const;
+    /// The first and the last step of any axis; none without steps.
+    std::optional<Tick> first_tick() const;
+    std::optional<Tick> last_tick() const;
+    double seconds(Ticks ticks) const {
+        return static_cast<double>(ticks.value) * static_cast<double>(tick_ns()) * 1e-9;
+    }
+};
+
+struct AnalysisOptions {
+    std::optional<std::filesystem::path> csv_dir;  // made where it is missing
+    std::optional<std::filesystem::path> svg_dir;
+    std::optional<std::string> machine;    // which, where the log holds several; else the first
+    std::function<void(double)> progress;  // 0 ... 1, now and then
+};
+
+/// The error is a sentence for the user: the file is missing, a directory, empty or not a log; a file or directory
+/// cannot be written.
+std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& log, const AnalysisOptions& options = {});
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,65 @@
+// Everything a log says of one axis.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "clients/analysis/axis_statistics.hpp"
+#include "clients/analysis/csv.hpp"
+#include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/trace.hpp"
+
+namespace lockstep::analysis {
+
+/// One axis's position message.
+struct PositionSample {
+    Tick tick;
+    std::int64_t position_steps = 0;
+    double position_mm = 0;
+    double velocity_mm_per_s = 0;
+};
+
+class AxisLog {
+public:
+    static constexpr std::string_view kPositionsHeader = "tick,position_steps,position_mm,velocity_mm_per_s";
+
+    explicit AxisLog(std::string name) : name_(std::move(name)) {}
+    AxisLog(const AxisLog&) = delete;
+    AxisLog& operator=(const AxisLog&) = delete;
+
+    /// From here on every step and position goes to `steps_<axis>.csv` and `positions_<axis>.csv` too.
+    std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
+
+    void take(StepBatch batch) { stream_.take(std::move(batch)); }
+    void take(const PositionSample& sample);
+    /// Call once, at the end. The error is that of a file that was not written whole.
+    std::expected<void, std::string> finish();
+
+    const std::string& name() const { return name_; }
+    const StreamCounts& counts() const { return stream_.counts(); }
+    const AxisStatistics& statistics() const { return statistics_; }
+    const Trace& trace() const { return trace_; }
+    std::int64_t positions() const { return positions_; }
+    /// As the axis's own messages have it; none where they do not tell.
+    std::optional<double> steps_per_mm() const { return steps_per_mm_; }
+    /// How far the last position message is from the last step recorded before it: what the log ends too early for,
+    /// or what its end has lost. 0 where they agree.
+    std::int64_t unrecorded_steps() const;
+
+private:
+    std::string name_;
+    AxisStatistics statistics_;
+    Trace trace_;
+    std::unique_ptr<StepCsv> step_csv_;
+    std::unique_ptr<CsvFile> position_csv_;
+    std::int64_t positions_ = 0;
+    std::optional<PositionSample> last_position_;
+    std::optional<double> steps_per_mm_;
+    StepStream stream_{{&statistics_, &trace_}};
+};
+
+}  // namespace lockstep::analysis

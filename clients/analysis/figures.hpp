@@ -1,0 +1,25 @@
+// What an analysis looks like: `speed.svg`, `position.svg` and `xy.svg`.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/analysis/plane_path.hpp"
+#include "clients/drawing/figure.hpp"
+
+namespace lockstep::analysis {
+
+/// Time counts from the log's first step. Lengths are in steps for an axis whose steps per mm are not known.
+drawing::Figure speed_figure(const Analysis& analysis);
+drawing::Figure position_figure(const Analysis& analysis);
+/// The path in the X-Y plane; without such a plane the positions over time.
+drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlaneComparison>& plane);
+
+/// Writes all three. The error names the file.
+std::expected<void, std::string> write_figures(const Analysis& analysis, const std::optional<PlaneComparison>& plane,
+                                               const std::filesystem::path& directory);
+
+}  // namespace lockstep::analysis

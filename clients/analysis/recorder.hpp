@@ -1,0 +1,45 @@
+// Sorts a log's messages by axis and job.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/analysis/log_read.hpp"
+
+namespace lockstep::analysis {
+
+class Recorder final : public LogListener {
+public:
+    explicit Recorder(const AnalysisOptions& options) : options_(options), machine_(options.machine) {}
+
+    void on_steps(const step_batch_t& message, std::uint64_t offset) override;
+    void on_position(const axis_position_t& message, std::uint64_t offset) override;
+    void on_run(const run_t& message, std::uint64_t offset) override;
+    void on_job(const job_t& message, std::uint64_t offset) override;
+    void on_foreign(std::string_view channel) override;
+    void on_damage(std::uint64_t offset, std::string what) override;
+
+    /// The first file that could not be written, if any.
+    const std::optional<std::string>& write_error() const { return write_error_; }
+    /// Ends every axis and gives everything away.
+    Analysis finish();
+
+private:
+    bool is_ours(const std::string& machine);
+    AxisLog* axis(const std::string& machine, const std::string& name, std::uint64_t offset);
+    JobLog& job(const job_t& message);
+    void read_documents(const job_t& message, JobLog& job, std::uint64_t offset);
+    void note_error(const std::expected<void, std::string>& result);
+
+    const AnalysisOptions& options_;
+    std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
+    std::map<std::string, std::unique_ptr<AxisLog>> axes_;
+    Analysis analysis_;
+    std::optional<std::string> write_error_;
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,11 @@
+// An analysis as the report that `lockstep analyze --json` prints.
+#pragma once
+
+#include "clients/analysis/analysis.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep::analysis {
+
+proto::AnalysisReport to_report(const Analysis& analysis);
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,187 @@
+#include "clients/analysis/words.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace lockstep::analysis {
+namespace {
+
+constexpr std::size_t kBreaksShown = 5;  // per axis
+constexpr std::size_t kDamagesShown = 5;
+
+std::string grouped(std::int64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t at = text.size(); at > (number < 0 ? 4U : 3U);) {
+        at -= 3;
+        text.insert(at, " ");
+    }
+    return text;
+}
+
+std::string plural(std::int64_t count, const std::string& one) {
+    return grouped(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&)) {
+    std::int64_t sum = 0;
+    for (const auto& axis : analysis.axes) { sum += of(*axis); }
+    return sum;
+}
+
+std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
+std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
+std::int64_t missing_steps_of(const AxisLog& axis) {
+    return axis.statistics().missing_steps() + std::abs(axis.unrecorded_steps());
+}
+
+std::string missing_in_short(const Analysis& analysis) {
+    const std::int64_t steps = total(analysis, missing_steps_of);
+    const std::int64_t batches = total(analysis, missing_batches_of);
+    if (steps == 0 && batches == 0) {
+        return "nothing missing";
+    }
+    return "at least " + plural(steps, "step") + " missing";
+}
+
+double seconds(const Analysis& analysis) {
+    const auto first = analysis.first_tick();
+    return first ? analysis.seconds(*analysis.last_tick() - *first) : 0;
+}
+
+/// A position, speed or acceleration in mm, or in steps where mm are not known.
+struct Lengths {
+    double per_step = 1;
+    double ticks_per_s = 1;
+    double position(std::int64_t steps) const { return static_cast<double>(steps) * per_step; }
+    double speed(double steps_per_tick) const { return steps_per_tick * ticks_per_s * per_step; }
+    double acceleration(double steps_per_tick2) const { return speed(steps_per_tick2) * ticks_per_s; }
+};
+
+std::string axis_row(const Analysis& analysis, const AxisLog& axis) {
+    const auto steps_per_mm = analysis.steps_per_mm(axis);
+    const Lengths in{steps_per_mm ? 1 / *steps_per_mm : 1, 1e9 / static_cast<double>(analysis.tick_ns())};
+    const AxisStatistics& found = axis.statistics();
+    const auto place = [&](const std::optional<StepPlace>& at) {
+        return at ? fmt::format("{:.3f}", in.position(at->position_steps)) : std::string("-");
+    };
+    return fmt::format("{:<16} {:>5} {:>15} {:>12} {:>12} {:>12.2f} {:>12.0f} {:>9}\n", axis.name(),
+                       steps_per_mm ? "mm" : "steps", grouped(found.steps()),
+                       found.first() ? fmt::format("{:.3f}", in.position(found.start_steps())) : "-",
+                       place(found.last()), in.speed(found.peak_steps_per_tick()),
+                       in.acceleration(found.peak_steps_per_tick2()), grouped(missing_steps_of(axis)));
+}
+
+std::string axis_table(const Analysis& analysis) {
+    if (analysis.axes.empty()) {
+        return "no axis has recorded anything\n";
+    }
+    std::string text = fmt::format("{:<16} {:>5} {:>15} {:>12} {:>12} {:>12} {:>12} {:>9}\n", "axis", "unit", "steps",
+                                   "start", "end", "peak /s", "peak /s²", "missing");
+    for (const auto& axis : analysis.axes) { text += axis_row(analysis, *axis); }
+    return text;
+}
+
+std::string job_table(const Analysis& analysis) {
+    if (analysis.jobs.empty()) {
+        return "";
+    }
+    std::string text = fmt::format("\n{:>5}  {:<5} {:<32} {:<10} {:>10}\n", "job", "kind", "program", "outcome", "s");
+    for (const JobLog& job : analysis.jobs) {
+        const std::string lasted =
+            job.begun_us && job.ended_us
+                ? fmt::format("{:.2f}", static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6)
+                : "-";
+        text +=
+            fmt::format("{:>5}  {:<5} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.program ? job.program->name : "",
+                        job.outcome.empty() ? "not ended" : job.outcome, lasted);
+    }
+    return text;
+}
+
+std::string tick_text(const std::optional<Tick>& tick, const char* otherwise) {
+    return tick ? "tick " + grouped(tick->value) : otherwise;
+}
+
+std::string break_sentence(const std::string& axis, const Break& what) {
+    const std::string between =
+        tick_text(what.from, "the log's beginning") + " and " + tick_text(what.to, "the log's end");
+    const std::string moved = plural(std::abs(what.position_change), "step");
+    const std::string batches = plural(what.missing_batches, "message");
+    switch (what.kind) {
+        case Break::Kind::Restart:
+            return axis + ": its process started anew between " + between + "\n";
+        case Break::Kind::Jump:
+            if (what.missing_batches == 0) {
+                return axis + ": its position was set anew, by " + moved + ", between " + between + "\n";
+            }
+            break;
+        case Break::Kind::Missing:
+            break;
+    }
+    if (!what.from) {
+        return axis + ": " + batches + " are not in the log, before " + tick_text(what.to, "its end") + "\n";
+    }
+    return axis + ": at least " + moved + " in " + batches + " missing between " + between + "\n";
+}
+
+std::string axis_notes(const AxisLog& axis) {
+    std::string text;
+    const auto& breaks = axis.statistics().breaks();
+    for (std::size_t i = 0; i < std::min(breaks.size(), kBreaksShown); ++i) {
+        text += break_sentence(axis.name(), breaks[i]);
+    }
+    const auto more = axis.statistics().break_count() - static_cast<std::int64_t>(kBreaksShown);
+    if (more > 0) {
+        text += axis.name() + ": and " + plural(more, "more such place") + "\n";
+    }
+    if (axis.unrecorded_steps() != 0) {
+        text += axis.name() + ": the last position is " + plural(std::abs(axis.unrecorded_steps()), "step") +
+                " from the last step in the log\n";
+    }
+    const StreamCounts& counts = axis.counts();
+    const std::int64_t left_out = counts.duplicates + counts.late + counts.disordered;
+    if (left_out > 0) {
+        text += fmt::format("{}: left out {} ({} repeated, {} too late, {} out of order)\n", axis.name(),
+                            plural(left_out, "message"), counts.duplicates, counts.late, counts.disordered);
+    }
+    return text;
+}
+
+std::string log_notes(const Analysis& analysis) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(analysis.damages.size(), kDamagesShown); ++i) {
+        text += fmt::format("damaged at byte {}: {}\n", analysis.damages[i].offset, analysis.damages[i].what);
+    }
+    if (analysis.damage_count > kDamagesShown) {
+        text += fmt::format("and {} more damaged places\n", analysis.damage_count - kDamagesShown);
+    }
+    for (const auto& [channel, events] : analysis.foreign) {
+        text += "not looked at: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string in_a_line(const Analysis& analysis) {
+    const auto axes = static_cast<std::int64_t>(analysis.axes.size());
+    return fmt::format("{} · {} · {:.3g} s · {}", axes == 1 ? "1 axis" : grouped(axes) + " axes",
+                       plural(total(analysis, steps_of), "step"), seconds(analysis), missing_in_short(analysis));
+}
+
+std::string summary(const Analysis& analysis) {
+    std::string text =
+        fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
+    text += axis_table(analysis) + job_table(analysis);
+    std::string notes;
+    if (analysis.largest_distance_mm) {
+        notes += fmt::format("the path stepped is at most {:.4f} mm from the path asked (X-Y)\n",
+                             *analysis.largest_distance_mm);
+    }
+    for (const auto& axis : analysis.axes) { notes += axis_notes(*axis); }
+    notes += log_notes(analysis);
+    return notes.empty() ? text : text + "\n" + notes;
+}
+
+}  // namespace lockstep::analysis
