@@ -1,0 +1,159 @@
+// A sample that lies is refused, with the field that lies.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "services/wire/translate.hpp"
+#include "tests/unit/wire/random_messages.hpp"
+
+namespace lockstep {
+namespace {
+
+/// An enumerator that does not exist, as a hostile sender may write it.
+template <typename Enum>
+Enum enumerator(std::uint32_t number) {
+    return std::bit_cast<Enum>(number);
+}
+
+template <typename Wire>
+void expect_refused(const Wire& wire, const std::string& field) {
+    const auto received = from_wire(wire);
+    ASSERT_FALSE(received) << "accepted with a wrong " << field;
+    EXPECT_NE(received.error().find(field), std::string::npos) << received.error();
+}
+
+/// Two axes: bodies of two pieces and one, tails of one.
+Frame good_frame() {
+    const Piece piece{{100}, {1000}, {-10}};
+    return {.number = 1, .ticks = {200}, .axes = {{{}, {piece, piece}, {piece}}, {{}, {piece}, {piece}}}};
+}
+
+/// good_frame() after `lie` has been at its message.
+void expect_frame_refused(const std::string& field, const std::function<void(SetpointMessage&)>& lie) {
+    SetpointMessage message = to_wire(good_frame());
+    ASSERT_TRUE(from_wire(message));
+    lie(message);
+    expect_refused<lockstep_wire_Setpoint>(message, field);
+}
+
+TEST(HostileFrame, CountsThatLieAreRefused) {
+    expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = 0; });
+    expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = 33; });
+    expect_frame_refused("number of phases", [](auto& m) { m.from_phase._length = 1; });
+    expect_frame_refused("number of body counts", [](auto& m) { m.body_count._length = 1; });
+    expect_frame_refused("number of tail counts", [](auto& m) { m.tail_count._length = 0; });
+    expect_frame_refused("number of ticks", [](auto& m) { m.storage.body_count[0] = 3; });
+    expect_frame_refused("number of ticks", [](auto& m) { m.storage.tail_count[1] = 0; });
+    expect_frame_refused("body count", [](auto& m) { m.storage.body_count[0] = 65535; });
+    expect_frame_refused("tail count", [](auto& m) { m.storage.tail_count[1] = kMaxTailPieces + 1; });
+    expect_frame_refused("number of ticks", [](auto& m) { m.ticks._length = 4; });
+    expect_frame_refused("number of velocities", [](auto& m) { m.velocity._length = 4; });
+    expect_frame_refused("number of accelerations", [](auto& m) { m.acceleration._length = 4; });
+}
+
+TEST(HostileFrame, NumbersThatWouldOverflowAreRefused) {
+    constexpr auto kMin = std::numeric_limits<std::int64_t>::min();
+    constexpr auto kMax = std::numeric_limits<std::int64_t>::max();
+    expect_frame_refused("start_tick", [](auto& m) { m.start_tick = kMax; });
+    expect_frame_refused("frame_ticks", [](auto& m) { m.frame_ticks = 0; });
+    expect_frame_refused("frame_ticks", [](auto& m) { m.frame_ticks = kMax; });
+    expect_frame_refused("from_count", [](auto& m) { m.storage.from_count[1] = kMin; });
+    expect_frame_refused("ticks", [](auto& m) { m.storage.ticks[0] = -1; });
+    expect_frame_refused("ticks", [](auto& m) { m.storage.ticks[4] = kMax; });
+    expect_frame_refused("velocity", [](auto& m) { m.storage.velocity[2] = kMin; });
+    expect_frame_refused("acceleration", [](auto& m) { m.storage.acceleration[2] = kMin; });
+}
+
+/// Whatever is written over a message, translating it is defined: it is refused, or what comes out is within bounds.
+TEST(HostileFrame, RandomDamageNeverGetsPastTheBounds) {
+    RandomMessages random(2);
+    for (int i = 0; i < 2000; ++i) {
+        SetpointMessage message = to_wire(good_frame());
+        auto& target = message.storage;
+        switch (random.index(4)) {
+            case 0: target.body_count[random.index(2)] = static_cast<std::uint16_t>(random.bits()); break;
+            case 1: target.ticks[random.index(5)] = static_cast<std::int64_t>(random.bits()); break;
+            case 2: target.velocity[random.index(5)] = static_cast<std::int64_t>(random.bits()); break;
+            default: message.ticks._length = random.index(6);
+        }
+        const auto received = from_wire(message);
+        if (!received) { continue; }
+        for (const AxisTrack& axis : received->axes) {
+            for (const Piece& piece : axis.body) { EXPECT_LE(piece.ticks.value, INT32_MAX); }
+        }
+    }
+}
+
+TEST(HostileAxisState, IsRefused) {
+    const auto good = [] { return to_wire(RandomMessages(3).axis_state()); };
+    const auto refused = [&](const char* field, auto lie) {
+        auto wire = good();
+        lie(wire);
+        expect_refused(wire, field);
+    };
+    refused("axis", [](auto& w) { w.axis = kMaxAxes; });
+    refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_AxisPhase>(7); });
+    refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_AxisPhase>(0xFFFFFFFF); });
+    refused("stamp", [](auto& w) { w.stamp = INT64_MIN; });
+    refused("tick", [](auto& w) { w.tick = INT64_MAX; });
+    refused("position_count", [](auto& w) { w.position_count = INT64_MIN; });
+    refused("velocity", [](auto& w) { w.velocity = INT64_MIN; });
+    refused("following_error_steps", [](auto& w) { w.following_error_steps = INT64_MIN; });
+}
+
+TEST(HostileMachineState, IsRefused) {
+    const auto refused = [](const char* field, auto lie) {
+        auto wire = to_wire(RandomMessages(4).machine_state());
+        lie(wire);
+        expect_refused(wire, field);
+    };
+    refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_MachinePhase>(8); });
+    refused("fault_axis", [](auto& w) { w.fault_axis = 32; });
+    refused("progress", [](auto& w) { w.progress = 1.01; });
+    refused("progress", [](auto& w) { w.progress = std::nan(""); });
+    refused("remaining_s", [](auto& w) { w.remaining_s = std::numeric_limits<double>::infinity(); });
+    refused("stamp", [](auto& w) { w.stamp = INT64_MAX; });
+}
+
+TEST(HostileCommands, AreRefused) {
+    auto axis_command = to_wire(AxisCommand{});
+    axis_command.kind = enumerator<lockstep_wire_AxisCommandKind>(3);
+    expect_refused(axis_command, "kind");
+    axis_command = to_wire(AxisCommand{});
+    axis_command.axis = 32;
+    expect_refused(axis_command, "axis");
+    auto command = to_wire(Command{});
+    command.kind = enumerator<lockstep_wire_CommandKind>(8);
+    expect_refused(command, "kind");
+}
+
+TEST(HostileChunk, IsRefused) {
+    const ProgramChunk good{.index = 0, .count = 1, .bytes = {1, 2, 3}};
+    auto wire = to_wire(good);
+    wire.count = 0;
+    expect_refused(wire, "count");
+    wire = to_wire(good);
+    wire.count = 0xFFFFFFFF;
+    expect_refused(wire, "count");
+    wire = to_wire(good);
+    wire.index = 1;
+    expect_refused(wire, "index");
+    wire = to_wire(good);
+    wire.bytes._length = kMaxChunkBytes + 1;
+    expect_refused(wire, "number of bytes");
+}
+
+TEST(HostileReply, IsRefused) {
+    auto wire = to_wire(Reply{});
+    wire.status = enumerator<lockstep_wire_ReplyStatus>(2);
+    expect_refused(wire, "status");
+    wire = to_wire(Reply{});
+    std::fill(std::begin(wire.text), std::end(wire.text), 'x');  // no end
+    expect_refused(wire, "text");
+}
+
+}  // namespace
+}  // namespace lockstep

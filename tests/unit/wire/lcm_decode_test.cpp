@@ -1,0 +1,124 @@
+// The record's messages are decoded, or refused where a byte of their structure is wrong; never trusted.
+#include "services/wire/lcm_decode.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "services/wire/translate_lcm.hpp"
+
+namespace lockstep {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+template <typename Message>
+Bytes encoded(const Message& message) {
+    Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return bytes;
+}
+
+step_batch_t a_batch() {
+    step_batch_t batch{};
+    batch.machine = "mill";
+    batch.axis = "X";
+    batch.sequence = 3;
+    batch.count = 3;
+    batch.delta_ticks = {0, 10, 12};
+    batch.direction = {1, 1, -1};
+    return batch;
+}
+
+run_t a_run() {
+    const Piece pieces[] = {{{10}, {20}, {30}}, {{40}, {50}, {60}}};
+    return to_lcm(RunRecord{.machine = "mill", .axis = "X", .sequence = 9, .frame = 2, .pieces = pieces}, 1000);
+}
+
+job_t a_job() {
+    const JobRecord record{.machine = "mill", .kind = "run", .event = "begun", .resume_along = Int128{-5},
+                           .config = "name: 'mill'", .program = "blocks {}", .start_count = {1, 2, 3}};
+    return to_lcm(record, {1'000'000}, 1000);
+}
+
+axis_position_t a_position() {
+    MachineConfig machine;
+    machine.name = "mill";
+    machine.axes.resize(1);
+    machine.axes[0].name = "X";
+    machine.axes[0].steps_per_mm = 400;
+    return to_lcm(machine, {.homed = true, .position = Position::steps(800), .velocity = {INT64_MAX}, .tick = {5000}});
+}
+
+template <typename Message>
+void expect_decodes_back(const Message& message) {
+    const Bytes bytes = encoded(message);
+    const auto decoded = decode_lcm<Message>(bytes);
+    ASSERT_TRUE(decoded) << decoded.error();
+    EXPECT_EQ(encoded(*decoded), bytes);
+}
+
+TEST(LcmDecode, EveryMessageOfTheRecordComesBack) {
+    expect_decodes_back(a_batch());
+    expect_decodes_back(a_run());
+    expect_decodes_back(a_job());
+    expect_decodes_back(a_position());
+}
+
+TEST(LcmDecode, AnotherTypeIsRefused) { EXPECT_FALSE(decode_lcm<run_t>(encoded(a_batch()))); }
+
+/// Cuts the message at every length, and overwrites each of its bytes in turn.
+template <typename Message>
+void expect_survives_damage(const Message& message) {
+    const Bytes whole = encoded(message);
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        EXPECT_FALSE(decode_lcm<Message>(std::span(whole).first(length))) << "cut at " << length;
+    }
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        for (const std::uint8_t value : Bytes{0x00, 0x7F, 0x80, 0xFF}) {
+            Bytes damaged = whole;
+            damaged[at] = value;
+            (void)decode_lcm<Message>(damaged);  // refused or decoded; neither throws nor allocates without bound
+        }
+    }
+}
+
+TEST(LcmDecode, DamageIsRefusedOrHarmless) {
+    expect_survives_damage(a_batch());
+    expect_survives_damage(a_run());
+    expect_survives_damage(a_job());
+    expect_survives_damage(a_position());
+}
+
+TEST(LcmDecode, ACountThatLiesIsRefused) {
+    step_batch_t batch = a_batch();
+    Bytes bytes = encoded(batch);
+    const std::size_t count_at = bytes.size() - 3 * 5 - 4;
+    for (const std::uint8_t high : Bytes{0x00, 0x7F, 0xFF}) {
+        bytes[count_at] = high;
+        bytes[count_at + 1] = 0xFF;
+        EXPECT_FALSE(decode_lcm<step_batch_t>(bytes));
+    }
+}
+
+TEST(ToLcm, APositionIsInStepsAndInMillimetres) {
+    const axis_position_t position = a_position();
+    EXPECT_EQ(position.position_steps, 800);
+    EXPECT_DOUBLE_EQ(position.position_mm, 2.0);
+    EXPECT_NEAR(position.velocity_steps_per_s, 500'000, 1);
+    EXPECT_NEAR(position.velocity_mm_per_s, 1250, 0.01);
+    EXPECT_EQ(position.utime, 5000);
+    EXPECT_EQ(position.state, "Initialize");
+}
+
+TEST(ToLcm, ARunThatWasNotCutEndsWhereItsPiecesDo) {
+    const Piece piece{{1000}, {INT64_MAX}, {0}};  // half a step a tick
+    const run_t run = to_lcm(RunRecord{.from = Position::steps(7), .pieces = {&piece, 1}}, 1000);
+    EXPECT_EQ(run.cut, 0);
+    EXPECT_EQ(run.stop_count, 507);
+    EXPECT_EQ(to_lcm(RunRecord{.cut_at_steps = 3, .pieces = {&piece, 1}}, 1000).stop_count, 3);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,93 @@
+#include "tests/unit/wire/random_messages.hpp"
+
+namespace lockstep {
+
+Frame RandomMessages::frame() {
+    Frame frame{.coordinator = bits(),
+                .epoch = bits(),
+                .number = bits(),
+                .start = {far()},
+                .ticks = {between(1, INT32_MAX)},
+                .last = coin(),
+                .axes = std::vector<AxisTrack>(1 + index(kMaxAxes))};
+    for (AxisTrack& axis : frame.axes) {
+        axis.from = position();
+        for (std::uint32_t n = index(kMaxBodyPieces + 1); n > 0; --n) { (void)axis.body.push_back(piece()); }
+        for (std::uint32_t n = index(kMaxTailPieces + 1); n > 0; --n) { (void)axis.tail.push_back(piece()); }
+    }
+    return frame;
+}
+
+AxisState RandomMessages::axis_state() {
+    return {.identity = bits(),
+            .axis = index(kMaxAxes),
+            .stamp = far(),
+            .epoch = bits(),
+            .held = bits(),
+            .veto = veto(),
+            .ran = bits(),
+            .at_rest = coin(),
+            .homed = coin(),
+            .phase = static_cast<AxisPhase>(index(7)),
+            .fault = fault(),
+            .position = position(),
+            .velocity = {rate()},
+            .tick = {far()},
+            .following_error_steps = far(),
+            .command_done = bits(),
+            .command_fault = fault(),
+            .config_hash = bits(),
+            .refused_frames = bits()};
+}
+
+AxisCommand RandomMessages::axis_command() {
+    return {.coordinator = bits(),
+            .sequence = bits(),
+            .axis = index(kMaxAxes),
+            .kind = static_cast<AxisCommandKind>(index(3))};
+}
+
+MachineState RandomMessages::machine_state() {
+    return {.coordinator = bits(),
+            .stamp = far(),
+            .tick = {far()},
+            .phase = static_cast<MachinePhase>(index(8)),
+            .fault = fault(),
+            .fault_axis = index(kMaxAxes),
+            .epoch = bits(),
+            .sent = bits(),
+            .veto = veto(),
+            .job = bits(),
+            .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .progress = static_cast<double>(between(0, 1000)) / 1000,
+            .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
+            .axes_present = static_cast<std::uint32_t>(bits()),
+            .config_hash = bits()};
+}
+
+Command RandomMessages::command() {
+    return {.client = bits(),
+            .sequence = bits(),
+            .kind = static_cast<CommandKind>(index(8)),
+            .axes = static_cast<std::uint32_t>(bits()),
+            .program = bits()};
+}
+
+ProgramChunk RandomMessages::chunk() {
+    const std::uint32_t count = 1 + index(4096);
+    ProgramChunk chunk{.client = bits(), .sequence = bits(), .program = bits(), .index = index(count), .count = count};
+    chunk.bytes.resize(index(32768 + 1));
+    for (auto& byte : chunk.bytes) { byte = static_cast<std::uint8_t>(bits()); }
+    return chunk;
+}
+
+Reply RandomMessages::reply() {
+    return {.client = bits(),
+            .sequence = bits(),
+            .status = static_cast<ReplyStatus>(index(2)),
+            .fault = fault(),
+            .job = bits(),
+            .text = std::string(index(1024), 'x')};
+}
+
+}  // namespace lockstep

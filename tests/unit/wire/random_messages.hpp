@@ -1,0 +1,42 @@
+// Messages with random contents, all of which the wire must carry.
+#pragma once
+
+#include <random>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+class RandomMessages {
+public:
+    explicit RandomMessages(std::uint64_t seed) : random_(seed) {}
+
+    Frame frame();
+    AxisState axis_state();
+    AxisCommand axis_command();
+    MachineState machine_state();
+    Command command();
+    ProgramChunk chunk();
+    Reply reply();
+
+    std::uint64_t bits() { return random_(); }
+    std::int64_t between(std::int64_t least, std::int64_t most) {
+        return std::uniform_int_distribution<std::int64_t>(least, most)(random_);
+    }
+    std::uint32_t index(std::size_t count) {
+        return static_cast<std::uint32_t>(between(0, static_cast<std::int64_t>(count) - 1));
+    }
+
+private:
+    std::int64_t far() { return between(-(std::int64_t{1} << 62), std::int64_t{1} << 62); }
+    std::int64_t rate() { return between(-INT64_MAX, INT64_MAX); }
+    std::uint16_t fault() { return static_cast<std::uint16_t>(bits()); }
+    bool coin() { return bits() % 2 == 1; }
+    Position position() { return Position::from_count(far(), bits()); }
+    std::optional<FrameNumber> veto() { return coin() ? std::optional(bits()) : std::nullopt; }
+    Piece piece() { return {{between(0, INT32_MAX)}, {rate()}, {rate()}}; }
+
+    std::mt19937_64 random_;
+};
+
+}  // namespace lockstep
