@@ -24,6 +24,11 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     now_ = inputs.now;
     const Slot slot = rules::slot_of(now_, slot_);
     observe(inputs.device, out);
+    if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
+        homed_ = false;
+        follower_.veto_for_own_reasons(slot);
+        fail(FaultCode::DeviceFault, out);
+    }
     hear(inputs, out);
     take_frames(inputs, out);
     if (mode_ == Mode::Following) {
@@ -89,7 +94,7 @@ void AxisController::record_end(const HeldFrame& frame, const DeviceStatus& devi
 }
 
 void AxisController::record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, AxisOutputs& out) {
-    RunRecord r{.epoch = mode_ == Mode::Local ? 0 : follower_.epoch(), .frame = frame.number, .tail = tail};
+    ExecutedTrack r{.epoch = mode_ == Mode::Local ? 0 : follower_.epoch(), .frame = frame.number, .tail = tail};
     r.start = tail ? frame.end() : frame.start;
     r.from = tail ? frame.body_end() : frame.track.from;
     const auto take = [&r](const auto& pieces) { r.pieces.assign(pieces.begin(), pieces.end()); };

@@ -18,6 +18,7 @@ namespace lockstep {
 struct AxisInputs {
     Tick now;  // machine time
     DeviceStatus device;
+    bool device_failed = false;  // it could not be read, or refused an order: what it then does is not known
     std::span<const Frame> frames;
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
@@ -25,7 +26,7 @@ struct AxisInputs {
 };
 
 /// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against.
-struct RunRecord {
+struct ExecutedTrack {
     Epoch epoch = 0;  // 0: the axis's own move
     FrameNumber frame = 0;
     bool tail = false;
@@ -50,7 +51,7 @@ struct AxisNotice {
 struct AxisOutputs {
     std::optional<AxisState> state;  // once a slot
     std::vector<DeviceOrder> orders;
-    std::vector<RunRecord> records;
+    std::vector<ExecutedTrack> records;
     std::vector<AxisNotice> notices;
 };
 

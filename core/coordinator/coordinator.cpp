@@ -166,15 +166,15 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
     job_ = Job{.number = ++jobs_,
                .kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run,
                .program = program->second,
-               .stretches = std::move(*plan)};
-    for (const Stretch& stretch : job_->stretches) {
-        if (!stretch.moves.empty()) { job_->planned = job_->planned + planner_.path(stretch.moves, {}).duration(); }
+               .legs = std::move(*plan)};
+    for (const Leg& leg : job_->legs) {
+        if (!leg.moves.empty()) { job_->planned = job_->planned + planner_.path(leg.moves, {}).duration(); }
     }
     const AxisCounts start = counts();
     out.jobs.push_back({.kind = JobEvent::Kind::Begun, .job = job_->number, .job_kind = job_->kind,
                         .program = job_->program, .start_counts = {start.begin(), start.end()}});
     const Reply reply = accepted(command);
-    begin_stretch(out);
+    begin_leg(out);
     return reply;
 }
 
@@ -198,7 +198,7 @@ Reply Coordinator::resume(const Command& command, CoordinatorOutputs& out) {
     if (const auto missing = missing_axis()) {
         return refused(command, FaultCode::AxisMissing, "axis " + machine_.axes[*missing].name + " is not heard");
     }
-    phase_ == MachinePhase::Paused ? begin_stretch(out) : go_on(out);
+    phase_ == MachinePhase::Paused ? begin_leg(out) : go_on(out);
     return accepted(command);
 }
 
@@ -267,18 +267,18 @@ void Coordinator::advance(CoordinatorOutputs& out) {
     if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open) { enter(MachinePhase::Idle, out); }
 }
 
-void Coordinator::begin_stretch(CoordinatorOutputs& out) {
-    while (job_->stretch < job_->stretches.size() && job_->stretches[job_->stretch].moves.empty() &&
-           !job_->stretches[job_->stretch].then_pause) {
-        ++job_->stretch;
+void Coordinator::begin_leg(CoordinatorOutputs& out) {
+    while (job_->leg < job_->legs.size() && job_->legs[job_->leg].moves.empty() &&
+           !job_->legs[job_->leg].then_pause) {
+        ++job_->leg;
     }
-    if (job_->stretch == job_->stretches.size()) { return end_job(JobOutcome::Done, out); }
-    Stretch& stretch = job_->stretches[job_->stretch];
-    if (stretch.moves.empty()) {
-        ++job_->stretch;
+    if (job_->leg == job_->legs.size()) { return end_job(JobOutcome::Done, out); }
+    Leg& leg = job_->legs[job_->leg];
+    if (leg.moves.empty()) {
+        ++job_->leg;
         return enter(MachinePhase::Paused, out);
     }
-    begin_epoch(stretch.moves, {}, {}, {stretch.moves.front().block, {}}, out);
+    begin_epoch(leg.moves, {}, {}, {leg.moves.front().block, {}}, out);
 }
 
 /// `at` empty: from rest on whole steps, where the axes stand.
@@ -314,11 +314,11 @@ void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
         case EpochEnd::Kind::Complete: break;
     }
     job_->planned_behind = job_->planned_behind + runner_.path().duration();
-    const bool pause = job_->stretches[job_->stretch].then_pause;
-    ++job_->stretch;
+    const bool pause = job_->legs[job_->leg].then_pause;
+    ++job_->leg;
     if (intent_ == Intent::Stop) { return end_job(JobOutcome::Stopped, out); }
     if (pause || intent_ == Intent::Hold) { return enter(MachinePhase::Paused, out); }
-    begin_stretch(out);
+    begin_leg(out);
 }
 
 /// The axes rest together on the path, proved by their counts: what is left can be run from there.
@@ -340,8 +340,8 @@ void Coordinator::interrupted(const EpochEnd& end, CoordinatorOutputs& out) {
 
 void Coordinator::go_on(CoordinatorOutputs& out) {
     if (job_->remaining.empty()) {
-        ++job_->stretch;
-        return begin_stretch(out);
+        ++job_->leg;
+        return begin_leg(out);
     }
     begin_epoch(std::move(job_->remaining), job_->resume.along, std::move(job_->positions), job_->resume, out);
 }

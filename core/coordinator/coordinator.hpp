@@ -77,10 +77,10 @@ private:
         std::uint64_t number = 0;
         JobKind kind = JobKind::Run;
         std::shared_ptr<const Program> program;
-        std::vector<Stretch> stretches;
-        std::size_t stretch = 0;
-        Subticks planned;               // all stretches
-        Subticks planned_behind;        // stretches done
+        std::vector<Leg> legs;
+        std::size_t leg = 0;
+        Subticks planned;               // all legs
+        Subticks planned_behind;        // legs done
         std::uint32_t axes = 0;         // homing: which
         int sequence = 0;               // homing: the group in progress
         PathPlace resume;               // held or interrupted: where it goes on
@@ -109,7 +109,7 @@ private:
     void send_homing_group(CoordinatorOutputs& out);
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
                      CoordinatorOutputs& out);
-    void begin_stretch(CoordinatorOutputs& out);
+    void begin_leg(CoordinatorOutputs& out);
     void settle(const EpochEnd& end, CoordinatorOutputs& out);
     void interrupted(const EpochEnd& end, CoordinatorOutputs& out);
     void go_on(CoordinatorOutputs& out);

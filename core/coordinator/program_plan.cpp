@@ -59,7 +59,7 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
     return to;
 }
 
-std::expected<std::vector<Stretch>, PlanError> ProgramPlanner::plan(const Program& program,
+std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program,
                                                                     const AxisCounts& start) const {
     const auto axes = axes_of(program);
     if (!axes) { return std::unexpected(axes.error()); }
@@ -72,7 +72,7 @@ std::expected<std::vector<Stretch>, PlanError> ProgramPlanner::plan(const Progra
                     number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + " mm"});
         }
     }
-    std::vector<Stretch> stretches(1);
+    std::vector<Leg> legs(1);
     AxisCounts at = start;
     for (std::uint32_t b = 0; b < program.blocks.size(); ++b) {
         const Block& block = program.blocks[b];
@@ -83,21 +83,21 @@ std::expected<std::vector<Stretch>, PlanError> ProgramPlanner::plan(const Progra
             PathMove move = make_move(at, *to, limits_, steps_per_mm_, linear->rapid ? 0 : linear->feed_mm_s * tick_s);
             move.line = block.line;
             move.block = b;
-            if (move.lead != 0) { stretches.back().moves.push_back(move); }
+            if (move.lead != 0) { legs.back().moves.push_back(move); }
             at = *to;
         } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
             const double seconds = std::min(dwell->seconds, kMaxDwellSeconds);
             const Ticks ticks{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
             if (ticks.value <= 0) { continue; }
-            stretches.back().moves.push_back(
+            legs.back().moves.push_back(
                 {.line = block.line, .block = b, .from = at, .to = at, .dwell = ticks});
         } else {
-            stretches.back().then_pause = true;
-            stretches.back().pause_line = block.line;
-            stretches.emplace_back();
+            legs.back().then_pause = true;
+            legs.back().pause_line = block.line;
+            legs.emplace_back();
         }
     }
-    return stretches;
+    return legs;
 }
 
 Path ProgramPlanner::path(std::vector<PathMove> moves, Displacement along) const {

@@ -13,7 +13,7 @@
 namespace lockstep {
 
 /// Moves that follow each other without a pause.
-struct Stretch {
+struct Leg {
     std::vector<PathMove> moves;
     bool then_pause = false;
     std::int32_t pause_line = 0;
@@ -32,9 +32,9 @@ public:
 
     /// The whole program from where the axes stand. Errors: an axis the machine lacks, a start elsewhere than the
     /// program's (StartMismatch), a target outside the travel (OutsideTravel), a move that is too long to count.
-    std::expected<std::vector<Stretch>, PlanError> plan(const Program& program, const AxisCounts& start) const;
+    std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const;
 
-    /// Profiles for a stretch or what remains of it; the first move starts `along` its lead axis.
+    /// Profiles for a leg or what remains of it; the first move starts `along` its lead axis.
     Path path(std::vector<PathMove> moves, Displacement along) const;
 
 private:

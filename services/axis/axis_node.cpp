@@ -1,0 +1,47 @@
+#include "services/axis/axis_node.hpp"
+
+namespace lockstep {
+
+AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
+    RegisterWindow window = RegisterWindow::in_process();
+    return {window, std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now)};
+}
+
+std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDevice device) {
+    auto driver = DeviceDriver::attach(device.window, setup.machine.tick_ns);
+    if (!driver) { return std::unexpected(driver.error()); }
+    return AxisNode(setup, std::move(device), std::move(*driver));
+}
+
+AxisNode::AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver)
+    : device_(std::move(device)),
+      driver_(std::move(driver)),
+      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash) {}
+
+AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step) {
+    if (device_.simulated) { device_.simulated->advance(now); }
+    if (auto status = driver_.read()) {
+        status_ = *status;
+    } else {
+        trouble_ = status.error();
+    }
+    AxisOutputs out = controller_.step({.now = now,
+                                        .device = status_,
+                                        .device_failed = !trouble_.empty(),
+                                        .frames = mail.frames,
+                                        .peers = mail.peers,
+                                        .coordinator = mail.coordinator,
+                                        .commands = mail.commands});
+    give(out.orders);
+    if (device_.simulated) { device_.simulated->advance(now); }
+    if (const auto drained = driver_.drain_capture(on_step); !drained) { trouble_ = drained.error(); }
+    return out;
+}
+
+void AxisNode::give(const std::vector<DeviceOrder>& orders) {
+    for (const DeviceOrder& order : orders) {
+        if (const auto given = driver_.apply(order); !given) { trouble_ = given.error(); }
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,66 @@
+// An axis controller and its device, joined: what an axis's process runs each loop, live or in virtual time.
+#pragma once
+
+#include <expected>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/axis/axis_controller.hpp"
+#include "services/axis/device_driver.hpp"
+#include "sim_fpga/device.hpp"
+
+namespace lockstep {
+
+/// The device an axis is given: a window onto its registers and, where it is simulated here, the device behind it.
+struct AxisDevice {
+    RegisterWindow window;
+    std::unique_ptr<SimulatedDevice> simulated;  // null: another process's, or hardware
+};
+
+/// A simulated device in this process, powered up at `now`.
+AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now);
+
+/// The messages of one loop.
+struct AxisMail {
+    std::span<const Frame> frames;
+    std::span<const AxisState> peers;
+    std::span<const MachineState> coordinator;
+    std::span<const AxisCommand> commands;
+};
+
+class AxisNode {
+public:
+    struct Setup {
+        std::size_t axis = 0;
+        MachineConfig machine;
+        Identity identity = 0;
+        std::uint64_t config_hash = 0;
+    };
+    using OnStep = std::function<void(StepEdge)>;
+
+    /// Error: the device is not there or is another.
+    static std::expected<AxisNode, std::string> attach(const Setup& setup, AxisDevice device);
+
+    /// One loop at `now`: lets a simulated device run up to it, decides, and gives the device its orders. Every step
+    /// made since the last loop goes to on_step, in order. Trouble with the device is in `trouble()`, and a fault.
+    AxisOutputs step(Tick now, const AxisMail& mail, const OnStep& on_step);
+
+    const std::string& trouble() const { return trouble_; }
+    const AxisController& controller() const { return controller_; }
+    SimulatedDevice* simulated() { return device_.simulated.get(); }
+
+private:
+    AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
+    void give(const std::vector<DeviceOrder>& orders);
+
+    AxisDevice device_;
+    DeviceDriver driver_;
+    AxisController controller_;
+    DeviceStatus status_;
+    std::string trouble_;
+};
+
+}  // namespace lockstep
