@@ -1,0 +1,196 @@
+// Real DDS on the loopback: what is promised between processes.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "services/wire/bus.hpp"
+#include "tests/integration/wire/child.hpp"
+#include "tests/integration/wire/eventually.hpp"
+#include "tests/integration/wire/own_network.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+template <typename Bus>
+Bus open_or_throw(const NetworkConfig& network, const std::string& machine = "mill") {
+    auto bus = open_bus<Bus>(network, machine);
+    if (!bus) { throw std::runtime_error(bus.error()); }
+    return std::move(*bus);
+}
+
+Frame frame_of(FrameNumber number, std::size_t axes, std::size_t pieces) {
+    Frame frame{.coordinator = 1, .epoch = 2, .number = number, .start = {1000}, .ticks = {5000}, .axes = std::vector<AxisTrack>(axes)};
+    for (AxisTrack& axis : frame.axes) {
+        while (axis.body.size() < pieces) { (void)axis.body.push_back({{10}, {static_cast<std::int64_t>(number)}, {-1}}); }
+    }
+    return frame;
+}
+
+/// A process of its own: see peer.cpp.
+Child peer(const std::string& role, const NetworkConfig& network) {
+    const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("integration_wire_peer");
+    return Child::execute({program.string(), role, std::to_string(network.domain)});
+}
+
+TEST(Dds, FramesArriveWholeAndInOrder) {
+    const NetworkConfig network = own_network();
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    auto axis = open_or_throw<AxisBus>(network);
+    ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1 && axis.frames.matched() == 1; }));
+    for (FrameNumber number = 1; number <= 50; ++number) { ASSERT_TRUE(coordinator.frames.write(frame_of(number, 3, 10))); }
+    std::vector<Frame> received;
+    ASSERT_TRUE(eventually([&] {
+        axis.frames.take([&](Frame&& frame) { received.push_back(std::move(frame)); });
+        return received.size() == 50;
+    }));
+    for (FrameNumber number = 1; number <= 50; ++number) { EXPECT_EQ(received[number - 1], frame_of(number, 3, 10)); }
+    EXPECT_EQ(axis.frames.refusals().count, 0u);
+}
+
+TEST(Dds, TheLargestFrameArrives) {
+    const NetworkConfig network = own_network();
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    auto axis = open_or_throw<AxisBus>(network);
+    ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1 && axis.frames.matched() == 1; }));
+    const Frame largest = frame_of(1, kMaxAxes, kMaxBodyPieces);
+    ASSERT_TRUE(coordinator.frames.write(largest));
+    std::vector<Frame> received;
+    ASSERT_TRUE(eventually([&] { return axis.frames.take([&](Frame&& frame) { received.push_back(std::move(frame)); }) > 0; }));
+    EXPECT_EQ(received[0], largest);
+}
+
+TEST(Dds, MachinesInOneDomainDoNotHearEachOther) {
+    const NetworkConfig network = own_network();
+    auto coordinator = open_or_throw<CoordinatorBus>(network, "mill");
+    auto axis = open_or_throw<AxisBus>(network, "mill");
+    auto foreign = open_or_throw<AxisBus>(network, "lathe");
+    ASSERT_TRUE(eventually([&] { return axis.machine.matched() == 1; }));
+    ASSERT_TRUE(eventually([&] {
+        coordinator.machine.write({});
+        return axis.machine.take([](MachineState&&) {}) > 0;
+    }));
+    EXPECT_EQ(foreign.machine.matched(), 0u);
+    EXPECT_EQ(foreign.machine.take([](MachineState&&) {}), 0u);
+}
+
+TEST(Dds, AnAxisDoesNotHearItself) {
+    const NetworkConfig network = own_network();
+    auto first = open_or_throw<AxisBus>(network);
+    auto second = open_or_throw<AxisBus>(network);
+    ASSERT_TRUE(eventually([&] { return first.states.matched() == 1 && second.states.matched() == 1; }));
+    std::map<std::uint32_t, int> heard_by_first;
+    ASSERT_TRUE(eventually([&] {
+        first.state.write({.axis = 0});
+        second.state.write({.axis = 1});
+        first.states.take([&](AxisState&& state) { ++heard_by_first[state.axis]; });
+        return heard_by_first[1] > 3;
+    }));
+    EXPECT_EQ(heard_by_first[0], 0);
+}
+
+TEST(Dds, ALateJoinerGetsNoOldCommand) {
+    const NetworkConfig network = own_network();
+    auto client = open_or_throw<ClientBus>(network);
+    auto early = open_or_throw<CoordinatorBus>(network);
+    ASSERT_TRUE(eventually([&] { return client.commands.matched() == 1; }));
+    ASSERT_TRUE(client.commands.write({.sequence = 1}));
+    ASSERT_TRUE(eventually([&] { return early.commands.take([](Command&&) {}) == 1; }));
+
+    auto late = open_or_throw<CoordinatorBus>(network);
+    ASSERT_TRUE(eventually([&] { return client.commands.matched() == 2 && late.commands.matched() == 1; }));
+    ASSERT_TRUE(client.commands.write({.sequence = 2}));
+    std::vector<std::uint64_t> heard;
+    ASSERT_TRUE(eventually([&] { return late.commands.take([&](Command&& command) { heard.push_back(command.sequence); }) > 0; }));
+    EXPECT_EQ(heard, std::vector<std::uint64_t>{2});
+}
+
+TEST(Dds, AClientSleepsUntilItsReplyComes) {
+    const NetworkConfig network = own_network();
+    auto client = open_or_throw<ClientBus>(network);
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    ASSERT_TRUE(eventually([&] { return coordinator.replies.matched() == 1 && client.replies.matched() == 1; }));
+    ASSERT_TRUE(coordinator.replies.write({.client = 5, .text = "done"}));
+    ASSERT_TRUE(client.arrivals->wait_for(20s));
+    std::string text;
+    client.replies.take([&](Reply&& reply) { text = reply.text; });
+    EXPECT_EQ(text, "done");
+}
+
+TEST(Dds, ACoordinatorAndAnAxisOfAnotherProcessTalkBothWays) {
+    const NetworkConfig network = own_network();
+    Child axis = peer("axis", network);
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1 && coordinator.states.matched() == 1; }));
+    FrameNumber held = 0;
+    for (FrameNumber number = 1; number <= 200; ++number) {
+        ASSERT_TRUE(eventually([&] {  // as the coordinator does: what is not held is sent again
+            coordinator.frames.write(frame_of(number, 3, 10));
+            coordinator.states.take([&](AxisState&& state) { held = std::max(held, state.held); });
+            return held + 20 >= number;
+        }));
+    }
+    ASSERT_TRUE(eventually([&] {
+        coordinator.states.take([&](AxisState&& state) { held = std::max(held, state.held); });
+        return held == 200;
+    }));
+    Frame last = frame_of(201, 3, 0);
+    last.last = true;
+    ASSERT_TRUE(coordinator.frames.write(last));
+    EXPECT_EQ(axis.wait(), 0);
+}
+
+TEST(Dds, AReaderThatStandsStillDoesNotStopTheWriter) {
+    const NetworkConfig network = own_network();
+    Child axis = peer("axis", network);
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1; }));
+    axis.signal(SIGSTOP);
+    for (FrameNumber number = 1; number <= 200; ++number) {
+        ASSERT_TRUE(coordinator.frames.write(frame_of(number, kMaxAxes, kMaxBodyPieces))) << number;
+    }
+    axis.signal(SIGCONT);
+    Frame last = frame_of(201, 3, 0);
+    last.last = true;
+    ASSERT_TRUE(coordinator.frames.write(last));
+    EXPECT_EQ(axis.wait(), 0);
+}
+
+TEST(Dds, EveryPartOfAProgramArrivesThoughPacketsAreLost) {
+    const NetworkConfig network = own_network();
+    setenv("CYCLONEDDS_URI",  // five packets of a hundred are lost, both ways
+           "<CycloneDDS><Domain><Internal><Test><XmitLossiness>50</XmitLossiness></Test></Internal></Domain></CycloneDDS>", 1);
+    Child coordinator = peer("coordinator", network);
+    auto client = open_or_throw<ClientBus>(network);
+    unsetenv("CYCLONEDDS_URI");
+    ASSERT_TRUE(eventually([&] { return client.chunks.matched() == 1 && client.replies.matched() == 1; }));
+    constexpr std::uint32_t kChunks = 100;
+    std::uint64_t answered = 0;
+    for (std::uint32_t index = 0; index < kChunks; ++index) {
+        ASSERT_TRUE(client.chunks.write({.client = 1, .sequence = index, .index = index, .count = kChunks, .bytes = std::vector<std::uint8_t>(8192)}));
+        ASSERT_TRUE(eventually([&] {
+            answered += client.replies.take([](Reply&&) {});
+            return answered + 32 > index;
+        })) << answered << " of " << index;
+    }
+    EXPECT_EQ(coordinator.wait(), 0);
+}
+
+TEST(Dds, AnInterfaceThatIsNotThereIsNamedWithTheRemedy) {
+    NetworkConfig network = own_network();
+    network.interface = "none0";
+    const auto bus = open_bus<AxisBus>(network, "mill");
+    ASSERT_FALSE(bus);
+    for (const char* part : {"none0", "domain " , "ip addr show none0"}) {
+        EXPECT_NE(bus.error().find(part), std::string::npos) << bus.error();
+    }
+    network.interface = "lo\"/><x";
+    EXPECT_FALSE(open_bus<AxisBus>(network, "mill"));
+    EXPECT_FALSE(open_bus<AxisBus>(own_network(), "*"));
+}
+
+}  // namespace
+}  // namespace lockstep
