@@ -1,5 +1,6 @@
 #include "sim_fpga/plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lockstep {
@@ -25,6 +26,19 @@ Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     max_acceleration_ = axis.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
     max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(max_acceleration_);
+}
+
+/// A pulse falls where the commanded position crosses a half: half a step short of its count, seen the way it goes.
+void Plant::judge(StepEdge edge) {
+    const double place = static_cast<double>(pulses_) - 0.5 * edge.direction;
+    const auto ticks = static_cast<double>((edge.tick - judged_).value);
+    const double commanded = (place - judged_place_) / ticks;
+    const double change = max_acceleration_ * ticks;
+    speed_ = std::clamp(commanded, speed_ - change, speed_ + change);
+    const double rounding = 2 * std::abs(commanded) / ticks;  // a tick at either end
+    slips_ = std::abs(commanded - speed_) > max_gap_ + rounding;
+    judged_ = edge.tick;
+    judged_place_ = place;
 }
 
 double Plant::position_mm() const { return start_mm_ + static_cast<double>(slide_) / steps_per_mm_; }

@@ -2,16 +2,16 @@
 //
 // The slide moves one step a pulse; its switches and encoder follow where it truly is, so they change at steps only.
 //
-// The motor is judged by the times of the pulses alone. An interval of n ticks stands for a speed between 1/(n+1) and
-// 1/(n-1), as both its ends are rounded to ticks. The rotor's speed follows that band with at most
-// max_torque_accel_mm_s2 = A. Where the band still lies further than max_jump_mm_s + sqrt(A) from the rotor's speed,
-// the rotor does not catch the pulse: one step is lost. sqrt(A), in steps and ticks, is the speed gained in the first
-// half step from rest, which pulses cannot tell from a jump. So a jump of up to max_jump, an acceleration of up to A,
-// and both together lose nothing; a greater jump loses at once; a greater acceleration a loses once the rotor has
-// fallen back by that much, at the speed (max_jump + sqrt(A)) * a / (a - A). A dead stop loses nothing.
+// The motor is judged by the times of the pulses alone: every kWindow ticks or the next pulse after that, the mean
+// speed since the last judgement is taken. The rotor's speed follows it with at most A = max_torque_accel_mm_s2. While
+// the two then differ by more than max_jump_mm_s + sqrt(A), and what rounding of pulses to ticks can feign, the rotor
+// slips: every pulse is a step lost. sqrt(A), in steps and ticks, is the speed gained in the first half step from rest,
+// which pulses cannot tell from a jump. So jumps of up to max_jump, accelerations of up to A, and both together lose
+// nothing; a greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(A)) * a /
+// (a - A) on, where the rotor has fallen back by that much. A dead stop loses nothing: no pulse follows it that could
+// be lost.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "core/machine.hpp"
@@ -34,8 +34,11 @@ public:
 
     /// One pulse. Ticks rise from call to call.
     void step(StepEdge edge) {
-        slide_ += edge.direction * static_cast<int>(rotor_follows(edge));
-        last_ = edge;
+        pulses_ += edge.direction;
+        if (edge.tick - judged_ >= kWindow) {
+            judge(edge);
+        }
+        slide_ += slips_ ? 0 : edge.direction;
     }
     /// A hand on the slide: moves it without pulses.
     void push(std::int64_t steps) { slide_ += steps; }
@@ -50,7 +53,9 @@ public:
     }
 
 private:
-    bool rotor_follows(StepEdge edge);
+    static constexpr Ticks kWindow{256};
+
+    void judge(StepEdge edge);
 
     double steps_per_mm_;
     double start_mm_;
@@ -62,24 +67,11 @@ private:
     double max_acceleration_;  // A, steps per tick^2
     double max_gap_;           // max_jump + sqrt(A), steps per tick
     double speed_ = 0;         // the rotor's, signed, steps per tick
-    StepEdge last_{{kLongAgo}, 0};
+    bool slips_ = false;
+    Tick judged_{-(std::int64_t{1} << 62)};  // at rest since long ago
+    double judged_place_ = 0;                // where the pulses were then, in steps
+    std::int64_t pulses_ = 0;                // forward minus backward
     std::int64_t slide_ = 0;
-
-    static constexpr std::int64_t kLongAgo = -(std::int64_t{1} << 62);
 };
-
-inline bool Plant::rotor_follows(StepEdge edge) {
-    const auto ticks = static_cast<double>((edge.tick - last_.tick).value);
-    const double per_width = 1.0 / (ticks * ticks - 0.75);  // (n-1)(n+1), kept positive at n = 1
-    const bool onward = edge.direction == last_.direction;
-    const double slow = onward ? (ticks - 1) * per_width : 0;  // a reversal: any speed up to the fastest
-    const double fast = (ticks + 1) * per_width;
-    const double lowest = edge.direction > 0 ? slow : -fast;
-    const double highest = edge.direction > 0 ? fast : -slow;
-    const double wanted = std::clamp(speed_, lowest, highest);
-    const double change = max_acceleration_ * ticks;
-    speed_ = std::clamp(wanted, speed_ - change, speed_ + change);
-    return std::max(lowest - speed_, speed_ - highest) <= max_gap_;
-}
 
 }  // namespace lockstep

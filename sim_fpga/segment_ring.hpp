@@ -29,7 +29,7 @@ struct LoadedFrame {
     FrameNumber number = 0;
     bool last = false;
     std::size_t body_pieces = 0;
-    StaticVector<Piece, registers::kSegmentRingEntries> pieces;
+    StaticVector<Piece, kMaxBodyPieces + kMaxTailPieces> pieces;
 };
 
 class SegmentRing {
@@ -44,7 +44,7 @@ public:
     void drop_run(std::uint64_t run);
     void drop_other_runs(std::uint64_t run);
     /// Takes the oldest entry's frame off. False, and `frame` is not to be used, where it does not begin with its
-    /// first piece, a piece does not start where and when the one before ends, or a piece cannot be executed.
+    /// first piece, a piece does not start where and when the one before ends or cannot be executed, or it is too long.
     [[nodiscard]] bool take_frame(LoadedFrame& frame);
 
 private:

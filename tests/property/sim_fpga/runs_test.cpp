@@ -74,15 +74,6 @@ std::vector<StepEdge> expected_steps(const Run& run) {
     return steps;
 }
 
-/// No switch within reach: the steps are what is looked at.
-AxisConfig endless_axis() {
-    AxisConfig axis = bench_axis();
-    axis.position_min_mm = -1e6;
-    axis.position_max_mm = 1e6;
-    axis.homing.switch_position_mm = -1e6;
-    return axis;
-}
-
 void load(DeviceBench& bench, const Run& run) {
     bench.order(device::BeginRun{1});
     for (const device::LoadFrame& frame : run.frames) { bench.order(frame); }
@@ -119,7 +110,8 @@ RC_GTEST_PROP(Runs, AnyWordsInTheWindowAreSurvived, ()) {
     DeviceBench bench;
     load(bench, any_run());
     for (int k = 0; k < 40; ++k) {
-        const std::size_t entry = registers::kSegmentRing + *rc::gen::inRange<std::size_t>(0, 40) * 128;
+        const std::size_t entry =
+            registers::kSegmentRing + *rc::gen::inRange<std::size_t>(0, 40) * registers::kSegmentRingEntryBytes;
         const std::size_t words[] = {registers::kRunRequest + *rc::gen::inRange<std::size_t>(0, 7) * 8,
                                      entry + *rc::gen::inRange<std::size_t>(0, 9) * 8};
         bench.window.store(words[*rc::gen::inRange(0, 2)], *rc::gen::arbitrary<std::uint64_t>());

@@ -30,6 +30,15 @@ inline AxisConfig bench_axis() {
     return axis;
 }
 
+/// No switch within reach: the steps are what is looked at.
+inline AxisConfig endless_axis() {
+    AxisConfig axis = bench_axis();
+    axis.position_min_mm = -1e6;
+    axis.position_max_mm = 1e6;
+    axis.homing.switch_position_mm = -1e6;
+    return axis;
+}
+
 inline device::LoadFrame frame(FrameNumber number, int direction = 1) {
     const auto before = static_cast<std::int64_t>(number - 1);
     const Velocity speed{direction * kBenchSpeed.raw};

@@ -1,0 +1,65 @@
+#include "services/fpga/fpga_service.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <expected>
+#include <iostream>
+#include <utility>
+
+#include "services/documents/machine_file.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/log.hpp"
+#include "services/runtime/periodic.hpp"
+#include "sim_fpga/device.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{1};
+
+struct Hardware {
+    AxisConfig axis;
+    std::int64_t tick_ns;
+    RegisterWindow window;
+};
+
+std::expected<Hardware, std::string> set_up(const FpgaOptions& options) {
+    const auto machine = load_machine_file(options.machine_file);
+    if (!machine) {
+        return std::unexpected(to_text(options.machine_file, machine.error()));
+    }
+    const auto axis = std::ranges::find(machine->axes, options.axis, &AxisConfig::name);
+    if (axis == machine->axes.end()) {
+        return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\"");
+    }
+    auto window = RegisterWindow::create_shared(options.name);
+    if (!window) {
+        return std::unexpected(window.error());
+    }
+    return Hardware{*axis, machine->tick_ns, std::move(*window)};
+}
+
+}  // namespace
+
+int serve_fpga(const FpgaOptions& options) {
+    const StopSignal stop;
+    if (const auto log = open_log({.service = "fpga", .axis = options.axis}); !log) {
+        std::cerr << log.error() << '\n';
+        return 1;
+    }
+    auto hardware = set_up(options);
+    if (!hardware) {
+        log_error(hardware.error());
+        return 1;
+    }
+    const MachineClock clock(hardware->tick_ns);
+    const Plant plant(hardware->axis, hardware->tick_ns);
+    SimulatedDevice device(hardware->window, plant, hardware->tick_ns, clock.now());
+    log_info("device \"" + options.name + "\" is powered up");
+    PeriodicLoop loop(kPeriod);
+    loop.run(stop, [&](std::chrono::nanoseconds) { device.advance(clock.now()); });
+    log_info("ended; the loop was late by " + std::to_string(loop.worst_lateness().count() / 1000) + " us at worst");
+    return 0;
+}
+
+}  // namespace lockstep

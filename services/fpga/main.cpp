@@ -1,0 +1,19 @@
+// lockstep-fpga: the command line.
+#include <CLI/CLI.hpp>
+
+#include "services/fpga/fpga_service.hpp"
+
+int main(int argc, char** argv) {
+    CLI::App app{"Runs the simulated device of one axis in real time, on shared memory, until SIGTERM or SIGINT."};
+    lockstep::FpgaOptions options;
+    app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
+    app.add_option("--axis", options.axis, "the axis's name in that file")->required();
+    app.add_option("--name", options.name, "of the shared memory, under /dev/shm")->required();
+    app.footer(
+        "Example: lockstep-fpga --machine machine.txtpb --axis X --name lockstep-x\n"
+        "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : 2; }
+    return lockstep::serve_fpga(options);
+}

@@ -1,0 +1,75 @@
+// A driver works with the device it was built for, and believes no window.
+#include "tests/unit/sim_fpga/device_bench.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string attach_error(const RegisterWindow& window, std::int64_t tick_ns = kTickNs) {
+    const auto driver = DeviceDriver::attach(window, tick_ns);
+    return driver ? "" : driver.error();
+}
+
+TEST(Driver, RefusesMemoryThatIsNoDevice) {
+    const std::string error = attach_error(RegisterWindow::in_process());
+    EXPECT_EQ(error,
+              "device: MAGIC reads 0x0000000000000000, expected 0x4C4F434B53544550; "
+              "is this a Lockstep axis device, and powered up?");
+}
+
+TEST(Driver, RefusesAnotherVersionAndAnotherMap) {
+    DeviceBench bench;
+    bench.window.store(registers::kMapChecksum, 7);
+    EXPECT_NE(attach_error(bench.window).find("MAP_CHECKSUM reads 0x0000000000000007"), std::string::npos);
+    bench.window.store(registers::kVersion, 99);
+    EXPECT_NE(attach_error(bench.window).find("VERSION reads 0x0000000000000063"), std::string::npos);
+}
+
+TEST(Driver, RefusesAnotherTick) {
+    DeviceBench bench;
+    EXPECT_NE(attach_error(bench.window, 500).find("the same tick_ns"), std::string::npos);
+}
+
+TEST(Driver, GoesOnWhereTheOneBeforeItStopped) {
+    DeviceBench bench;
+    bench.order(device::BeginRun{1});
+    bench.order(frame(1));
+    bench.order(device::Arm{1});
+    bench.at(kStart + kBody);
+    EXPECT_EQ(bench.steps().size(), 10u);
+    bench.driver = DeviceDriver::attach(bench.window, kTickNs).value();
+    const DeviceStatus after = bench.at(Tick{100'000});
+    EXPECT_EQ(after.position.count(), 11);
+    EXPECT_EQ(bench.steps().size(), 1u) << "the steps not drained before, and no others";
+}
+
+TEST(Driver, AWildRingEndIsAnErrorNotACrash) {
+    DeviceBench bench;
+    bench.window.store(registers::kCaptureHead, ~std::uint64_t{0} / 2);
+    EXPECT_FALSE(bench.driver.drain_capture([](StepEdge) { FAIL(); }));
+    bench.window.store(registers::kSegmentTail, 12'345);
+    EXPECT_FALSE(bench.driver.read());
+    EXPECT_FALSE(bench.driver.apply(frame(1)));
+    EXPECT_NE(attach_error(bench.window).find("segment ring"), std::string::npos);
+}
+
+TEST(Driver, ADeviceThatDiedInAnUpdateIsAnErrorNotAWaitForEver) {
+    DeviceBench bench;
+    bench.window.store(registers::kSequence, 7);
+    const auto status = bench.driver.read();
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().find("in the middle of an update"), std::string::npos) << status.error();
+}
+
+TEST(Driver, AnArmedFrameIsNotDisarmedByALaterLowerOneNorAVetoLifted) {
+    DeviceBench bench;
+    bench.order(device::BeginRun{1});
+    bench.order(device::Arm{3});
+    bench.order(device::Arm{2});
+    bench.order(device::Veto{4});
+    bench.order(device::Veto{5});
+    EXPECT_EQ(bench.window.load(registers::kArmed), 3u);
+    EXPECT_EQ(bench.window.load(registers::kVeto), 4u);
+}
+
+}  // namespace
+}  // namespace lockstep

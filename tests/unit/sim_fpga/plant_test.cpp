@@ -1,0 +1,100 @@
+// When the simulated motor loses steps, and when its switches close.
+#include "sim_fpga/plant.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/sim_fpga/drive.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kJump = 20;
+constexpr double kAccel = 2000;
+
+AxisConfig axis() {
+    AxisConfig result;
+    result.steps_per_mm = 80;
+    result.position_max_mm = 100;
+    result.homing.switch_position_mm = 1;
+    result.plant = {
+        .start_position_mm = 50, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = kAccel, .max_jump_mm_s = kJump};
+    return result;
+}
+
+TEST(Motor, LosesNothingAtTheVeryLimitsOfItsTorqueAndJump) {
+    EXPECT_EQ(steps_lost(axis(), trapezoid(kJump, 500, kAccel, 0.2)), 0);
+    EXPECT_EQ(steps_lost(axis(), trapezoid(-kJump, -500, kAccel, 0.2)), 0);
+}
+
+TEST(Motor, LosesNothingFromRestWithoutAJump) { EXPECT_EQ(steps_lost(axis(), trapezoid(0, 500, kAccel, 0.2)), 0); }
+
+TEST(Motor, LosesNothingWhenACornerChangesItsSpeedWithinTheJump) {
+    EXPECT_EQ(steps_lost(axis(), {{kJump, 300, 0.2}, {300, 300, 0.1}, {320, 320, 0.1}, {300, 300, 0.1}, {300, 0, 0.2}}),
+              0);
+}
+
+TEST(Motor, LosesNothingInAReversalWithinTheJump) {
+    EXPECT_EQ(steps_lost(axis(), {{kJump / 2, kJump / 2, 0.1}, {-kJump / 2, -kJump / 2, 0.1}}), 0);
+}
+
+TEST(Motor, ToleratesTheRoundingOfPulsesToTicksAtHighSpeed) {
+    EXPECT_EQ(steps_lost(axis(), trapezoid(kJump, 4321, kAccel, 0.5)), 0);  // 345,680 steps/s: 2 or 3 ticks a step
+}
+
+TEST(Motor, LosesStepsAtOnceInTooGreatAJump) {
+    EXPECT_GT(steps_lost(axis(), {{1.5 * kJump, 1.5 * kJump, 0.1}}), 0);
+    EXPECT_GT(steps_lost(axis(), {{-1.5 * kJump, -1.5 * kJump, 0.1}}), 0);
+}
+
+TEST(Motor, LosesStepsInTooGreatAJumpInMotion) {
+    EXPECT_GT(steps_lost(axis(), {{0, 100, 0.1}, {100, 100, 0.1}, {150, 150, 0.1}}), 0);
+    EXPECT_GT(steps_lost(axis(), {{0, 100, 0.1}, {100, 100, 0.1}, {50, 50, 0.1}}), 0);
+}
+
+TEST(Motor, LosesStepsInAReversalAtSpeed) {
+    EXPECT_GT(steps_lost(axis(), {{0, 100, 0.1}, {100, 100, 0.1}, {-100, -100, 0.1}}), 0);
+}
+
+TEST(Motor, LosesStepsInTooGreatAnAcceleration) {
+    EXPECT_GT(steps_lost(axis(), trapezoid(0, 500, 1.5 * kAccel, 0.2)), 0);
+    EXPECT_GT(steps_lost(axis(), {{0, 500, 0.5}, {500, 500, 0.2}, {500, 0, 500 / (1.5 * kAccel)}}), 0);
+}
+
+TEST(Slide, AHandMovesItWithoutPulses) {
+    Plant plant(axis(), 1000);
+    plant.push(-8);
+    EXPECT_EQ(plant.encoder(), -8);
+    EXPECT_DOUBLE_EQ(plant.position_mm(), 49.9);
+}
+
+TEST(Slide, LimitSwitchesCloseAMarginBeyondTheTravel) {
+    Plant plant(axis(), 1000);
+    plant.push(-52 * 80 + 1);
+    EXPECT_FALSE(plant.inputs().limit_min);
+    plant.push(-1);
+    EXPECT_TRUE(plant.inputs().limit_min);
+    plant.push(104 * 80 - 1);
+    EXPECT_FALSE(plant.inputs().limit_max);
+    plant.push(1);
+    EXPECT_TRUE(plant.inputs().limit_max);
+}
+
+TEST(Slide, TheHomeSwitchIsClosedFromItsPositionOnTowardItsEnd) {
+    Plant down(axis(), 1000);
+    down.push(-49 * 80 + 1);
+    EXPECT_FALSE(down.inputs().home);
+    down.push(-1);
+    EXPECT_TRUE(down.inputs().home);
+
+    AxisConfig toward_max = axis();
+    toward_max.homing.toward_min = false;
+    toward_max.homing.switch_position_mm = 99;
+    Plant up(toward_max, 1000);
+    up.push(49 * 80 - 1);
+    EXPECT_FALSE(up.inputs().home);
+    up.push(1);
+    EXPECT_TRUE(up.inputs().home);
+}
+
+}  // namespace
+}  // namespace lockstep
