@@ -12,7 +12,7 @@ namespace lockstep {
 
 /// Above this speed (steps per tick, times 2^64) executing every tick is cheaper than finding a root per step.
 /// Measured; results do not depend on it. 0 executes every tick, kNeverFast none.
-inline constexpr std::uint64_t kCrossover = std::uint64_t{1} << 60;  // 1/16 step per tick
+inline constexpr std::uint64_t kCrossover = std::uint64_t{1} << 62;  // 1/4 step per tick
 inline constexpr std::uint64_t kNeverFast = ~std::uint64_t{0};
 
 /// Calls step(n) for the tick n of every step in order, until it returns false. The ticks done: n then, else all.

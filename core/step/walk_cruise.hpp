@@ -27,9 +27,10 @@ std::int64_t walk_cruise(const Stretch& stretch, Step&& step) {
         if (--steps == 0) {
             return stretch.ticks;
         }
-        const std::uint64_t longer = phase < r ? 1 : 0;
-        phase += (longer != 0 ? u : 0) - r;
-        n += q + longer;
+        const bool longer = phase < r;
+        const std::uint64_t after_q = phase - r;
+        phase = longer ? after_q + u : after_q;
+        n += q + (longer ? 1 : 0);
     }
 }
 

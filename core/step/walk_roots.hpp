@@ -11,40 +11,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
 
+#include "core/step/step_seed.hpp"
 #include "core/step/stretch.hpp"
 
 namespace lockstep {
-
-/// Where a stretch makes its steps, to within a tick or so.
-class StepSeed {
-public:
-    explicit StepSeed(const Stretch& stretch)
-        : gap_((static_cast<double>(~stretch.phase) + 1.0) * 0x1p-64),
-          a_(static_cast<double>(stretch.acceleration) * 0x1p-64),
-          w_(static_cast<double>(stretch.speed) * 0x1p-64 - 0.5 * a_),
-          last_(static_cast<double>(stretch.ticks - 1)) {}
-
-    /// The tick of step k >= 1, nearly; in 1 ... ticks.
-    std::int64_t operator()(std::int64_t k) const {
-        const double x = root(gap_ + static_cast<double>(k - 1));
-        return 1 + static_cast<std::int64_t>(x < last_ ? x : last_);
-    }
-
-private:
-    /// Of the two ways to write the root, the one that does not subtract what is nearly equal.
-    double root(double g) const {
-        const double s = std::sqrt(std::max(w_ * w_ + 2.0 * a_ * g, 0.0));
-        return w_ >= 0.0 ? 2.0 * g / (w_ + s) : (s - w_) / a_;
-    }
-
-    double gap_;  // from the start to the first step, in steps
-    double a_;    // steps per tick^2
-    double w_;    // steps per tick
-    double last_;
-};
 
 /// The tick of step k from a seed for it, exactly.
 inline std::int64_t settle_step(const Stretch& stretch, std::int64_t k, std::int64_t seed) {
@@ -62,10 +35,14 @@ template <typename Step>
 std::int64_t walk_roots(const Stretch& stretch, Step&& step) {
     const std::int64_t steps = stretch.steps_in(stretch.ticks);
     const StepSeed seed(stretch);
-    for (std::int64_t k = 1; k <= steps; ++k) {
-        const std::int64_t n = settle_step(stretch, k, seed(k));
-        if (!step(n)) {
-            return n;
+    for (std::int64_t first = 1; first <= steps; first += kSeedBatch) {
+        const SeedBatch seeds = seed.batch(first);
+        const std::int64_t in_batch = std::min(kSeedBatch, steps - first + 1);
+        for (std::int64_t i = 0; i < in_batch; ++i) {
+            const std::int64_t n = settle_step(stretch, first + i, seeds[static_cast<std::size_t>(i)]);
+            if (!step(n)) {
+                return n;
+            }
         }
     }
     return stretch.ticks;

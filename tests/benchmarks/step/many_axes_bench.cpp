@@ -14,9 +14,7 @@ constexpr Ticks kFrame{5'000};
 template <typename Engine>
 std::vector<Player<Engine>> players(const Limits& limits, int axes) {
     std::vector<Player<Engine>> all;
-    for (int axis = 0; axis < axes; ++axis) {
-        all.emplace_back(pieces_of_axis(limits, axis), rest_position(0, false));
-    }
+    for (int axis = 0; axis < axes; ++axis) { all.emplace_back(pieces_of_axis(limits, axis), rest_position(0, false)); }
     return all;
 }
 
@@ -37,7 +35,7 @@ double play_all(std::vector<Player<Engine>>& axes, Run&& run) {
     return ticks;
 }
 
-void scalar(benchmark::State& state, const Limits& limits, int axes) {
+void step_scalar(benchmark::State& state, const Limits& limits, int axes) {
     Times times;
     double ticks = 0;
     for (auto _ : state) {
@@ -50,9 +48,9 @@ void scalar(benchmark::State& state, const Limits& limits, int axes) {
     report_cost(state, static_cast<double>(limits.steps * axes), ticks);
 }
 
-BENCHMARK_CAPTURE(scalar, M1/8_axes, kM1, 8)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(scalar, M2/8_axes, kM2, 8)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(scalar, M3/8_axes, kM3, 8)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(step_scalar, M1_8_axes, kM1, 8)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(step_scalar, M2_8_axes, kM2, 8)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(step_scalar, M3_8_axes, kM3, 8)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lockstep::bench

@@ -11,12 +11,16 @@ namespace lockstep::bench {
 /// Where the times of steps go: a step is computed when its time is in memory.
 class Times {
 public:
-    void operator()(std::int64_t time) { ring_[count_++ % ring_.size()] = time; }
-    std::uint64_t count() const { return count_; }
+    void operator()(std::int64_t time) {
+        *next_++ = time;
+        if (next_ == ring_.end()) {
+            next_ = ring_.begin();
+        }
+    }
 
 private:
     std::array<std::int64_t, 4096> ring_{};
-    std::uint64_t count_ = 0;
+    std::array<std::int64_t, 4096>::iterator next_ = ring_.begin();
 };
 
 /// Counters ns_per_step and ns_per_tick; `steps` and `ticks` are those of one iteration, of all axes together.

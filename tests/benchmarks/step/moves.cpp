@@ -20,8 +20,7 @@ double Trapezoid::time_of(double s) const {
     if (s <= ramp) {
         return time_to_cover(s, start_velocity, a);
     }
-    return s <= end - ramp ? rise + (s - ramp) / top_velocity
-                           : duration() - time_to_cover(end - s, start_velocity, a);
+    return s <= end - ramp ? rise + (s - ramp) / top_velocity : duration() - time_to_cover(end - s, start_velocity, a);
 }
 
 Trapezoid continuous(const Limits& limits) {

@@ -51,7 +51,7 @@ void report_accuracy(benchmark::State& state, const Limits& limits, Form form) {
 }
 
 template <typename Form>
-void one_axis(benchmark::State& state, const Limits& limits, std::int64_t moves, Form form) {
+void step_one_axis(benchmark::State& state, const Limits& limits, std::int64_t moves, Form form) {
     const std::vector<Piece> pieces = pieces_of(in_whole_ticks(limits));
     Times times;
     for (auto _ : state) {
@@ -66,21 +66,23 @@ void one_axis(benchmark::State& state, const Limits& limits, std::int64_t moves,
     report_accuracy(state, limits, form);
 }
 
-void naive(benchmark::State& state, const Limits& limits, std::int64_t moves) {
+void step_naive(benchmark::State& state, const Limits& limits, std::int64_t moves) {
     Times times;
     for (auto _ : state) {
-        for (std::int64_t i = 0; i < moves; ++i) { austin(limits, [&](std::int64_t time) { times(time); }); }
+        for (std::int64_t i = 0; i < moves; ++i) {
+            austin(limits, [&](std::int64_t time) { times(time); });
+        }
         benchmark::DoNotOptimize(times);
     }
     report_cost(state, static_cast<double>(moves * limits.steps),
                 static_cast<double>(moves) * in_whole_ticks(limits).duration());
 }
 
-#define LOCKSTEP_BENCH_MOVE(move, limits, moves)                                                            \
-    BENCHMARK_CAPTURE(one_axis, move/tick_by_tick, limits, moves, kTickByTick)->Unit(benchmark::kMillisecond); \
-    BENCHMARK_CAPTURE(one_axis, move/skip_ahead, limits, moves, kSkipAhead)->Unit(benchmark::kMillisecond);    \
-    BENCHMARK_CAPTURE(one_axis, move/engine, limits, moves, kEngine)->Unit(benchmark::kMillisecond);           \
-    BENCHMARK_CAPTURE(naive, move/austin, limits, moves)->Unit(benchmark::kMillisecond)
+#define LOCKSTEP_BENCH_MOVE(move, limits, moves)                                                                      \
+    BENCHMARK_CAPTURE(step_one_axis, move##_tick_by_tick, limits, moves, kTickByTick)->Unit(benchmark::kMillisecond); \
+    BENCHMARK_CAPTURE(step_one_axis, move##_skip_ahead, limits, moves, kSkipAhead)->Unit(benchmark::kMillisecond);    \
+    BENCHMARK_CAPTURE(step_one_axis, move##_engine, limits, moves, kEngine)->Unit(benchmark::kMillisecond);           \
+    BENCHMARK_CAPTURE(step_naive, move##_austin, limits, moves)->Unit(benchmark::kMillisecond)
 
 LOCKSTEP_BENCH_MOVE(M1, kM1, 1);
 LOCKSTEP_BENCH_MOVE(M2, kM2, 1);
