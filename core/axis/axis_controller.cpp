@@ -104,7 +104,7 @@ void AxisController::record(const HeldFrame& frame, bool tail, std::optional<std
     r.cut = cut_at.has_value();
     r.stop_count = cut_at.value_or(end.count());
     r.zero_count = zero_count_;
-    out.records.push_back(std::move(r));
+    out.tracks.push_back(std::move(r));
 }
 
 /// The three moving states follow the speed of the pulses themselves.

@@ -51,7 +51,7 @@ struct AxisNotice {
 struct AxisOutputs {
     std::optional<AxisState> state;  // once a slot
     std::vector<DeviceOrder> orders;
-    std::vector<ExecutedTrack> records;
+    std::vector<ExecutedTrack> tracks;
     std::vector<AxisNotice> notices;
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <lcm/lcm-cpp.hpp>
@@ -21,6 +22,13 @@ public:
     template <typename Message>
     bool publish(const std::string& channel, const Message& message) {
         const bool sent = lcm_->publish(channel, &message) == 0;
+        failures_ += sent ? 0 : 1;
+        return sent;
+    }
+
+    /// The same for a message that is encoded already.
+    bool publish_bytes(const std::string& channel, std::span<const std::uint8_t> bytes) {
+        const bool sent = lcm_->publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) == 0;
         failures_ += sent ? 0 : 1;
         return sent;
     }

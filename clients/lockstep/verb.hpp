@@ -1,0 +1,28 @@
+// One verb of the command: its options on the command line, and what it does. One file per verb adds it.
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/exit_code.hpp"
+
+namespace lockstep {
+
+/// What the parsed command line asks for; the verb that was named sets it.
+using Action = std::function<ExitCode()>;
+
+void add_plan(CLI::App& app, Action& action);
+void add_simulate(CLI::App& app, Action& action);
+void add_analyze(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
+
+void add_up(CLI::App& app, Action& action);
+void add_down(CLI::App& app, Action& action);
+void add_status(CLI::App& app, Action& action);
+void add_home(CLI::App& app, Action& action);
+void add_move(CLI::App& app, Action& action);
+void add_run(CLI::App& app, Action& action);
+void add_interrupts(CLI::App& app, Action& action);  // hold, resume, stop, estop, reset
+
+}  // namespace lockstep

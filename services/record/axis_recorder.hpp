@@ -1,0 +1,39 @@
+// One axis's part of the record: every step, where the axis is, and what it was told to run.
+#pragma once
+
+#include <memory>
+
+#include "core/axis/axis_controller.hpp"
+#include "services/record/record_sink.hpp"
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/step_batcher.hpp"
+
+namespace lockstep {
+
+class AxisRecorder {
+public:
+    /// `sink` outlives the recorder. `incarnation` is the axis's identity.
+    AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink);
+
+    AxisRecorder(const AxisRecorder&) = delete;  // the batcher publishes through this object
+    AxisRecorder& operator=(const AxisRecorder&) = delete;
+
+    /// Every step, in order, before the loop's outputs.
+    void step(StepEdge step) { batcher_.add(step); }
+    /// After each loop: its outputs, and what the axis's zero then is.
+    void loop(Tick now, const AxisOutputs& out, std::int64_t zero_count);
+    /// At the end: what is still in hand.
+    void finish() { batcher_.flush(); }
+
+private:
+    MachineConfig machine_;
+    std::size_t axis_;
+    Identity incarnation_;
+    RecordSink& sink_;
+    AxisChannels channels_;
+    StepBatcher batcher_;
+    std::int64_t zero_count_ = 0;
+    std::uint64_t runs_ = 0;
+};
+
+}  // namespace lockstep

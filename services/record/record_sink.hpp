@@ -1,0 +1,29 @@
+// Where the record goes: the network, a log file, or both.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lockstep {
+
+class RecordSink {
+public:
+    virtual ~RecordSink() = default;
+    /// utime: microseconds of machine time. What cannot be written is the sink's to count: motion never waits for it.
+    virtual void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) = 0;
+
+    /// Message: a type that lcm-gen made.
+    template <typename Message>
+    void publish(const std::string& channel, const Message& message) {
+        buffer_.resize(static_cast<std::size_t>(message.getEncodedSize()));
+        message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
+        write(channel, message.utime, buffer_);
+    }
+
+private:
+    std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace lockstep
