@@ -20,6 +20,7 @@ struct Refusal {
     int line;
     int column;
     std::string says;
+    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.says; }
 };
 
 class MachineRefused : public testing::TestWithParam<Refusal> {};

@@ -74,6 +74,7 @@ TEST(ProgramDocument, EveryByteMayBeWrong) {
 struct Refusal {
     std::string says;
     std::function<void(Program&)> spoil;
+    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.says; }
 };
 
 class ProgramRefused : public testing::TestWithParam<Refusal> {};

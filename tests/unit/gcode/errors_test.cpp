@@ -20,11 +20,12 @@ struct Refusal {
     int line;
     int column;
     std::string says;
+    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.says; }
 };
 
-class Refused : public testing::TestWithParam<Refusal> {};
+class GcodeRefused : public testing::TestWithParam<Refusal> {};
 
-TEST_P(Refused, WithPlaceValueAndRemedy) {
+TEST_P(GcodeRefused, WithPlaceValueAndRemedy) {
     const Refusal& refusal = GetParam();
     const auto found = errors(refusal.text);
     ASSERT_EQ(found.size(), 1U) << refusal.text;
@@ -33,7 +34,7 @@ TEST_P(Refused, WithPlaceValueAndRemedy) {
     EXPECT_THAT(found[0].message, HasSubstr(refusal.says));
 }
 
-INSTANTIATE_TEST_SUITE_P(Characters, Refused, testing::Values(
+INSTANTIATE_TEST_SUITE_P(Characters, GcodeRefused, testing::Values(
     Refusal{"G0 X1\nG0 X\xc3\xa9", 2, 5, "0xC3"},
     Refusal{std::string("G0\0X1", 5), 1, 3, "0x00"},
     Refusal{"\xef\xbb\xbfG0 X1", 1, 1, "0xEF"},
@@ -45,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Characters, Refused, testing::Values(
     Refusal{"% G0", 1, 3, "alone"},
     Refusal{"G0 X1" + std::string(252, ' '), 1, 257, "257 characters, more than 256"}));
 
-INSTANTIATE_TEST_SUITE_P(Numbers, Refused, testing::Values(
+INSTANTIATE_TEST_SUITE_P(Numbers, GcodeRefused, testing::Values(
     Refusal{"G0 X", 1, 4, "no number"}, Refusal{"G0 X Y1", 1, 4, "no number"},
     Refusal{"G0 X1.2.3", 1, 4, "'1.2.3'"}, Refusal{"G0 X--1", 1, 4, "'--1'"},
     Refusal{"G0 X+-1", 1, 4, "'+-1'"}, Refusal{"G0 X.", 1, 4, "'.'"},
@@ -54,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Numbers, Refused, testing::Values(
     Refusal{"G0 X2000000", 1, 4, "1000000"},
     Refusal{"G0 X1" + std::string(240, '0'), 1, 4, "out of range"}));
 
-INSTANTIATE_TEST_SUITE_P(Words, Refused, testing::Values(
+INSTANTIATE_TEST_SUITE_P(Words, GcodeRefused, testing::Values(
     Refusal{"G2 X1 Y1", 1, 1, "G2 is not a code known here"}, Refusal{"G0 X1\nM3", 2, 1, "M3"},
     Refusal{"G1.05 X1 F1", 1, 1, "G1.05"}, Refusal{"G-1", 1, 1, "G-1"},
     Refusal{"S1000", 1, 1, "S1000 is not a word known here"},
@@ -63,13 +64,13 @@ INSTANTIATE_TEST_SUITE_P(Words, Refused, testing::Values(
     Refusal{"G0 N5 X1", 1, 4, "first"}, Refusal{"N1.5 G0 X1", 1, 1, "whole number"},
     Refusal{"N-1 G0 X1", 1, 1, "whole number"}));
 
-INSTANTIATE_TEST_SUITE_P(Groups, Refused, testing::Values(
+INSTANTIATE_TEST_SUITE_P(Groups, GcodeRefused, testing::Values(
     Refusal{"G0 G1 X1 F5", 1, 4, "G1 after G0"}, Refusal{"G90 G91", 1, 5, "distance mode"},
     Refusal{"G20 G21", 1, 5, "units"}, Refusal{"G4 P1 G28", 1, 7, "non-modal"},
     Refusal{"M0 M2", 1, 4, "stop"}, Refusal{"G0 G28 X1", 1, 1, "both use"},
     Refusal{"G1 G92 X1", 1, 1, "both use"}));
 
-INSTANTIATE_TEST_SUITE_P(Values, Refused, testing::Values(
+INSTANTIATE_TEST_SUITE_P(Values, GcodeRefused, testing::Values(
     Refusal{"G1 X1", 1, 4, "F, per minute"}, Refusal{"G1 X1\nX2\nX3", 1, 4, "F, per minute"},
     Refusal{"G1 X1 F0", 1, 7, "above 0"}, Refusal{"G1 X1 F-5", 1, 7, "F-5"},
     Refusal{"G1 X1 F.001", 1, 7, "too slow"}, Refusal{"X1", 1, 1, "G0 or G1"},
@@ -77,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Values, Refused, testing::Values(
     Refusal{"G4 P90000", 1, 4, "86400"}, Refusal{"G0 P1", 1, 4, "G4 alone"},
     Refusal{"G92", 1, 1, "sets no axis"}));
 
-INSTANTIATE_TEST_SUITE_P(Travel, Refused, testing::Values(
+INSTANTIATE_TEST_SUITE_P(Travel, GcodeRefused, testing::Values(
     Refusal{"G0 X10 Y200.5", 1, 8, "to 200.5 mm, outside its travel of 0 to 200 mm"},
     Refusal{"G0 Z-.1", 1, 4, "position_min_mm"}, Refusal{"G0 Z61", 1, 4, "position_max_mm"},
     Refusal{"G20 G0 X8", 1, 8, "203.2 mm"}, Refusal{"G0 X150\nG91 X60", 2, 5, "210 mm"},
