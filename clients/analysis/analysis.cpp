@@ -11,14 +11,10 @@ namespace lockstep::analysis {
 namespace {
 
 std::expected<void, std::string> make_directory(const std::optional<std::filesystem::path>& directory) {
-    if (!directory) {
-        return {};
-    }
+    if (!directory) { return {}; }
     std::error_code error;
     std::filesystem::create_directories(*directory, error);
-    if (error) {
-        return std::unexpected(directory->string() + ": cannot be made: " + error.message());
-    }
+    if (error) { return std::unexpected(directory->string() + ": cannot be made: " + error.message()); }
     return {};
 }
 
@@ -27,9 +23,7 @@ std::string of_machine(const std::optional<std::string>& machine) { return machi
 }  // namespace
 
 const AxisConfig* Analysis::axis_config(const std::string& name) const {
-    if (!config) {
-        return nullptr;
-    }
+    if (!config) { return nullptr; }
     const auto found = std::ranges::find(config->axes, name, &AxisConfig::name);
     return found == config->axes.end() ? nullptr : &*found;
 }
@@ -43,9 +37,7 @@ std::optional<Tick> Analysis::first_tick() const {
     std::optional<Tick> first;
     for (const auto& axis : axes) {
         const auto& place = axis->statistics().first();
-        if (place && (!first || place->tick < *first)) {
-            first = place->tick;
-        }
+        if (place && (!first || place->tick < *first)) { first = place->tick; }
     }
     return first;
 }
@@ -54,40 +46,28 @@ std::optional<Tick> Analysis::last_tick() const {
     std::optional<Tick> last;
     for (const auto& axis : axes) {
         const auto& place = axis->statistics().last();
-        if (place && (!last || place->tick > *last)) {
-            last = place->tick;
-        }
+        if (place && (!last || place->tick > *last)) { last = place->tick; }
     }
     return last;
 }
 
 std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& log, const AnalysisOptions& options) {
     for (const auto& directory : {options.csv_dir, options.svg_dir}) {
-        if (auto made = make_directory(directory); !made) {
-            return std::unexpected(made.error());
-        }
+        if (auto made = make_directory(directory); !made) { return std::unexpected(made.error()); }
     }
     Recorder recorder(options);
     const auto events = read_log(log, recorder, options.progress);
-    if (!events) {
-        return std::unexpected(events.error());
-    }
+    if (!events) { return std::unexpected(events.error()); }
     Analysis analysis = recorder.finish();
-    if (recorder.write_error()) {
-        return std::unexpected(*recorder.write_error());
-    }
+    if (recorder.write_error()) { return std::unexpected(*recorder.write_error()); }
     if (analysis.axes.empty() && analysis.jobs.empty()) {
         return std::unexpected(log.string() + ": nothing in it is recorded by Lockstep" + of_machine(options.machine));
     }
     analysis.log = log;
     analysis.events = *events;
     const auto plane = compare_in_plane(analysis);
-    if (plane) {
-        analysis.largest_distance_mm = plane->largest_distance_mm;
-    }
-    if (!options.svg_dir) {
-        return analysis;
-    }
+    if (plane) { analysis.largest_distance_mm = plane->largest_distance_mm; }
+    if (!options.svg_dir) { return analysis; }
     if (auto drawn = write_figures(analysis, plane, *options.svg_dir); !drawn) {
         return std::unexpected(drawn.error());
     }

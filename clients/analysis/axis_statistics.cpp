@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace lockstep::analysis {
 
@@ -17,17 +18,14 @@ void AxisStatistics::on_break(const Break& what) {
     if (what.missing_batches > 0) {
         missing_batches_ += what.missing_batches;
         missing_steps_ += std::abs(what.position_change);
+        joined_ = false;
     }
-    if (breaks_.size() < kBreaksKept) {
-        breaks_.push_back(what);
-    }
+    if (breaks_.size() < kBreaksKept) { breaks_.push_back(what); }
 }
 
 void AxisStatistics::finish() {
     meter_.interrupt();
-    if (last_) {
-        course_.add({last_->tick, 0});
-    }
+    if (last_) { course_.add({last_->tick, 0}); }
 }
 
 void AxisStatistics::take(StepEdge edge, std::int64_t position) {
@@ -40,17 +38,13 @@ void AxisStatistics::take(StepEdge edge, std::int64_t position) {
     lowest_ = std::min(lowest_, position);
     highest_ = std::max(highest_, position);
     show_rest(edge.tick);
-    if (const auto sample = meter_.step(edge)) {
-        course_.add(*sample);
-    }
+    if (const auto sample = meter_.step(edge)) { course_.add(*sample); }
     last_ = StepPlace{edge.tick, position};
 }
 
-/// A rest is 0 from its first instant to its last.
+/// A rest is 0 from its first instant to its last; where steps are missing nobody knows.
 void AxisStatistics::show_rest(Tick until) {
-    if (!last_ || until - last_->tick <= SpeedMeter::kRest) {
-        return;
-    }
+    if (!std::exchange(joined_, true) || !last_ || until - last_->tick <= SpeedMeter::kRest) { return; }
     course_.add({last_->tick, 0});
     course_.add({until, 0});
 }

@@ -58,6 +58,7 @@ private:
     std::int64_t break_count_ = 0;
     std::int64_t missing_batches_ = 0;
     std::int64_t missing_steps_ = 0;
+    bool joined_ = true;  // the next step to the last one
 };
 
 }  // namespace lockstep::analysis

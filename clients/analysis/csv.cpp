@@ -15,9 +15,7 @@ constexpr std::size_t kBuffer = std::size_t{1} << 20;
 std::expected<CsvFile, std::string> CsvFile::create(const std::filesystem::path& path, std::string_view header) {
     errno = 0;
     std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    if (!out) {
-        return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
-    }
+    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
     CsvFile file(path, std::move(out));
     file.buffer_.reserve(kBuffer + 128);
     file.buffer_.append(header).push_back('\n');
@@ -38,9 +36,7 @@ CsvFile& CsvFile::cell(double value) { return append(value); }
 
 void CsvFile::end_line() {
     buffer_.back() = '\n';
-    if (buffer_.size() >= kBuffer) {
-        flush();
-    }
+    if (buffer_.size() >= kBuffer) { flush(); }
 }
 
 void CsvFile::flush() {
@@ -52,9 +48,7 @@ std::expected<void, std::string> CsvFile::close() {
     flush();
     errno = 0;
     out_.close();
-    if (!out_) {
-        return std::unexpected(path_.string() + ": not written whole: " + std::strerror(errno));
-    }
+    if (!out_) { return std::unexpected(path_.string() + ": not written whole: " + std::strerror(errno)); }
     return {};
 }
 

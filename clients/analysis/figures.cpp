@@ -37,19 +37,18 @@ Scaled scaled(const Analysis& analysis, const AxisLog& axis) {
     out.length_per_step = steps_per_mm ? 1 / *steps_per_mm : 1;
     out.ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     for (const Break& what : axis.statistics().breaks()) {
-        if (what.missing_batches == 0 || !what.from || !what.to) {
-            continue;
-        }
+        if (what.missing_batches == 0 || !what.from || !what.to) { continue; }
         out.curve.missing.push_back({out.seconds(*what.from), out.seconds(*what.to)});
     }
     return out;
 }
 
+/// Both curves go from the first step of any axis to the last: an axis rests before its own first and after its last.
 drawing::AxisCurve speed_curve(const Analysis& analysis, const AxisLog& axis) {
     Scaled out = scaled(analysis, axis);
-    if (const AxisConfig* config = analysis.axis_config(axis.name())) {
-        out.curve.limit = config->max_velocity_mm_s;
-    }
+    if (const AxisConfig* config = analysis.axis_config(axis.name())) { out.curve.limit = config->max_velocity_mm_s; }
+    if (!axis.statistics().first()) { return std::move(out.curve); }
+    out.add(*analysis.first_tick(), 0);
     std::size_t next_gap = 0;
     for (const SpeedSample& sample : axis.statistics().speed()) {
         const auto& gaps = out.curve.missing;
@@ -58,17 +57,20 @@ drawing::AxisCurve speed_curve(const Analysis& analysis, const AxisLog& axis) {
         }
         out.add(sample.at, sample.steps_per_tick * out.ticks_per_s * out.length_per_step);
     }
+    out.add(*analysis.last_tick(), 0);
     return std::move(out.curve);
 }
 
 drawing::AxisCurve position_curve(const Analysis& analysis, const AxisLog& axis) {
     Scaled out = scaled(analysis, axis);
-    for (const Knot& knot : axis.trace().knots()) {
-        if (!knot.joined) {
-            out.add(knot.tick, kNone);
-        }
-        out.add(knot.tick, knot.position_steps * out.length_per_step);
+    if (!axis.statistics().first()) { return std::move(out.curve); }
+    const auto& knots = axis.trace().knots();
+    out.add(*analysis.first_tick(), knots.front().position_steps * out.length_per_step);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        if (i > 0 && !knots[i].joined) { out.add(knots[i].tick, kNone); }
+        out.add(knots[i].tick, knots[i].position_steps * out.length_per_step);
     }
+    out.add(*analysis.last_tick(), knots.back().position_steps * out.length_per_step);
     return std::move(out.curve);
 }
 
@@ -86,9 +88,7 @@ std::expected<void, std::string> write_file(const std::filesystem::path& path, c
     std::ofstream out(path, std::ios::binary | std::ios::trunc);
     out << text;
     out.close();
-    if (!out) {
-        return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
-    }
+    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
     return {};
 }
 
@@ -105,9 +105,7 @@ drawing::Figure position_figure(const Analysis& analysis) {
 }
 
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlaneComparison>& plane) {
-    if (!plane) {
-        return position_figure(analysis);
-    }
+    if (!plane) { return position_figure(analysis); }
     std::string subtitle = in_a_line(analysis);
     if (plane->largest_distance_mm) {
         subtitle = fmt::format("stepped is at most {:.4f} mm from asked · ", *plane->largest_distance_mm) + subtitle;
@@ -121,9 +119,7 @@ std::expected<void, std::string> write_figures(const Analysis& analysis, const s
     for (const auto& [name, figure] :
          {std::pair{"speed.svg", speed_figure(analysis)}, std::pair{"position.svg", position_figure(analysis)},
           std::pair{"xy.svg", path_figure(analysis, plane)}}) {
-        if (auto written = write_file(directory / name, drawing::to_svg(figure)); !written) {
-            return written;
-        }
+        if (auto written = write_file(directory / name, drawing::to_svg(figure)); !written) { return written; }
     }
     return {};
 }

@@ -26,9 +26,7 @@ void NearestLine::add(const std::vector<PlanePoint>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const PlanePoint& a = points[i - 1];
         const PlanePoint& b = points[i];
-        if (lines_.size() % kBlock == 0) {
-            blocks_.push_back({a, a});
-        }
+        if (lines_.size() % kBlock == 0) { blocks_.push_back({a, a}); }
         Block& block = blocks_.back();
         block.low = {std::min({block.low.x, a.x, b.x}), std::min({block.low.y, a.y, b.y})};
         block.high = {std::max({block.high.x, a.x, b.x}), std::max({block.high.y, a.y, b.y})};
@@ -42,9 +40,7 @@ double NearestLine::distance(PlanePoint point) {
         const Block& block = blocks_[i];
         const double least =
             std::hypot(outside(point.x, block.low.x, block.high.x), outside(point.y, block.low.y, block.high.y));
-        if (i == latest_ || least >= best) {
-            continue;
-        }
+        if (i == latest_ || least >= best) { continue; }
         if (const double here = distance_in(i, point); here < best) {
             best = here;
             latest_ = i;

@@ -25,18 +25,10 @@ void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told
 }
 
 void tell(const LogEvent& event, LogListener& listener) {
-    if (is_of(event.channel, "_STEPS")) {
-        return tell<step_batch_t>(event, listener, &LogListener::on_steps);
-    }
-    if (is_of(event.channel, "_POSITION")) {
-        return tell<axis_position_t>(event, listener, &LogListener::on_position);
-    }
-    if (is_of(event.channel, "_RUN")) {
-        return tell<run_t>(event, listener, &LogListener::on_run);
-    }
-    if (is_of(event.channel, "_JOB")) {
-        return tell<job_t>(event, listener, &LogListener::on_job);
-    }
+    if (is_of(event.channel, "_STEPS")) { return tell<step_batch_t>(event, listener, &LogListener::on_steps); }
+    if (is_of(event.channel, "_POSITION")) { return tell<axis_position_t>(event, listener, &LogListener::on_position); }
+    if (is_of(event.channel, "_RUN")) { return tell<run_t>(event, listener, &LogListener::on_run); }
+    if (is_of(event.channel, "_JOB")) { return tell<job_t>(event, listener, &LogListener::on_job); }
     listener.on_foreign(event.channel);
 }
 
@@ -54,12 +46,8 @@ std::expected<std::uint64_t, std::string> read_events(LogReader& reader, LogList
                                                       const std::function<void(double)>& progress) {
     for (std::uint64_t events = 0;; ++events) {
         const auto event = reader.next();
-        if (!event) {
-            return std::unexpected(event.error());
-        }
-        if (!*event) {
-            return events;
-        }
+        if (!event) { return std::unexpected(event.error()); }
+        if (!*event) { return events; }
         tell(**event, listener);
         if (progress && events % kEventsPerProgress == 0) {
             progress(static_cast<double>((*event)->offset) / file_bytes);
@@ -72,22 +60,15 @@ std::expected<std::uint64_t, std::string> read_events(LogReader& reader, LogList
 std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& path, LogListener& listener,
                                                    const std::function<void(double)>& progress) {
     auto reader = LogReader::open(path);
-    if (!reader) {
-        return std::unexpected(reader.error());
-    }
+    if (!reader) { return std::unexpected(reader.error()); }
     std::error_code ignored;
     const auto bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
     const auto events = read_events(*reader, listener, bytes, progress);
-    if (!events) {
-        return events;
-    }
+    if (!events) { return events; }
     tell_damages(*reader, listener);
-    if (*events == 0) {
-        return std::unexpected(path.string() + ": not an LCM log: no event in it");
-    }
-    if (progress) {
-        progress(1);
-    }
+    if (bytes == 0) { return std::unexpected(path.string() + ": the file is empty"); }
+    if (*events == 0) { return std::unexpected(path.string() + ": not an LCM log: no event in it"); }
+    if (progress) { progress(1); }
     return events;
 }
 

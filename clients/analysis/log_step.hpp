@@ -1,6 +1,7 @@
-// One message of steps as analysis takes it.
+// One message of steps as analysis takes it: numbers that were damaged are found here, so that none overflows later.
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <lockstep/step_batch_t.hpp>
 #include <string>
@@ -9,7 +10,13 @@
 
 namespace lockstep::analysis {
 
-/// The error says what cannot be: ticks that do not rise, directions other than +1 and -1.
+/// No machine counts so far, be it ticks, steps, microseconds or messages: 36 years of microseconds.
+constexpr bool is_countable(std::int64_t number) {
+    constexpr std::int64_t kFarthest = std::int64_t{1} << 50;
+    return -kFarthest < number && number < kFarthest;
+}
+
+/// The error says what cannot be: ticks that do not rise, directions other than +1 and -1, numbers beyond counting.
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message);
 
 }  // namespace lockstep::analysis

@@ -31,18 +31,14 @@ struct PlaneAxis {
 std::optional<PlaneAxis> plane_axis(const Analysis& analysis, const std::string& name) {
     for (const auto& log : analysis.axes) {
         const auto steps_per_mm = analysis.steps_per_mm(*log);
-        if (log->name() != name || !steps_per_mm || log->trace().knots().empty()) {
-            continue;
-        }
+        if (log->name() != name || !steps_per_mm || log->trace().knots().empty()) { continue; }
         return PlaneAxis{*log, 1 / *steps_per_mm};
     }
     return std::nullopt;
 }
 
 void part(drawing::PlanePath& path) {
-    if (path.x.empty()) {
-        return;
-    }
+    if (path.x.empty()) { return; }
     path.x.push_back(kNone);
     path.y.push_back(kNone);
 }
@@ -50,9 +46,7 @@ void part(drawing::PlanePath& path) {
 std::vector<PlanePoint> asked_points(const Program& program) {
     const auto x = static_cast<std::size_t>(std::ranges::find(program.axes, "X") - program.axes.begin());
     const auto y = static_cast<std::size_t>(std::ranges::find(program.axes, "Y") - program.axes.begin());
-    if (x == program.axes.size() || y == program.axes.size()) {
-        return {};
-    }
+    if (x == program.axes.size() || y == program.axes.size()) { return {}; }
     std::vector<PlanePoint> points = {{program.start_mm.at(x), program.start_mm.at(y)}};
     for (const Block& block : program.blocks) {
         if (const auto* move = std::get_if<LinearMove>(&block.action)) {
@@ -70,26 +64,20 @@ Stretch stretch_of(const JobLog& job, const Analysis& analysis) {
     } else if (job.begun_us) {
         stretch.first = tick_at(*job.begun_us);
     }
-    if (job.ended_us) {
-        stretch.last = std::min(stretch.last, tick_at(*job.ended_us));
-    }
+    if (job.ended_us) { stretch.last = std::min(stretch.last, tick_at(*job.ended_us)); }
     return stretch;
 }
 
 void add_knots(const AxisLog& log, const Stretch& stretch, std::vector<Tick>& instants) {
     for (const Knot& knot : log.trace().knots()) {
-        if (stretch.holds(knot.tick)) {
-            instants.push_back(knot.tick);
-        }
+        if (stretch.holds(knot.tick)) { instants.push_back(knot.tick); }
     }
 }
 
 /// Every knot's instant, and others at even intervals.
 std::vector<Tick> instants_in(const Stretch& stretch, const PlaneAxis& x, const PlaneAxis& y) {
     std::vector<Tick> instants;
-    if (stretch.last < stretch.first) {
-        return instants;
-    }
+    if (stretch.last < stretch.first) { return instants; }
     add_knots(x.log, stretch, instants);
     add_knots(y.log, stretch, instants);
     const std::int64_t apart = std::max<std::int64_t>(1, (stretch.last - stretch.first).value / kEvenSamples);
@@ -110,9 +98,7 @@ void add_stepped(const Stretch& stretch, PlaneAxis x, PlaneAxis y, drawing::Plan
     bool parted = true;
     for (const Tick tick : instants_in(stretch, x, y)) {
         if (is_missing(x.log, tick) || is_missing(y.log, tick)) {
-            if (!std::exchange(parted, true)) {
-                part(path);
-            }
+            if (!std::exchange(parted, true)) { part(path); }
             continue;
         }
         path.x.push_back(x.mm_at(tick));
@@ -132,9 +118,7 @@ void add_asked(const std::vector<PlanePoint>& points, drawing::PlanePath& path) 
 double largest_distance(const drawing::PlanePath& stepped, NearestLine& asked) {
     double largest = 0;
     for (std::size_t i = 0; i < stepped.x.size(); ++i) {
-        if (stepped.x[i] == stepped.x[i]) {
-            largest = std::max(largest, asked.distance({stepped.x[i], stepped.y[i]}));
-        }
+        if (stepped.x[i] == stepped.x[i]) { largest = std::max(largest, asked.distance({stepped.x[i], stepped.y[i]})); }
     }
     return largest;
 }
@@ -144,23 +128,17 @@ double largest_distance(const drawing::PlanePath& stepped, NearestLine& asked) {
 std::optional<PlaneComparison> compare_in_plane(const Analysis& analysis) {
     const auto x = plane_axis(analysis, "X");
     const auto y = plane_axis(analysis, "Y");
-    if (!x || !y) {
-        return std::nullopt;
-    }
+    if (!x || !y) { return std::nullopt; }
     PlaneComparison result;
     NearestLine asked;
     for (const JobLog& job : analysis.jobs) {
         const auto points = job.program ? asked_points(*job.program) : std::vector<PlanePoint>{};
-        if (points.size() < 2) {
-            continue;
-        }
+        if (points.size() < 2) { continue; }
         asked.add(points);
         add_asked(points, result.asked);
         add_stepped(stretch_of(job, analysis), *x, *y, result.stepped);
     }
-    if (asked.empty()) {
-        add_stepped({*analysis.first_tick(), *analysis.last_tick()}, *x, *y, result.stepped);
-    }
+    if (asked.empty()) { add_stepped({*analysis.first_tick(), *analysis.last_tick()}, *x, *y, result.stepped); }
     if (!asked.empty() && !result.stepped.x.empty()) {
         result.largest_distance_mm = largest_distance(result.stepped, asked);
     }

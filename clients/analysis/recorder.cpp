@@ -12,43 +12,37 @@ namespace lockstep::analysis {
 
 void Recorder::on_steps(const step_batch_t& message, std::uint64_t offset) {
     AxisLog* log = axis(message.machine, message.axis, offset);
-    if (log == nullptr) {
-        return;
-    }
+    if (log == nullptr) { return; }
     auto batch = to_batch(message);
-    if (!batch) {
-        return on_damage(offset, batch.error());
-    }
+    if (!batch) { return on_damage(offset, batch.error()); }
     log->take(std::move(*batch));
 }
 
 void Recorder::on_position(const axis_position_t& message, std::uint64_t offset) {
     AxisLog* log = axis(message.machine, message.axis, offset);
-    if (log == nullptr) {
-        return;
+    if (log == nullptr) { return; }
+    if (!is_countable(message.tick) || !is_countable(message.position_steps)) {
+        return on_damage(offset, "a position with numbers that no machine counts to");
     }
     log->take(
         PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
 }
 
 void Recorder::on_run(const run_t& message, std::uint64_t) {
-    if (is_ours(message.machine)) {
-        ++analysis_.runs;
-    }
+    if (is_ours(message.machine)) { ++analysis_.runs; }
 }
 
 void Recorder::on_job(const job_t& message, std::uint64_t offset) {
-    if (!is_ours(message.machine)) {
-        return;
+    if (!is_ours(message.machine)) { return; }
+    if (!is_countable(message.utime) || !is_countable(message.start_tick)) {
+        return on_damage(offset, "a job with times that no machine counts to");
     }
     JobLog& record = job(message);
     if (message.event == "begun") {
         record.begun_us = message.utime;
         read_documents(message, record, offset);
     } else if (message.event == "epoch") {
-        if (!record.first_frame) {
-            record.first_frame = Tick{message.start_tick};
-        }
+        if (!record.first_frame) { record.first_frame = Tick{message.start_tick}; }
     } else if (message.event == "ended") {
         record.ended_us = message.utime;
         record.outcome = message.outcome;
@@ -61,19 +55,13 @@ void Recorder::on_foreign(std::string_view channel) { ++analysis_.foreign[std::s
 
 void Recorder::on_damage(std::uint64_t offset, std::string what) {
     ++analysis_.damage_count;
-    if (analysis_.damages.size() < Analysis::kDamagesKept) {
-        analysis_.damages.push_back({offset, std::move(what)});
-    }
+    if (analysis_.damages.size() < Analysis::kDamagesKept) { analysis_.damages.push_back({offset, std::move(what)}); }
 }
 
 /// Whether the message is of the machine analysed; the first message says which that is where nobody asked for one.
 bool Recorder::is_ours(const std::string& machine) {
-    if (!machine_) {
-        machine_ = machine;
-    }
-    if (machine == *machine_) {
-        return true;
-    }
+    if (!machine_) { machine_ = machine; }
+    if (machine == *machine_) { return true; }
     on_foreign("machine " + machine);
     return false;
 }
@@ -83,9 +71,7 @@ AxisLog* Recorder::axis(const std::string& machine, const std::string& name, std
         on_damage(offset, "an axis's name is none");
         return nullptr;
     }
-    if (!is_ours(machine)) {
-        return nullptr;
-    }
+    if (!is_ours(machine)) { return nullptr; }
     if (axes_.size() == kMaxAxes && !axes_.contains(name)) {
         on_damage(offset, "more axes than a machine can have");
         return nullptr;
@@ -93,9 +79,7 @@ AxisLog* Recorder::axis(const std::string& machine, const std::string& name, std
     auto& log = axes_[name];
     if (!log) {
         log = std::make_unique<AxisLog>(name);
-        if (options_.csv_dir) {
-            note_error(log->write_csv(*options_.csv_dir));
-        }
+        if (options_.csv_dir) { note_error(log->write_csv(*options_.csv_dir)); }
     }
     return log.get();
 }
@@ -104,9 +88,7 @@ JobLog& Recorder::job(const job_t& message) {
     const auto number = static_cast<std::uint64_t>(message.job);
     const auto known = std::ranges::find_if(
         analysis_.jobs, [&](const JobLog& job) { return job.coordinator == message.coordinator && job.job == number; });
-    if (known != analysis_.jobs.end()) {
-        return *known;
-    }
+    if (known != analysis_.jobs.end()) { return *known; }
     analysis_.jobs.push_back({.coordinator = message.coordinator, .job = number, .kind = message.kind});
     return analysis_.jobs.back();
 }
@@ -118,9 +100,7 @@ void Recorder::read_documents(const job_t& message, JobLog& record, std::uint64_
     } else {
         on_damage(offset, to_text("the configuration recorded with the job", config.error()));
     }
-    if (message.program.empty()) {
-        return;
-    }
+    if (message.program.empty()) { return; }
     auto program = program_from_text(message.program);
     if (program) {
         record.program = std::move(*program);
@@ -130,9 +110,7 @@ void Recorder::read_documents(const job_t& message, JobLog& record, std::uint64_
 }
 
 void Recorder::note_error(const std::expected<void, std::string>& result) {
-    if (!result && !write_error_) {
-        write_error_ = result.error();
-    }
+    if (!result && !write_error_) { write_error_ = result.error(); }
 }
 
 Analysis Recorder::finish() {

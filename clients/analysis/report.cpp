@@ -7,9 +7,7 @@ namespace {
 
 void fill_gaps(const AxisLog& axis, proto::AxisAnalysis& report) {
     for (const Break& what : axis.statistics().breaks()) {
-        if (what.missing_batches == 0 || !what.from) {
-            continue;
-        }
+        if (what.missing_batches == 0 || !what.from) { continue; }
         proto::Gap& gap = *report.add_gaps();
         gap.set_after_tick(what.from->value);
         gap.set_before_tick(what.to.value_or(*what.from).value);
@@ -19,16 +17,12 @@ void fill_gaps(const AxisLog& axis, proto::AxisAnalysis& report) {
 
 void fill_lengths(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& report) {
     const auto steps_per_mm = analysis.steps_per_mm(axis);
-    if (!steps_per_mm) {
-        return;
-    }
+    if (!steps_per_mm) { return; }
     const AxisStatistics& found = axis.statistics();
     const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     report.set_peak_velocity_mm_s(found.peak_steps_per_tick() * ticks_per_s / *steps_per_mm);
     report.set_peak_acceleration_mm_s2(found.peak_steps_per_tick2() * ticks_per_s * ticks_per_s / *steps_per_mm);
-    if (!found.last()) {
-        return;
-    }
+    if (!found.last()) { return; }
     report.set_position_start_mm(static_cast<double>(found.start_steps()) / *steps_per_mm);
     report.set_position_end_mm(static_cast<double>(found.last()->position_steps) / *steps_per_mm);
 }
@@ -39,12 +33,8 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_steps(found.steps());
     report.set_batches(axis.counts().batches);
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
-    if (found.first()) {
-        report.set_first_tick(found.first()->tick.value);
-    }
-    if (found.last()) {
-        report.set_last_tick(found.last()->tick.value);
-    }
+    if (found.first()) { report.set_first_tick(found.first()->tick.value); }
+    if (found.last()) { report.set_last_tick(found.last()->tick.value); }
     fill_lengths(analysis, axis, report);
     fill_gaps(axis, report);
 }
@@ -53,12 +43,8 @@ void fill(const JobLog& job, proto::JobAnalysis& report) {
     report.set_job(job.job);
     report.set_kind(job.kind);
     report.set_outcome(job.outcome);
-    if (job.program) {
-        report.set_name(job.program->name);
-    }
-    if (job.begun_us && job.ended_us) {
-        report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6);
-    }
+    if (job.program) { report.set_name(job.program->name); }
+    if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ constexpr std::int64_t kRing = 32'768;
 SpeedMeter::SpeedMeter() : ring_(kRing) {}
 
 void SpeedMeter::interrupt() {
-    if (newest_ >= 1 && !measured_) {
-        peak_speed_ = std::max(peak_speed_, speed({0, newest_}));
-    }
+    if (newest_ >= 1 && !measured_) { peak_speed_ = std::max(peak_speed_, speed({0, newest_})); }
     newest_ = -1;
     measured_ = false;
     speed_window_ = late_ = early_ = {};
@@ -32,9 +30,7 @@ std::optional<SpeedSample> SpeedMeter::step(StepEdge edge) {
     if (rested && !turned) {
         peak_speed_ = std::max(peak_speed_, 1 / static_cast<double>(edge.tick.value - tick(newest_)));
     }
-    if (turned || rested) {
-        interrupt();
-    }
+    if (turned || rested) { interrupt(); }
     direction_ = edge.direction;
     ++newest_;
     ring_[static_cast<std::size_t>(newest_ % kRing)] = edge.tick.value;
@@ -44,9 +40,7 @@ std::optional<SpeedSample> SpeedMeter::step(StepEdge edge) {
 
 std::optional<SpeedSample> SpeedMeter::measure_speed() {
     speed_window_.last = newest_;
-    if (!is_wide(speed_window_, kSpeedWindow)) {
-        return std::nullopt;
-    }
+    if (!is_wide(speed_window_, kSpeedWindow)) { return std::nullopt; }
     narrow(speed_window_, kSpeedWindow);
     measured_ = true;
     peak_speed_ = std::max(peak_speed_, speed(speed_window_));
@@ -56,14 +50,10 @@ std::optional<SpeedSample> SpeedMeter::measure_speed() {
 
 void SpeedMeter::measure_acceleration() {
     late_.last = newest_;
-    if (!is_wide(late_, kAccelerationWindow)) {
-        return;
-    }
+    if (!is_wide(late_, kAccelerationWindow)) { return; }
     narrow(late_, kAccelerationWindow);
     early_.last = late_.first;
-    if (!is_wide(early_, kAccelerationWindow)) {
-        return;
-    }
+    if (!is_wide(early_, kAccelerationWindow)) { return; }
     narrow(early_, kAccelerationWindow);
     const double change = speed(late_) - speed(early_);
     peak_acceleration_ = std::max(peak_acceleration_, std::abs(change) / (middle(late_) - middle(early_)));

@@ -11,16 +11,10 @@ constexpr std::size_t kGivenUpKept = 64;
 }  // namespace
 
 void StepStream::take(StepBatch batch) {
-    if (has_passed(batch)) {
-        return;
-    }
-    if (incarnation_ != batch.incarnation) {
-        begin_incarnation(batch.incarnation);
-    }
+    if (has_passed(batch)) { return; }
+    if (incarnation_ != batch.incarnation) { begin_incarnation(batch.incarnation); }
     const std::int64_t sequence = batch.sequence;
-    if (!waiting_.emplace(sequence, std::move(batch)).second) {
-        ++counts_.duplicates;
-    }
+    if (!waiting_.emplace(sequence, std::move(batch)).second) { ++counts_.duplicates; }
     tell_in_order(true);
 }
 
@@ -35,9 +29,7 @@ bool StepStream::has_passed(const StepBatch& batch) {
         ++counts_.duplicates;
         return true;
     }
-    if (incarnation_ != batch.incarnation || batch.sequence >= expected_) {
-        return false;
-    }
+    if (incarnation_ != batch.incarnation || batch.sequence >= expected_) { return false; }
     const auto holds = [&](Numbers range) { return range.from <= batch.sequence && batch.sequence < range.end; };
     const bool given_up = std::ranges::any_of(given_up_, holds) || batch.sequence < kFirstSequence;
     ++(given_up ? counts_.late : counts_.duplicates);
@@ -59,9 +51,7 @@ void StepStream::begin_incarnation(std::int64_t incarnation) {
 void StepStream::tell_in_order(bool wait) {
     while (!waiting_.empty()) {
         const bool is_next = waiting_.begin()->first == expected_;
-        if (!is_next && wait && waiting_.size() <= kPatience) {
-            return;
-        }
+        if (!is_next && wait && waiting_.size() <= kPatience) { return; }
         tell(waiting_.extract(waiting_.begin()).mapped());
     }
 }
@@ -75,9 +65,7 @@ void StepStream::tell(const StepBatch& batch) {
     }
     note_position(batch.position_before_steps);
     ++counts_.batches;
-    if (batch.steps.empty()) {
-        return;
-    }
+    if (batch.steps.empty()) { return; }
     close_break(batch.steps.front().tick);
     for (StepListener* listener : listeners_) { listener->on_batch(batch); }
     for (const StepEdge& step : batch.steps) { *position_ += step.direction; }
@@ -89,9 +77,7 @@ void StepStream::note_missing(std::int64_t sequence) {
     if (sequence > expected_) {
         open_break(Break::Kind::Missing).missing_batches += sequence - expected_;
         given_up_.push_back({expected_, sequence});
-        if (given_up_.size() > kGivenUpKept) {
-            given_up_.pop_front();
-        }
+        if (given_up_.size() > kGivenUpKept) { given_up_.pop_front(); }
     }
     expected_ = sequence + 1;
 }
@@ -105,16 +91,12 @@ void StepStream::note_position(std::int64_t position_before) {
 
 /// A break that is already open keeps its kind.
 Break& StepStream::open_break(Break::Kind kind) {
-    if (!break_) {
-        break_ = Break{.kind = kind, .from = last_tick_};
-    }
+    if (!break_) { break_ = Break{.kind = kind, .from = last_tick_}; }
     return *break_;
 }
 
 void StepStream::close_break(std::optional<Tick> to) {
-    if (!break_) {
-        return;
-    }
+    if (!break_) { return; }
     break_->to = to;
     for (StepListener* listener : listeners_) { listener->on_break(*break_); }
     break_.reset();

@@ -38,9 +38,7 @@ void Trace::step(StepEdge edge, std::int64_t position_before) {
     if (last_step_) {
         const Ticks interval = edge.tick - *last_step_;
         const bool rested = last_interval_.value >= 2 && interval >= last_interval_ * kRestRatio;
-        if (rested) {
-            rest(edge.tick, position_before);
-        }
+        if (rested) { rest(edge.tick, position_before); }
         last_interval_ = rested ? Ticks{} : interval;
     }
     point(edge.tick, static_cast<double>(position_before) + edge.direction * 0.5);
@@ -74,16 +72,12 @@ void Trace::point(Tick tick, double position) {
 }
 
 void Trace::end_line() {
-    if (newest_) {
-        keep(*std::exchange(newest_, std::nullopt));
-    }
+    if (newest_) { keep(*std::exchange(newest_, std::nullopt)); }
 }
 
 void Trace::keep(Knot knot) {
     knots_.push_back(knot);
-    if (knots_.size() >= max_knots_) {
-        thin_out();
-    }
+    if (knots_.size() >= max_knots_) { thin_out(); }
 }
 
 /// The same again over the knots, with twice the tolerance; the errors add up.
@@ -106,9 +100,7 @@ void Trace::thin_out() {
 double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place) {
     while (place + 1 < knots.size() && knots[place + 1].tick <= tick) { ++place; }
     const Knot& before = knots[place];
-    if (place + 1 == knots.size() || tick <= before.tick || !knots[place + 1].joined) {
-        return before.position_steps;
-    }
+    if (place + 1 == knots.size() || tick <= before.tick || !knots[place + 1].joined) { return before.position_steps; }
     const Knot& after = knots[place + 1];
     const double share = ticks_between(before.tick, tick) / ticks_between(before.tick, after.tick);
     return before.position_steps + share * (after.position_steps - before.position_steps);

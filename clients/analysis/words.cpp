@@ -38,9 +38,7 @@ std::int64_t missing_steps_of(const AxisLog& axis) {
 std::string missing_in_short(const Analysis& analysis) {
     const std::int64_t steps = total(analysis, missing_steps_of);
     const std::int64_t batches = total(analysis, missing_batches_of);
-    if (steps == 0 && batches == 0) {
-        return "nothing missing";
-    }
+    if (steps == 0 && batches == 0) { return "nothing missing"; }
     return "at least " + plural(steps, "step") + " missing";
 }
 
@@ -73,9 +71,7 @@ std::string axis_row(const Analysis& analysis, const AxisLog& axis) {
 }
 
 std::string axis_table(const Analysis& analysis) {
-    if (analysis.axes.empty()) {
-        return "no axis has recorded anything\n";
-    }
+    if (analysis.axes.empty()) { return "no axis has recorded anything\n"; }
     std::string text = fmt::format("{:<16} {:>5} {:>15} {:>12} {:>12} {:>12} {:>12} {:>9}\n", "axis", "unit", "steps",
                                    "start", "end", "peak /s", "peak /s²", "missing");
     for (const auto& axis : analysis.axes) { text += axis_row(analysis, *axis); }
@@ -83,9 +79,7 @@ std::string axis_table(const Analysis& analysis) {
 }
 
 std::string job_table(const Analysis& analysis) {
-    if (analysis.jobs.empty()) {
-        return "";
-    }
+    if (analysis.jobs.empty()) { return ""; }
     std::string text = fmt::format("\n{:>5}  {:<5} {:<32} {:<10} {:>10}\n", "job", "kind", "program", "outcome", "s");
     for (const JobLog& job : analysis.jobs) {
         const std::string lasted =
@@ -132,9 +126,7 @@ std::string axis_notes(const AxisLog& axis) {
         text += break_sentence(axis.name(), breaks[i]);
     }
     const auto more = axis.statistics().break_count() - static_cast<std::int64_t>(kBreaksShown);
-    if (more > 0) {
-        text += axis.name() + ": and " + plural(more, "more such place") + "\n";
-    }
+    if (more > 0) { text += axis.name() + ": and " + plural(more, "more such place") + "\n"; }
     if (axis.unrecorded_steps() != 0) {
         text += axis.name() + ": the last position is " + plural(std::abs(axis.unrecorded_steps()), "step") +
                 " from the last step in the log\n";

@@ -33,13 +33,9 @@ public:
         const double dx = point.x - anchor_.x;
         const double dy = point.y - anchor_.y;
         const double distance = std::hypot(dx, dy);
-        if (distance + tolerance_ < farthest_) {
-            return false;
-        }
+        if (distance + tolerance_ < farthest_) { return false; }
         farthest_ = std::max(farthest_, distance);
-        if (distance <= tolerance_) {
-            return true;
-        }
+        if (distance <= tolerance_) { return true; }
         return narrow(std::atan2(dy, dx), std::asin(tolerance_ / distance));
     }
 
@@ -53,9 +49,7 @@ private:
             return true;
         }
         const double turn = std::remainder(heading - middle_, 2 * std::numbers::pi);
-        if (turn < low_ || turn > high_) {
-            return false;
-        }
+        if (turn < low_ || turn > high_) { return false; }
         low_ = std::max(low_, turn - half_angle);
         high_ = std::min(high_, turn + half_angle);
         return true;
@@ -78,12 +72,8 @@ std::vector<Point> decimate_columns(const std::vector<Point>& points) {
         const double column = std::floor(points[i].x);
         Column of{i, i, i, i};
         for (; i < points.size() && std::floor(points[i].x) == column; ++i) {
-            if (points[i].y < points[of.lowest].y) {
-                of.lowest = i;
-            }
-            if (points[i].y > points[of.highest].y) {
-                of.highest = i;
-            }
+            if (points[i].y < points[of.lowest].y) { of.lowest = i; }
+            if (points[i].y > points[of.highest].y) { of.highest = i; }
             of.last = i;
         }
         keep(of, points, kept);
@@ -92,15 +82,11 @@ std::vector<Point> decimate_columns(const std::vector<Point>& points) {
 }
 
 std::vector<Point> decimate_path(const std::vector<Point>& points, double tolerance) {
-    if (points.size() < 3) {
-        return points;
-    }
+    if (points.size() < 3) { return points; }
     std::vector<Point> kept = {points.front()};
     Sleeve sleeve(points.front(), tolerance);
     for (std::size_t i = 1; i < points.size(); ++i) {
-        if (sleeve.takes(points[i])) {
-            continue;
-        }
+        if (sleeve.takes(points[i])) { continue; }
         kept.push_back(points[i - 1]);
         sleeve = Sleeve(points[i - 1], tolerance);
         (void)sleeve.takes(points[i]);

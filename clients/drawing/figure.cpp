@@ -34,9 +34,7 @@ Lines unbroken(const Series& series, const Panel& panel) {
             lines.emplace_back();
         }
     }
-    if (lines.back().empty()) {
-        lines.pop_back();
-    }
+    if (lines.back().empty()) { lines.pop_back(); }
     return lines;
 }
 
@@ -47,9 +45,7 @@ std::vector<Point> decimated(const std::vector<Point>& line) {
 
 void draw_series(Svg& svg, const Series& series, const Panel& panel) {
     Lines lines = unbroken(series, panel);
-    if (lines.empty()) {
-        return;
-    }
+    if (lines.empty()) { return; }
     for (auto& line : lines) { line = decimated(line); }
     svg.path(lines, series.stroke);
 }
@@ -59,9 +55,7 @@ void draw_grid(Svg& svg, const Panel& panel, bool with_x_labels) {
     for (const AxisTick& tick : panel.x_ticks) {
         const double x = panel.across(tick.value);
         svg.line({x, box.y}, {x, box.bottom()}, kGridStroke);
-        if (with_x_labels) {
-            svg.text({x, box.bottom() + 17}, tick.label, anchored(kLabelText, Anchor::Middle));
-        }
+        if (with_x_labels) { svg.text({x, box.bottom() + 17}, tick.label, anchored(kLabelText, Anchor::Middle)); }
     }
     for (const AxisTick& tick : panel.y_ticks) {
         const double y = panel.up(tick.value);
@@ -83,9 +77,7 @@ void draw_spans(Svg& svg, const Chart& chart, const Panel& panel) {
 
 void draw_levels(Svg& svg, const Chart& chart, const Panel& panel) {
     for (const Level& level : chart.levels) {
-        if (level.y < panel.y.low || level.y > panel.y.high) {
-            continue;
-        }
+        if (level.y < panel.y.low || level.y > panel.y.high) { continue; }
         const double y = panel.up(level.y);
         svg.line({panel.box.x, y}, {panel.box.right(), y}, kLevelStroke);
     }
@@ -95,14 +87,10 @@ void draw_levels(Svg& svg, const Chart& chart, const Panel& panel) {
 void draw_level_labels(Svg& svg, const Chart& chart, const Panel& panel) {
     std::string words;
     for (const Level& level : chart.levels) {
-        if (level.label.empty()) {
-            continue;
-        }
+        if (level.label.empty()) { continue; }
         words += (words.empty() ? "" : " · ") + level.label;
     }
-    if (words.empty()) {
-        return;
-    }
+    if (words.empty()) { return; }
     TextStyle style = anchored(kLabelText, Anchor::End);
     style.colour = palette::kAlarm;
     const double y = panel.box.y - 8;
@@ -117,6 +105,7 @@ void draw_marks(Svg& svg, const Chart& chart, const Panel& panel) {
         const Point at = panel.at(mark.x, mark.y);
         TextStyle style = kLabelText;
         style.colour = mark.colour;
+        style.halo = true;
         const bool fits = at.x + 9 + text_width(mark.label, style) < panel.box.right();
         style.anchor = fits ? Anchor::Start : Anchor::End;
         svg.dot(at, 4.5, mark.colour);
@@ -158,9 +147,7 @@ std::string to_svg(const Figure& figure) {
     const Layout layout = arrange(figure);
     Svg svg(layout.width, layout.height, figure.title);
     svg.text({kMargin, kMargin + 14}, figure.title, kTitleText);
-    if (!figure.subtitle.empty()) {
-        svg.text({kMargin, kMargin + 35}, figure.subtitle, kSubtitleText);
-    }
+    if (!figure.subtitle.empty()) { svg.text({kMargin, kMargin + 35}, figure.subtitle, kSubtitleText); }
     draw_legend(svg, layout.legend);
     for (std::size_t i = 0; i < figure.rows.size(); ++i) {
         const bool lowest = i + 1 == figure.rows.size();

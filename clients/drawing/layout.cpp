@@ -21,17 +21,13 @@ constexpr double kLegendHeight = 22;
 class Extent {
 public:
     void add(double value) {
-        if (!std::isfinite(value)) {
-            return;
-        }
+        if (!std::isfinite(value)) { return; }
         low_ = std::min(low_, value);
         high_ = std::max(high_, value);
     }
     /// Widened by `margin` of its length to either side; around a single value by a tenth of it.
     Range range(double margin) const {
-        if (low_ > high_) {
-            return {0, 1};
-        }
+        if (low_ > high_) { return {0, 1}; }
         const double smallest = std::max(std::abs(low_), std::abs(high_)) * 1e-9;
         if (high_ - low_ > smallest) {
             const double more = (high_ - low_) * margin;
@@ -71,24 +67,18 @@ std::vector<LegendEntry> legend_entries(const Figure& figure) {
     std::vector<LegendEntry> entries;
     const auto add = [&](const std::string& label, const Stroke& stroke, bool area) {
         const bool known = std::ranges::find(entries, label, &LegendEntry::label) != entries.end();
-        if (!label.empty() && !known) {
-            entries.push_back({{}, label, stroke, area});
-        }
+        if (!label.empty() && !known) { entries.push_back({{}, label, stroke, area}); }
     };
     for (const Chart& chart : figure.rows) {
         for (const Series& series : chart.series) { add(series.label, series.stroke, false); }
-        if (!chart.spans.empty()) {
-            add(figure.span_label, {}, true);
-        }
+        if (!chart.spans.empty()) { add(figure.span_label, {}, true); }
     }
     return entries;
 }
 
 /// Places the entries from `top` on and returns where they end.
 double place_legend(std::vector<LegendEntry>& entries, double width, double top) {
-    if (entries.empty()) {
-        return top;
-    }
+    if (entries.empty()) { return top; }
     double x = kMargin;
     for (LegendEntry& entry : entries) {
         const double wide = kSwatchWidth + 8 + text_width(entry.label, kLabelText) + 18;
@@ -130,9 +120,7 @@ std::vector<Panel> size_panels(const Figure& figure) {
     for (const Chart& chart : figure.rows) {
         Panel panel{
             .box = {0, 0, kWidth - kAxisRoom - kMargin, row_height(figure.rows.size())}, .x = x, .y = y_range(chart)};
-        if (figure.equal_aspect) {
-            equalise(panel);
-        }
+        if (figure.equal_aspect) { equalise(panel); }
         panel.y_ticks = round_ticks(panel.y, wanted_ticks(panel.box.height, figure.equal_aspect ? kEqualTicks : 42));
         panels.push_back(std::move(panel));
     }
@@ -147,9 +135,7 @@ double stack(std::vector<Panel>& panels, double top, bool equal_aspect) {
     for (Panel& panel : panels) {
         panel.box.x = left;
         panel.box.y = top + kRowTitleHeight;
-        if (!equal_aspect) {
-            panel.box.width = kWidth - left - kMargin - 8;
-        }
+        if (!equal_aspect) { panel.box.width = kWidth - left - kMargin - 8; }
         panel.x_ticks = round_ticks(panel.x, wanted_ticks(panel.box.width, equal_aspect ? kEqualTicks : 95));
         top = panel.box.bottom() + kRowGap;
     }

@@ -27,16 +27,12 @@ Chart row(const AxisCurve& curve, std::size_t place, std::string label) {
 std::string short_number(double value) {
     std::string text = std::to_string(value);
     text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) {
-        text.pop_back();
-    }
+    if (text.ends_with('.')) { text.pop_back(); }
     return text;
 }
 
 std::vector<Level> limit_levels(const AxisCurve& curve) {
-    if (!curve.limit) {
-        return {};
-    }
+    if (!curve.limit) { return {}; }
     return {{*curve.limit, "limit " + short_number(*curve.limit) + " " + curve.unit + "/s"}, {-*curve.limit, ""}};
 }
 
@@ -72,12 +68,8 @@ Figure path_figure(std::string title, std::string subtitle, const Plane& plane, 
         chart.series.push_back(
             path("as stepped", stepped, {.colour = palette::series(0), .width = 5, .opacity = 0.45}));
     }
-    if (!asked.x.empty()) {
-        chart.series.push_back(path("as asked", asked, {.width = 1.1}));
-    }
-    if (!first.x.empty()) {
-        chart.marks.push_back({first.x.front(), first.y.front(), "start"});
-    }
+    if (!asked.x.empty()) { chart.series.push_back(path("as asked", asked, {.width = 1.1})); }
+    if (!first.x.empty()) { chart.marks.push_back({first.x.front(), first.y.front(), "start"}); }
     Figure figure;
     figure.title = std::move(title);
     figure.subtitle = std::move(subtitle);

@@ -31,9 +31,7 @@ std::string group_thousands(std::string_view digits) {
     const std::size_t whole = std::min(digits.find('.'), digits.size());
     std::string out;
     for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (whole > 4 && i > 0 && i < whole && (whole - i) % 3 == 0) {
-            out += kThinSpace;
-        }
+        if (whole > 4 && i > 0 && i < whole && (whole - i) % 3 == 0) { out += kThinSpace; }
         out += digits[i];
     }
     return out;
@@ -43,9 +41,7 @@ std::string label_of(double value, const Step& step) {
     std::array<char, 400> text{};
     const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), std::abs(value),
                                             std::chars_format::fixed, std::min(step.decimals, 20));
-    if (error != std::errc{}) {
-        return {};
-    }
+    if (error != std::errc{}) { return {}; }
     const std::string digits = group_thousands({text.data(), end});
     return value < 0 ? std::string(kMinus) + digits : digits;
 }
@@ -59,9 +55,7 @@ std::vector<AxisTick> round_ticks(Range range, int wanted) {
     std::vector<AxisTick> ticks;
     for (int i = 0; i < most; ++i) {
         const double value = (first + i) * step.size + 0.0;
-        if (value > range.high + step.size * 1e-9) {
-            break;
-        }
+        if (value > range.high + step.size * 1e-9) { break; }
         ticks.push_back({value, label_of(value, step)});
     }
     return ticks;

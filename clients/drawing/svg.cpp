@@ -95,12 +95,8 @@ void Svg::attribute(std::string_view name, std::string_view value) {
 void Svg::stroke(const Stroke& stroke) {
     attribute("stroke", stroke.colour);
     attribute("stroke-width", stroke.width);
-    if (stroke.opacity < 1) {
-        attribute("stroke-opacity", stroke.opacity);
-    }
-    if (stroke.dashed) {
-        attribute("stroke-dasharray", "5 4");
-    }
+    if (stroke.opacity < 1) { attribute("stroke-opacity", stroke.opacity); }
+    if (stroke.dashed) { attribute("stroke-dasharray", "5 4"); }
 }
 
 void Svg::rectangle(const Box& box, std::string_view fill, double opacity) {
@@ -110,9 +106,7 @@ void Svg::rectangle(const Box& box, std::string_view fill, double opacity) {
     attribute("width", box.width);
     attribute("height", box.height);
     attribute("fill", fill);
-    if (opacity < 1) {
-        attribute("fill-opacity", opacity);
-    }
+    if (opacity < 1) { attribute("fill-opacity", opacity); }
     out_ += "/>\n";
 }
 
@@ -137,9 +131,7 @@ void Svg::path(const std::vector<std::vector<Point>>& lines, const Stroke& style
             out_ += ',';
             append_number(out_, points[i].y);
         }
-        if (points.size() == 1) {
-            out_ += "h0";
-        }  // a point of its own is a round dot
+        if (points.size() == 1) { out_ += "h0"; }  // a point of its own is a round dot
     }
     out_ += "\"/>\n";
 }
@@ -160,12 +152,13 @@ void Svg::text(Point at, std::string_view content, const TextStyle& style) {
     attribute("y", at.y);
     attribute("font-size", style.size);
     attribute("fill", style.colour);
-    if (style.bold) {
-        attribute("font-weight", "bold");
+    if (style.bold) { attribute("font-weight", "bold"); }
+    if (style.halo) {
+        attribute("stroke", palette::kPaper);
+        attribute("stroke-width", 3);
+        attribute("paint-order", "stroke");
     }
-    if (style.anchor != Anchor::Start) {
-        attribute("text-anchor", name_of(style.anchor));
-    }
+    if (style.anchor != Anchor::Start) { attribute("text-anchor", name_of(style.anchor)); }
     out_ += '>' + escape_xml(content) + "</text>\n";
 }
 

@@ -30,6 +30,7 @@ struct TextStyle {
     double size = 12;
     std::string_view colour = palette::kInk;
     bool bold = false;
+    bool halo = false;  // of paper colour, where it stands over curves
     Anchor anchor = Anchor::Start;
 };
 

@@ -56,14 +56,21 @@ TEST(SpeedCourse, IsZeroInRestsAndSignedBackwards) {
     statistics.on_batch(batch(2, 200, even_steps(1'000'000, 50, 200, -1)));
     statistics.finish();
     for (const SpeedSample& sample : statistics.speed()) {
-        if (sample.at > Tick{20'000} && sample.at < Tick{1'000'000}) {
-            EXPECT_EQ(sample.steps_per_tick, 0);
-        }
+        if (sample.at > Tick{20'000} && sample.at < Tick{1'000'000}) { EXPECT_EQ(sample.steps_per_tick, 0); }
         EXPECT_LE(sample.steps_per_tick, 0.01);
         EXPECT_GE(sample.steps_per_tick, -0.02);
     }
     EXPECT_EQ(statistics.lowest_steps(), 0);
     EXPECT_EQ(statistics.highest_steps(), 200);
+}
+
+TEST(SpeedCourse, ClaimsNoRestWhereStepsAreMissing) {
+    AxisStatistics statistics;
+    statistics.on_batch(batch(0, 0, even_steps(0, 100, 200)));
+    statistics.on_break({.kind = Break::Kind::Missing, .missing_batches = 1, .position_change = 5000});
+    statistics.on_batch(batch(2, 5200, even_steps(520'000, 100, 200)));
+    const auto samples = statistics.speed();
+    EXPECT_EQ(std::ranges::count(samples, 0.0, &SpeedSample::steps_per_tick), 1) << "the beginning alone";
 }
 
 TEST(SpeedCourse, StaysBoundedAndKeepsThePeak) {

@@ -30,12 +30,8 @@ inline std::vector<StepEdge> trapezoid(std::int64_t first, double cruise_steps_p
     for (int k = 1; k <= count; ++k) {
         const double at = k - 0.5;
         double time = ramp_time + (at - ramp) / cruise_steps_per_tick;
-        if (at < ramp) {
-            time = std::sqrt(2 * at / acceleration);
-        }
-        if (at > count - ramp) {
-            time = total_time - std::sqrt(2 * (count - at) / acceleration);
-        }
+        if (at < ramp) { time = std::sqrt(2 * at / acceleration); }
+        if (at > count - ramp) { time = total_time - std::sqrt(2 * (count - at) / acceleration); }
         steps.push_back({Tick{first + static_cast<std::int64_t>(std::ceil(time))}, 1});
     }
     return steps;

@@ -23,19 +23,13 @@ inline bool entities_are_known(std::string_view text) {
 
 /// What is wrong with the document; nothing where it is well-formed.
 inline std::optional<std::string> xml_problem(std::string_view xml) {
-    if (!entities_are_known(xml)) {
-        return "a bare '&'";
-    }
+    if (!entities_are_known(xml)) { return "a bare '&'"; }
     std::vector<std::string> open;
     for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<', at + 1)) {
         const std::size_t end = xml.find('>', at);
-        if (end == xml.npos) {
-            return "an element without an end";
-        }
+        if (end == xml.npos) { return "an element without an end"; }
         std::string_view tag = xml.substr(at + 1, end - at - 1);
-        if (tag.find('<') != tag.npos) {
-            return "a bare '<'";
-        }
+        if (tag.find('<') != tag.npos) { return "a bare '<'"; }
         const std::string name(
             tag.substr(tag.starts_with('/') ? 1 : 0, tag.find_first_of(" /\n", 1) - (tag.starts_with('/') ? 1 : 0)));
         if (tag.starts_with('/')) {

@@ -1,0 +1,97 @@
+// Logs as a machine would record them, for the tests here.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <lockstep/step_batch_t.hpp>
+#include <string>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/program.hpp"
+#include "core/step/segment.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/documents/program_document.hpp"
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm_log.hpp"
+#include "services/wire/translate_lcm.hpp"
+#include "tests/unit/analysis/step_makers.hpp"
+
+namespace lockstep::test {
+
+/// A directory of the test's own.
+inline std::filesystem::path test_directory() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto path =
+        std::filesystem::path(testing::TempDir()) / "lockstep_analysis" / info->test_suite_name() / info->name();
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+    return path;
+}
+
+/// Two axes of 100 steps per mm.
+inline MachineConfig two_axes() {
+    const std::string axis =
+        "steps_per_mm: 100 start_velocity_mm_s: 5 max_velocity_mm_s: 100 max_accel_mm_s2: 1000 "
+        "position_min_mm: 0 position_max_mm: 200";
+    return parse_machine("name: \"mill\" axis { name: \"X\" " + axis + " } axis { name: \"Y\" " + axis + " }").value();
+}
+
+class LogMaker {
+public:
+    explicit LogMaker(const std::filesystem::path& path) : writer_(LogWriter::open(path).value()) {}
+    ~LogMaker() { EXPECT_TRUE(writer_.flush()); }
+
+    void steps(const std::string& axis, std::int64_t sequence, std::int64_t before,
+               const std::vector<StepEdge>& steps) {
+        step_batch_t message{};
+        message.machine = "mill";
+        message.axis = axis;
+        message.incarnation = 7;
+        message.sequence = sequence;
+        message.position_before = before;
+        message.count = static_cast<std::int32_t>(steps.size());
+        message.first_tick = steps.empty() ? 0 : steps.front().tick.value;
+        Tick last{message.first_tick};
+        for (const StepEdge& step : steps) {
+            message.delta_ticks.push_back(static_cast<std::int32_t>((step.tick - last).value));
+            message.direction.push_back(step.direction);
+            last = step.tick;
+        }
+        writer_.write_message(channels_of("mill", axis).steps, last.value, message);
+    }
+
+    void position(std::uint32_t axis, std::int64_t tick, std::int64_t steps) {
+        const MachineConfig machine = two_axes();
+        AxisState state;
+        state.axis = axis;
+        state.tick = Tick{tick};
+        state.position = Position::steps(steps);
+        writer_.write_message(channels_of("mill", machine.axes[axis].name).position, tick, to_lcm(machine, state));
+    }
+
+    void job(const std::string& event, std::int64_t tick, const Program& program, std::string outcome = "") {
+        JobRecord record{.machine = "mill", .job = 3, .kind = "run", .event = event, .outcome = std::move(outcome)};
+        record.start = Tick{tick};
+        record.config = machine_text(two_axes());
+        record.program = program_text(program);
+        writer_.write_message(job_channel("mill"), tick, to_lcm(record, Tick{tick}, 1000));
+    }
+
+    void foreign(const std::string& channel) { writer_.write(channel, 0, std::vector<std::uint8_t>{1, 2, 3}); }
+
+private:
+    LogWriter writer_;
+};
+
+/// A program of straight moves through places in the plane.
+inline Program path_through(std::vector<std::vector<double>> places) {
+    Program program{.name = "square", .axes = {"X", "Y"}, .start_mm = places.front(), .blocks = {}};
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        program.blocks.push_back({static_cast<std::int32_t>(i), LinearMove{places[i], 50, false}});
+    }
+    return program;
+}
+
+}  // namespace lockstep::test
