@@ -3,6 +3,7 @@
 // A block is what the line says; what it comes to depends on the lines before and is the interpreter's.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
