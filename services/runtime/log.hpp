@@ -14,8 +14,8 @@
 namespace lockstep {
 
 struct LogTarget {
-    std::string service;                      // "coordinator", "axis", ...
-    std::string axis;                         // empty: none
+    std::string service;                             // "coordinator", "axis", ...
+    std::string axis;                                // empty: none
     std::optional<std::filesystem::path> file = {};  // none: standard error
 };
 

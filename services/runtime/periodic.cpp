@@ -30,7 +30,9 @@ bool PeriodicLoop::wait_for_next(const StopSignal& stop) {
     next_ += period_ * (missed + 1);
     const timespec wake = to_timespec(next_);
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
-        if (stop.requested()) { return false; }
+        if (stop.requested()) {
+            return false;
+        }
     }
     worst_lateness_ = std::max(worst_lateness_, monotonic_now() - next_);
     return !stop.requested();
@@ -38,7 +40,9 @@ bool PeriodicLoop::wait_for_next(const StopSignal& stop) {
 
 std::string try_real_time(int priority) {
     const sched_param wanted{.sched_priority = priority};
-    if (sched_setscheduler(0, SCHED_FIFO, &wanted) == 0) { return "scheduler FIFO, priority " + std::to_string(priority); }
+    if (sched_setscheduler(0, SCHED_FIFO, &wanted) == 0) {
+        return "scheduler FIFO, priority " + std::to_string(priority);
+    }
     return std::string("scheduler normal: FIFO was refused (") + std::strerror(errno) +
            "); to permit it: LimitRTPRIO=99 in the unit, or --ulimit rtprio=99 --cap-add SYS_NICE for a container";
 }

@@ -1,8 +1,8 @@
 // What each role hears and says, as one value. Members are made in order on the participant.
 #pragma once
 
-#include <condition_variable>
 #include <chrono>
+#include <condition_variable>
 #include <expected>
 #include <memory>
 #include <mutex>
@@ -60,9 +60,13 @@ struct ClientBus {
 template <typename Bus>
 std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine) {
     auto participant = Participant::open(network, machine);
-    if (!participant) { return std::unexpected(participant.error()); }
+    if (!participant) {
+        return std::unexpected(participant.error());
+    }
     Bus bus{std::move(*participant)};
-    if (const auto& failure = bus.participant.failure()) { return std::unexpected(*failure); }
+    if (const auto& failure = bus.participant.failure()) {
+        return std::unexpected(*failure);
+    }
     return bus;
 }
 

@@ -58,13 +58,16 @@ public:
         : on_data_(on_data ? std::make_unique<OnData>(std::move(on_data)) : nullptr),
           entity_(detail::make_reader(participant, Topic<T>::kSpec, on_data_.get())) {}
 
-    /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many.
+    /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many. A
+    /// message that is not moved away leaves its memory to the next.
     template <typename Use>
     std::size_t take(Use use) {
         std::size_t used = 0;
         for (std::size_t batch = 0; batch < kMaxBatches; ++batch) {
             const std::size_t taken = take_batch(use, used);
-            if (taken < kBatch) { break; }
+            if (taken < kBatch) {
+                break;
+            }
         }
         return used;
     }
@@ -88,7 +91,9 @@ private:
         Loan(const Loan&) = delete;
         Loan& operator=(const Loan&) = delete;
         ~Loan() {
-            if (count > 0) { dds_return_loan(reader, samples.data(), count); }
+            if (count > 0) {
+                dds_return_loan(reader, samples.data(), count);
+            }
         }
     };
 
@@ -97,14 +102,16 @@ private:
         const Loan loan(entity_.handle());
         const auto count = static_cast<std::size_t>(std::max(0, loan.count));
         for (std::size_t i = 0; i < count; ++i) {
-            if (!loan.infos[i].valid_data) { continue; }  // a sender left
-            auto value = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]));
-            if (value) {
-                use(std::move(*value));
+            if (!loan.infos[i].valid_data) {
+                continue;
+            }  // a sender left
+            auto believed = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]), value_);
+            if (believed) {
+                use(std::move(value_));
                 ++used;
             } else {
                 ++refusals_.count;
-                refusals_.last = std::move(value.error());
+                refusals_.last = std::move(believed.error());
             }
         }
         return count;
@@ -112,6 +119,7 @@ private:
 
     std::unique_ptr<OnData> on_data_;  // DDS holds its address: it stays put and outlives the entity
     Entity entity_;
+    T value_{};  // the message at hand
     Refusals refusals_;
 };
 

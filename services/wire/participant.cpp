@@ -13,8 +13,9 @@ namespace {
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 // Why: a lost setpoint must be asked for at once (NackDelay 0; the default 100 ms would cost ten slots), a lost last
-// one must be noticed soon (heartbeats of 2 to 20 ms), and a process that starts or dies must be seen within a second. A writer may keep
-// 64 of the largest frames unacknowledged: by default it would wait for a stalled reader from 30 kB on.
+// one must be noticed soon (heartbeats of 2 to 20 ms), and a process that starts or dies must be seen within a second.
+// A writer may keep 64 of the largest frames unacknowledged: by default it would wait for a stalled reader from 30 kB
+// on.
 constexpr const char* kTuning =
     "<Discovery><SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1 s</LeaseDuration></Discovery>"
     "<Internal><HeartbeatInterval min=\"1 ms\" minsched=\"1 ms\" max=\"20 ms\">2 ms</HeartbeatInterval>"
@@ -24,7 +25,9 @@ constexpr const char* kTuning =
     "</Internal>";
 
 bool is_interface_name(const std::string& name) {
-    const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '@'; };
+    const auto allowed = [](unsigned char c) {
+        return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '@';
+    };
     return !name.empty() && std::ranges::all_of(name, allowed);
 }
 
@@ -33,15 +36,20 @@ std::string place(const NetworkConfig& network) {
 }
 
 std::string cannot_open(const NetworkConfig& network, const char* why) {
-    return "cannot open " + place(network) + ": " + why + "; check that the interface exists and has an address (ip addr show " +
-           network.interface + "), that the domain is 0 to 230, and CYCLONEDDS_URI if it is set";
+    return "cannot open " + place(network) + ": " + why +
+           "; check that the interface exists and has an address (ip addr show " + network.interface +
+           "), that the domain is 0 to 230, and CYCLONEDDS_URI if it is set";
 }
 
 std::expected<void, std::string> create_domain(const NetworkConfig& network) {
     const auto profile = dds_profile(network);
-    if (!profile) { return std::unexpected(profile.error()); }
+    if (!profile) {
+        return std::unexpected(profile.error());
+    }
     const dds_entity_t domain = dds_create_domain(network.domain, profile->c_str());
-    if (domain < 0) { return std::unexpected(cannot_open(network, dds_strretcode(domain))); }
+    if (domain < 0) {
+        return std::unexpected(cannot_open(network, dds_strretcode(domain)));
+    }
     return {};
 }
 
@@ -53,10 +61,14 @@ std::expected<void, std::string> ensure_domain(const NetworkConfig& network) {
     const auto known = interface_of.find(network.domain);
     if (known == interface_of.end()) {
         auto created = create_domain(network);
-        if (created) { interface_of[network.domain] = network.interface; }
+        if (created) {
+            interface_of[network.domain] = network.interface;
+        }
         return created;
     }
-    if (known->second == network.interface) { return {}; }
+    if (known->second == network.interface) {
+        return {};
+    }
     return std::unexpected("cannot open " + place(network) + ": this process has that domain on interface " +
                            known->second + "; use another domain");
 }
@@ -86,20 +98,30 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     if (machine.empty() || machine.find_first_of("*?[]") != machine.npos) {  // DDS would match them as patterns
         return std::unexpected("'" + machine + "' cannot name a machine: it is empty or has one of * ? [ ]");
     }
-    if (auto domain = ensure_domain(network); !domain) { return std::unexpected(domain.error()); }
+    if (auto domain = ensure_domain(network); !domain) {
+        return std::unexpected(domain.error());
+    }
     const Qos partition = partition_qos(machine);
     Participant made;
     made.participant_ = Entity(dds_create_participant(network.domain, nullptr, nullptr));
-    if (!made.participant_.good()) { return std::unexpected(cannot_open(network, made.participant_.why_not())); }
+    if (!made.participant_.good()) {
+        return std::unexpected(cannot_open(network, made.participant_.why_not()));
+    }
     made.publisher_ = Entity(dds_create_publisher(made.handle(), partition.get(), nullptr));
     made.subscriber_ = Entity(dds_create_subscriber(made.handle(), partition.get(), nullptr));
-    if (!made.publisher_.good()) { return std::unexpected(cannot_open(network, made.publisher_.why_not())); }
-    if (!made.subscriber_.good()) { return std::unexpected(cannot_open(network, made.subscriber_.why_not())); }
+    if (!made.publisher_.good()) {
+        return std::unexpected(cannot_open(network, made.publisher_.why_not()));
+    }
+    if (!made.subscriber_.good()) {
+        return std::unexpected(cannot_open(network, made.subscriber_.why_not()));
+    }
     return made;
 }
 
 void Participant::note_failure(std::string text) {
-    if (!failure_) { failure_ = std::move(text); }
+    if (!failure_) {
+        failure_ = std::move(text);
+    }
 }
 
 }  // namespace lockstep

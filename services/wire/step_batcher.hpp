@@ -52,8 +52,8 @@ private:
     Publish publish_;
     std::int64_t tick_ns_;
     Ticks period_;
-    Tick due_;         // when the axis's turn comes next
-    Tick last_step_;   // of the batch, where it has one
+    Tick due_;                // when the axis's turn comes next
+    Tick last_step_;          // of the batch, where it has one
     std::int64_t moved_ = 0;  // by the batch's steps
 };
 

@@ -34,12 +34,12 @@ struct TopicSpec {
 template <typename T>
 struct Topic;
 
-#define LOCKSTEP_TOPIC(CORE, WIRE, ...)                                \
-    template <>                                                        \
-    struct Topic<CORE> {                                               \
-        using Wire = lockstep_wire_##WIRE;                             \
+#define LOCKSTEP_TOPIC(CORE, WIRE, ...)                                    \
+    template <>                                                            \
+    struct Topic<CORE> {                                                   \
+        using Wire = lockstep_wire_##WIRE;                                 \
         static constexpr const auto* kType = &lockstep_wire_##WIRE##_desc; \
-        static constexpr TopicSpec kSpec __VA_ARGS__;                  \
+        static constexpr TopicSpec kSpec __VA_ARGS__;                      \
     };
 
 LOCKSTEP_TOPIC(Frame, Setpoint, {"lockstep/setpoint", kType, Delivery::Reliable, 64})

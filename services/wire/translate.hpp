@@ -4,6 +4,7 @@
 // in range, and choices exist, or the sample is refused with the field, its value and why.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <expected>
 #include <string>
@@ -55,5 +56,19 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire);
 FromWire<Command> from_wire(const lockstep_wire_Command& wire);
 FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire);
 FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
+
+/// The same into a value that was used before; it keeps its content where the sample is refused.
+template <typename Wire, typename T>
+    requires(!std::same_as<T, Frame>)
+std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
+    auto value = from_wire(wire);
+    if (!value) {
+        return std::unexpected(std::move(value.error()));
+    }
+    into = std::move(*value);
+    return {};
+}
+/// A frame is large: where `into` has as many axes nothing is allocated and only what is used is written.
+std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into);
 
 }  // namespace lockstep

@@ -32,7 +32,9 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.within("progress", wire.progress, 0.0, 1.0);
     check.finite("remaining_s", wire.remaining_s);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Fault);
-    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    if (!check.passed()) {
+        return std::unexpected(check.refusal());
+    }
     return MachineState{.coordinator = wire.coordinator,
                         .stamp = wire.stamp,
                         .tick = {wire.tick},

@@ -54,9 +54,15 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.same("the number of phases", wire.from_phase._length, axes);
     check.same("the number of body counts", wire.body_count._length, axes);
     check.same("the number of tail counts", wire.tail_count._length, axes);
-    if (!check.passed()) { return; }
-    for (const auto count : elements(wire.body_count)) { check.within<std::size_t>("a body count", count, 0, kMaxBodyPieces); }
-    for (const auto count : elements(wire.tail_count)) { check.within<std::size_t>("a tail count", count, 0, kMaxTailPieces); }
+    if (!check.passed()) {
+        return;
+    }
+    for (const auto count : elements(wire.body_count)) {
+        check.within<std::size_t>("a body count", count, 0, kMaxBodyPieces);
+    }
+    for (const auto count : elements(wire.tail_count)) {
+        check.within<std::size_t>("a tail count", count, 0, kMaxTailPieces);
+    }
     const std::size_t pieces = sum(elements(wire.body_count)) + sum(elements(wire.tail_count));
     check.same("the number of ticks", wire.ticks._length, pieces);
     check.same("the number of velocities", wire.velocity._length, pieces);
@@ -72,9 +78,11 @@ void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {
     for (const auto acceleration : elements(wire.acceleration)) { check.rate("acceleration", acceleration); }
 }
 
-/// Moves `count` pieces from position `at` of the sequences. The target has room: the shape was checked.
+/// Copies `count` pieces from place `at` of the sequences on, and moves `at`. The target has room: the shape was
+/// checked.
 template <typename Pieces>
 void read_pieces(const lockstep_wire_Setpoint& wire, std::size_t& at, std::size_t count, Pieces& pieces) {
+    pieces.clear();
     for (const std::size_t end = at + count; at < end; ++at) {
         (void)pieces.push_back(
             {{wire.ticks._buffer[at]}, {wire.velocity._buffer[at]}, {wire.acceleration._buffer[at]}});
@@ -105,25 +113,37 @@ SetpointMessage to_wire(const Frame& frame) {
 }
 
 FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire) {
+    Frame frame;
+    if (auto read = from_wire(wire, frame); !read) {
+        return std::unexpected(std::move(read.error()));
+    }
+    return frame;
+}
+
+std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into) {
     Checks check("setpoint");
     check_shape(wire, check);
-    if (check.passed()) { check_values(wire, check); }
-    if (!check.passed()) { return std::unexpected(check.refusal()); }
-    Frame frame{.coordinator = wire.coordinator,
-                .epoch = wire.epoch,
-                .number = wire.number,
-                .start = {wire.start_tick},
-                .ticks = {wire.frame_ticks},
-                .last = wire.last,
-                .axes = std::vector<AxisTrack>(wire.from_count._length)};
+    if (check.passed()) {
+        check_values(wire, check);
+    }
+    if (!check.passed()) {
+        return std::unexpected(check.refusal());
+    }
+    into.coordinator = wire.coordinator;
+    into.epoch = wire.epoch;
+    into.number = wire.number;
+    into.start = {wire.start_tick};
+    into.ticks = {wire.frame_ticks};
+    into.last = wire.last;
+    into.axes.resize(wire.from_count._length);
     std::size_t at = 0;
-    for (std::size_t i = 0; i < frame.axes.size(); ++i) {
-        AxisTrack& axis = frame.axes[i];
+    for (std::size_t i = 0; i < into.axes.size(); ++i) {
+        AxisTrack& axis = into.axes[i];
         axis.from = Position::from_count(wire.from_count._buffer[i], wire.from_phase._buffer[i]);
         read_pieces(wire, at, wire.body_count._buffer[i], axis.body);
         read_pieces(wire, at, wire.tail_count._buffer[i], axis.tail);
     }
-    return frame;
+    return {};
 }
 
 }  // namespace lockstep

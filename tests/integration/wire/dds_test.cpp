@@ -18,14 +18,23 @@ using namespace std::chrono_literals;
 template <typename Bus>
 Bus open_or_throw(const NetworkConfig& network, const std::string& machine = "mill") {
     auto bus = open_bus<Bus>(network, machine);
-    if (!bus) { throw std::runtime_error(bus.error()); }
+    if (!bus) {
+        throw std::runtime_error(bus.error());
+    }
     return std::move(*bus);
 }
 
 Frame frame_of(FrameNumber number, std::size_t axes, std::size_t pieces) {
-    Frame frame{.coordinator = 1, .epoch = 2, .number = number, .start = {1000}, .ticks = {5000}, .axes = std::vector<AxisTrack>(axes)};
+    Frame frame{.coordinator = 1,
+                .epoch = 2,
+                .number = number,
+                .start = {1000},
+                .ticks = {5000},
+                .axes = std::vector<AxisTrack>(axes)};
     for (AxisTrack& axis : frame.axes) {
-        while (axis.body.size() < pieces) { (void)axis.body.push_back({{10}, {static_cast<std::int64_t>(number)}, {-1}}); }
+        while (axis.body.size() < pieces) {
+            (void)axis.body.push_back({{10}, {static_cast<std::int64_t>(number)}, {-1}});
+        }
     }
     return frame;
 }
@@ -41,7 +50,9 @@ TEST(Dds, FramesArriveWholeAndInOrder) {
     auto coordinator = open_or_throw<CoordinatorBus>(network);
     auto axis = open_or_throw<AxisBus>(network);
     ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1 && axis.frames.matched() == 1; }));
-    for (FrameNumber number = 1; number <= 50; ++number) { ASSERT_TRUE(coordinator.frames.write(frame_of(number, 3, 10))); }
+    for (FrameNumber number = 1; number <= 50; ++number) {
+        ASSERT_TRUE(coordinator.frames.write(frame_of(number, 3, 10)));
+    }
     std::vector<Frame> received;
     ASSERT_TRUE(eventually([&] {
         axis.frames.take([&](Frame&& frame) { received.push_back(std::move(frame)); });
@@ -59,7 +70,8 @@ TEST(Dds, TheLargestFrameArrives) {
     const Frame largest = frame_of(1, kMaxAxes, kMaxBodyPieces);
     ASSERT_TRUE(coordinator.frames.write(largest));
     std::vector<Frame> received;
-    ASSERT_TRUE(eventually([&] { return axis.frames.take([&](Frame&& frame) { received.push_back(std::move(frame)); }) > 0; }));
+    ASSERT_TRUE(
+        eventually([&] { return axis.frames.take([&](Frame&& frame) { received.push_back(std::move(frame)); }) > 0; }));
     EXPECT_EQ(received[0], largest);
 }
 
@@ -104,7 +116,8 @@ TEST(Dds, ALateJoinerGetsNoOldCommand) {
     ASSERT_TRUE(eventually([&] { return client.commands.matched() == 2 && late.commands.matched() == 1; }));
     ASSERT_TRUE(client.commands.write({.sequence = 2}));
     std::vector<std::uint64_t> heard;
-    ASSERT_TRUE(eventually([&] { return late.commands.take([&](Command&& command) { heard.push_back(command.sequence); }) > 0; }));
+    ASSERT_TRUE(eventually(
+        [&] { return late.commands.take([&](Command&& command) { heard.push_back(command.sequence); }) > 0; }));
     EXPECT_EQ(heard, std::vector<std::uint64_t>{2});
 }
 
@@ -161,8 +174,10 @@ TEST(Dds, AReaderThatStandsStillDoesNotStopTheWriter) {
 
 TEST(Dds, EveryPartOfAProgramArrivesThoughPacketsAreLost) {
     const NetworkConfig network = own_network();
-    setenv("CYCLONEDDS_URI",  // five packets of a hundred are lost, both ways
-           "<CycloneDDS><Domain><Internal><Test><XmitLossiness>50</XmitLossiness></Test></Internal></Domain></CycloneDDS>", 1);
+    setenv(
+        "CYCLONEDDS_URI",  // five packets of a hundred are lost, both ways
+        "<CycloneDDS><Domain><Internal><Test><XmitLossiness>50</XmitLossiness></Test></Internal></Domain></CycloneDDS>",
+        1);
     Child coordinator = peer("coordinator", network);
     auto client = open_or_throw<ClientBus>(network);
     unsetenv("CYCLONEDDS_URI");
@@ -170,11 +185,16 @@ TEST(Dds, EveryPartOfAProgramArrivesThoughPacketsAreLost) {
     constexpr std::uint32_t kChunks = 100;
     std::uint64_t answered = 0;
     for (std::uint32_t index = 0; index < kChunks; ++index) {
-        ASSERT_TRUE(client.chunks.write({.client = 1, .sequence = index, .index = index, .count = kChunks, .bytes = std::vector<std::uint8_t>(8192)}));
+        ASSERT_TRUE(client.chunks.write({.client = 1,
+                                         .sequence = index,
+                                         .index = index,
+                                         .count = kChunks,
+                                         .bytes = std::vector<std::uint8_t>(8192)}));
         ASSERT_TRUE(eventually([&] {
             answered += client.replies.take([](Reply&&) {});
             return answered + 32 > index;
-        })) << answered << " of " << index;
+        })) << answered
+            << " of " << index;
     }
     EXPECT_EQ(coordinator.wait(), 0);
 }
@@ -184,7 +204,7 @@ TEST(Dds, AnInterfaceThatIsNotThereIsNamedWithTheRemedy) {
     network.interface = "none0";
     const auto bus = open_bus<AxisBus>(network, "mill");
     ASSERT_FALSE(bus);
-    for (const char* part : {"none0", "domain " , "ip addr show none0"}) {
+    for (const char* part : {"none0", "domain ", "ip addr show none0"}) {
         EXPECT_NE(bus.error().find(part), std::string::npos) << bus.error();
     }
     network.interface = "lo\"/><x";

@@ -22,9 +22,13 @@ TEST(PeriodicLoop, WakesAtMultiplesOfItsPeriodAndNeverTwiceForOne) {
     loop.run(stop, [&](std::chrono::nanoseconds wake) {
         EXPECT_GE(monotonic_now(), wake);
         EXPECT_EQ((wake - 500us) % 2ms, 0ns);
-        if (!wakes.empty()) { EXPECT_GT(wake, wakes.back()); }
+        if (!wakes.empty()) {
+            EXPECT_GT(wake, wakes.back());
+        }
         wakes.push_back(wake);
-        if (wakes.size() == 5) { stop.request(); }
+        if (wakes.size() == 5) {
+            stop.request();
+        }
     });
     EXPECT_EQ(wakes.size(), 5u);
 }
@@ -34,8 +38,12 @@ TEST(PeriodicLoop, SkipsAndCountsWhatItMissed) {
     PeriodicLoop loop(2ms);
     int runs = 0;
     loop.run(stop, [&](std::chrono::nanoseconds) {
-        if (++runs == 1) { std::this_thread::sleep_for(9ms); }
-        if (runs == 2) { stop.request(); }
+        if (++runs == 1) {
+            std::this_thread::sleep_for(9ms);
+        }
+        if (runs == 2) {
+            stop.request();
+        }
     });
     EXPECT_EQ(runs, 2);
     EXPECT_GE(loop.skipped_periods(), 3u);
@@ -46,7 +54,9 @@ TEST(PeriodicLoop, EndsAtASignal) {
     PeriodicLoop loop(1ms);
     int runs = 0;
     loop.run(stop, [&](std::chrono::nanoseconds) {
-        if (++runs == 3) { kill(getpid(), SIGTERM); }
+        if (++runs == 3) {
+            kill(getpid(), SIGTERM);
+        }
     });
     EXPECT_EQ(runs, 3);
 }

@@ -37,8 +37,13 @@ run_t a_run() {
 }
 
 job_t a_job() {
-    const JobRecord record{.machine = "mill", .kind = "run", .event = "begun", .resume_along = Int128{-5},
-                           .config = "name: 'mill'", .program = "blocks {}", .start_count = {1, 2, 3}};
+    const JobRecord record{.machine = "mill",
+                           .kind = "run",
+                           .event = "begun",
+                           .resume_along = Int128{-5},
+                           .config = "name: 'mill'",
+                           .program = "blocks {}",
+                           .start_count = {1, 2, 3}};
     return to_lcm(record, {1'000'000}, 1000);
 }
 

@@ -34,7 +34,9 @@ protected:
     /// Where event i of log_of() begins.
     static std::size_t offset_of(int i) {
         std::size_t offset = 0;
-        for (int k = 0; k < i; ++k) { offset += 28 + ("CHANNEL_" + std::to_string(k)).size() + static_cast<std::size_t>(k) + 10; }
+        for (int k = 0; k < i; ++k) {
+            offset += 28 + ("CHANNEL_" + std::to_string(k)).size() + static_cast<std::size_t>(k) + 10;
+        }
         return offset;
     }
 
@@ -45,7 +47,8 @@ protected:
     };
 
     Read read(const Bytes& bytes) {
-        std::ofstream(path_, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        std::ofstream(path_, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         auto reader = LogReader::open(path_);
         Read result;
         while (auto event = reader->next().value()) { result.numbers.push_back(event->number); }
@@ -70,7 +73,8 @@ TEST_F(LcmLog, GivesBackWhatWasWritten) {
         EXPECT_EQ(event->number, i);
         EXPECT_EQ(event->utime, i * 1000);
         EXPECT_EQ(event->channel, "CHANNEL_" + std::to_string(i));
-        EXPECT_EQ(Bytes(event->data.begin(), event->data.end()), Bytes(static_cast<std::size_t>(i) + 10, static_cast<std::uint8_t>(i)));
+        EXPECT_EQ(Bytes(event->data.begin(), event->data.end()),
+                  Bytes(static_cast<std::size_t>(i) + 10, static_cast<std::uint8_t>(i)));
     }
     EXPECT_FALSE(reader->next().value());
     EXPECT_TRUE(reader->damages().empty());
@@ -141,7 +145,9 @@ TEST_F(LcmLog, RandomDamageLosesOnlyWhatItTouches) {
 TEST_F(LcmLog, EventsAcrossTheWindowsEdgeAreWhole) {
     {
         auto writer = LogWriter::open(path_);
-        for (int i = 0; i < 40; ++i) { EXPECT_TRUE(writer->write("BIG", i, Bytes(100'000, static_cast<std::uint8_t>(i)))); }
+        for (int i = 0; i < 40; ++i) {
+            EXPECT_TRUE(writer->write("BIG", i, Bytes(100'000, static_cast<std::uint8_t>(i))));
+        }
         EXPECT_TRUE(writer->flush());
     }
     auto reader = LogReader::open(path_);

@@ -12,8 +12,8 @@ struct Recorder {
     std::vector<step_batch_t> batches;
     StepBatcher batcher;
     explicit Recorder(std::uint32_t axis_index = 0, std::int64_t position = 0)
-        : batcher({.machine = "mill", .axis = "X", .axis_index = axis_index, .incarnation = 7, .tick_ns = 1000}, position,
-                  [this](const step_batch_t& batch) { batches.push_back(batch); }) {}
+        : batcher({.machine = "mill", .axis = "X", .axis_index = axis_index, .incarnation = 7, .tick_ns = 1000},
+                  position, [this](const step_batch_t& batch) { batches.push_back(batch); }) {}
 };
 
 /// The steps as the messages tell them; fails where the messages do not join.
@@ -40,7 +40,9 @@ TEST(StepBatcher, TellsEveryStepWithItsTickAndDirection) {
     for (std::int64_t tick = 0; tick < 100'000; tick += 7) {
         made.push_back({{tick}, static_cast<std::int8_t>(tick % 5 == 0 ? -1 : 1)});
         record.batcher.add(made.back());
-        if (tick % 1000 < 7) { record.batcher.poll({tick}); }
+        if (tick % 1000 < 7) {
+            record.batcher.poll({tick});
+        }
     }
     record.batcher.flush();
     EXPECT_EQ(steps_in(record.batches, 100), made);

@@ -1,0 +1,24 @@
+// What an LCM URL says of where its messages go.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+/// What an LCM URL says, e.g. udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304; what is missing has LCM's default.
+struct LcmUrl {
+    std::string provider = "udpm";
+    std::string address = "239.255.76.67";
+    std::uint16_t port = 7667;
+    int ttl = 0;
+
+    bool is_multicast() const { return provider == "udpm" || provider == "mpudpm"; }
+};
+
+/// Error: a port or ttl that is no number in range, an address that is no IPv4 multicast address.
+std::expected<LcmUrl, std::string> parse_lcm_url(std::string_view url);
+
+}  // namespace lockstep
