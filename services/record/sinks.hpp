@@ -1,6 +1,7 @@
 // The two sinks there are: LCM's network, for lcm-logger and lcm-spy, and LCM's log file, for the simulator.
 #pragma once
 
+#include <memory>
 #include <utility>
 
 #include "services/record/record_sink.hpp"
@@ -40,5 +41,8 @@ class NoSink : public RecordSink {
 public:
     void write(const std::string&, std::int64_t, std::span<const std::uint8_t>) override {}
 };
+
+/// The network's, or none where the record is not wanted or cannot be published: the log says why.
+std::unique_ptr<RecordSink> open_record(const NetworkConfig& network, bool wanted);
 
 }  // namespace lockstep

@@ -1,0 +1,42 @@
+#include "services/axis/axis_notices.hpp"
+
+#include <array>
+#include <string>
+
+#include "services/runtime/log.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string remedy(FaultCode fault) {
+    const FaultText* text = find_fault(fault);
+    return text == nullptr ? std::string() : std::string(text->cause) + "; " + std::string(text->remedy);
+}
+
+std::string_view stage_name(std::uint64_t stage) {
+    constexpr std::array<std::string_view, 5> kNames{"ended", "search", "pull off", "latch", "park"};
+    return stage < kNames.size() ? kNames[stage] : "unknown";
+}
+
+}  // namespace
+
+void log_notice(const AxisNotice& notice) {
+    using Kind = AxisNotice::Kind;
+    const std::string number = std::to_string(notice.number);
+    switch (notice.kind) {
+        case Kind::CoordinatorAdopted: return log_info("follows coordinator " + number);
+        case Kind::EpochBegun: return log_info("epoch " + number + " begun");
+        case Kind::EpochEnded: return log_info("epoch " + number + " ended, at rest");
+        case Kind::FrameRefused:
+            return log_event(spdlog::level::err, notice.fault, "frame " + number + " refused: " + remedy(notice.fault));
+        case Kind::Vetoed: return log_info("frame " + number + " and those after it are vetoed");
+        case Kind::HomingStage: return log_info("homing: " + std::string(stage_name(notice.number)));
+        case Kind::Homed: return log_info("homed and parked");
+        case Kind::Fault: return log_event(spdlog::level::err, notice.fault, remedy(notice.fault));
+        case Kind::Reset: return log_info("reset");
+        case Kind::CommandRefused:
+            return log_event(spdlog::level::warn, notice.fault, "command refused: " + remedy(notice.fault));
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,10 @@
+// An axis's events as lines of its log.
+#pragma once
+
+#include "core/axis/axis_controller.hpp"
+
+namespace lockstep {
+
+void log_notice(const AxisNotice& notice);
+
+}  // namespace lockstep

@@ -1,0 +1,162 @@
+#include "services/axis/axis_service.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "services/axis/axis_node.hpp"
+#include "services/axis/axis_notices.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/record/axis_recorder.hpp"
+#include "services/record/sinks.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/log.hpp"
+#include "services/runtime/periodic.hpp"
+#include "services/runtime/stop_signal.hpp"
+#include "services/wire/bus.hpp"
+
+namespace lockstep {
+namespace {
+
+using std::chrono::nanoseconds;
+
+std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis, std::int64_t tick_ns,
+                                                   Tick now) {
+    constexpr std::string_view kShared = "shm:";
+    if (fpga == "sim") { return simulated_device(axis, tick_ns, now); }
+    if (!fpga.starts_with(kShared)) {
+        return std::unexpected("--fpga " + fpga + " is neither \"sim\" nor \"shm:NAME\"");
+    }
+    auto window = RegisterWindow::open_shared(fpga.substr(kShared.size()));
+    if (!window) { return std::unexpected(window.error() + "; start it: lockstep-fpga --name NAME"); }
+    return AxisDevice{std::move(*window), nullptr};
+}
+
+/// The loop's state: what came, what is said, what is complained about.
+class AxisService {
+public:
+    AxisService(const AxisNode::Setup& setup, AxisNode node, AxisBus bus, std::unique_ptr<RecordSink> sink)
+        : setup_(setup),
+          clock_(setup.machine.tick_ns),
+          node_(std::move(node)),
+          bus_(std::move(bus)),
+          sink_(std::move(sink)),
+          recorder_(setup.machine, setup.axis, setup.identity, *sink_) {}
+
+    /// False: another process runs this axis.
+    bool loop() {
+        hear();
+        const Tick now = clock_.now();
+        const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_},
+                                           [this](StepEdge step) { recorder_.step(step); });
+        if (out.state) { (void)bus_.state.write(*out.state); }
+        recorder_.loop(now, out, node_.controller().zero_count());
+        for (const AxisNotice& notice : out.notices) { log_notice(notice); }
+        complain(now);
+        return !doubled_;
+    }
+
+    void finish() { recorder_.finish(); }
+
+private:
+    void hear() {
+        frames_.clear();
+        states_.clear();
+        machine_.clear();
+        commands_.clear();
+        bus_.frames.take([&](Frame&& m) { frames_.push_back(std::move(m)); });
+        bus_.states.take([&](AxisState&& m) { states_.push_back(m); });
+        bus_.machine.take([&](MachineState&& m) { machine_.push_back(m); });
+        bus_.commands.take([&](AxisCommand&& m) { commands_.push_back(m); });
+        doubled_ = std::any_of(states_.begin(), states_.end(), [&](const AxisState& s) {
+            return s.axis == setup_.axis && s.identity < setup_.identity;  // who came first stays
+        });
+        if (!machine_.empty()) { machine_heard_ = clock_.now(); }
+    }
+
+    /// Once every few seconds: whom it waits for, what it was sent and did not believe, what its device says.
+    void complain(Tick now) {
+        const Ticks period{5'000'000'000 / setup_.machine.tick_ns};
+        if (now - complained_ < period) { return; }
+        complained_ = now;
+        if (now - machine_heard_ > period) { log_info("waits for the coordinator of machine " + setup_.machine.name); }
+        const std::uint64_t refused = bus_.frames.refusals().count + bus_.states.refusals().count;
+        if (refused != refused_) {
+            refused_ = refused;
+            log_warning(std::to_string(refused) + " messages refused so far: " + bus_.frames.refusals().last + " " +
+                        bus_.states.refusals().last);
+        }
+        if (!node_.trouble().empty()) { log_event(spdlog::level::err, FaultCode::DeviceFault, node_.trouble()); }
+    }
+
+    AxisNode::Setup setup_;
+    MachineClock clock_;
+    AxisNode node_;
+    AxisBus bus_;
+    std::unique_ptr<RecordSink> sink_;
+    AxisRecorder recorder_;
+    std::vector<Frame> frames_;
+    std::vector<AxisState> states_;
+    std::vector<MachineState> machine_;
+    std::vector<AxisCommand> commands_;
+    Tick complained_;
+    Tick machine_heard_;
+    std::uint64_t refused_ = 0;
+    bool doubled_ = false;
+};
+
+int fail(const std::string& why) {
+    log_error(why);
+    return kServiceFailed;
+}
+
+int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis) {
+    StopSignal stop;
+    if (options.priority > 0) { log_info(try_real_time(options.priority)); }
+    const MachineClock clock(machine.tick_ns);
+    const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine)};
+    auto device = open_device(options.fpga, machine.axes[axis], machine.tick_ns, clock.now());
+    if (!device) { return fail(device.error()); }
+    auto node = AxisNode::attach(setup, std::move(*device));
+    if (!node) { return fail(node.error()); }
+    auto bus = open_bus<AxisBus>(machine.network, machine.name);
+    if (!bus) { return fail(bus.error()); }
+    AxisService service(setup, std::move(*node), std::move(*bus), open_record(machine.network, options.record));
+    log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + options.fpga);
+
+    PeriodicLoop periodic(loop_period(machine));
+    bool alone = true;
+    periodic.run(stop, [&](nanoseconds) {
+        alone = alone && service.loop();
+        if (!alone) { stop.request(); }
+    });
+    service.finish();
+    log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
+             std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
+    return alone ? kServiceDone : fail("axis " + machine.axes[axis].name + " is already run by another process");
+}
+
+}  // namespace
+
+int serve_axis(const AxisServiceOptions& options) {
+    const auto machine = load_machine_file(options.machine_file);
+    if (!machine) {
+        std::cerr << to_text(options.machine_file.string(), machine.error());
+        return kServiceBadInput;
+    }
+    const auto named = std::find_if(machine->axes.begin(), machine->axes.end(),
+                                    [&](const AxisConfig& a) { return a.name == options.axis; });
+    if (named == machine->axes.end()) {
+        std::cerr << options.machine_file.string() << ": has no axis " << options.axis << "; it has:";
+        for (const AxisConfig& axis : machine->axes) { std::cerr << ' ' << axis.name; }
+        std::cerr << '\n';
+        return kServiceBadInput;
+    }
+    if (auto log = open_log({"axis", options.axis, options.log_file}); !log) {
+        std::cerr << log.error() << '\n';
+        return kServiceBadInput;
+    }
+    return run(options, *machine, static_cast<std::size_t>(named - machine->axes.begin()));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,27 @@
+// lockstep-axis: the command line.
+#include <CLI/CLI.hpp>
+
+#include "services/axis/axis_service.hpp"
+
+int main(int argc, char** argv) {
+    CLI::App app{"Runs one axis of a machine: takes frames from the coordinator, drives the axis's device, publishes its "
+                 "state and the record of its steps, until SIGTERM or SIGINT."};
+    lockstep::AxisServiceOptions options;
+    bool no_lcm = false;
+    app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
+    app.add_option("--axis", options.axis, "the axis's name in that file")->required();
+    app.add_option("--fpga", options.fpga, "the device: sim (in this process) or shm:NAME (of lockstep-fpga)")
+        ->capture_default_str();
+    app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
+    app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
+        ->check(CLI::Range(0, 99));
+    app.add_flag("--no-lcm", no_lcm, "do not publish the record");
+    app.footer(
+        "Example: lockstep-axis --machine machine.textproto --axis X\n"
+        "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : lockstep::kServiceBadInput; }
+    options.record = !no_lcm;
+    return lockstep::serve_axis(options);
+}

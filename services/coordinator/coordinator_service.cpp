@@ -1,0 +1,172 @@
+#include "services/coordinator/coordinator_service.hpp"
+
+#include <array>
+#include <iostream>
+#include <memory>
+
+#include "core/coordinator/coordinator.hpp"
+#include "services/coordinator/program_inbox.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/record/job_recorder.hpp"
+#include "services/record/sinks.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/log.hpp"
+#include "services/runtime/periodic.hpp"
+#include "services/runtime/stop_signal.hpp"
+#include "services/wire/bus.hpp"
+
+namespace lockstep {
+namespace {
+
+using std::chrono::nanoseconds;
+
+std::string_view phase_name(std::uint64_t phase) {
+    constexpr std::array<std::string_view, 8> kNames{"Waiting", "Idle",   "Homing",   "Running",
+                                                     "Holding", "Paused", "Stopping", "Fault"};
+    return phase < kNames.size() ? kNames[phase] : "unknown";
+}
+
+class CoordinatorService {
+public:
+    CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorBus bus,
+                       std::unique_ptr<RecordSink> sink)
+        : machine_(machine),
+          clock_(machine.tick_ns),
+          coordinator_(machine, identity, config_hash(machine)),
+          bus_(std::move(bus)),
+          sink_(std::move(sink)),
+          recorder_(machine, identity, *sink_) {}
+
+    /// False: an older coordinator runs this machine.
+    bool loop() {
+        hear();
+        const Tick now = clock_.now();
+        const CoordinatorOutputs out = coordinator_.step({now, states_, others_, commands_});
+        for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
+        if (out.state) { (void)bus_.machine.write(*out.state); }
+        for (const AxisCommand& command : out.axis_commands) { (void)bus_.axis_commands.write(command); }
+        for (const Reply& reply : out.replies) { (void)bus_.replies.write(reply); }
+        for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
+        for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
+        complain(now);
+        return !out.must_quit;
+    }
+
+private:
+    void hear() {
+        states_.clear();
+        others_.clear();
+        commands_.clear();
+        bus_.chunks.take([&](ProgramChunk&& chunk) {
+            ProgramInbox::Taken taken = inbox_.take(chunk);
+            if (taken.program) { coordinator_.accept_program(chunk.program, std::move(*taken.program)); }
+            (void)bus_.replies.write(taken.reply);
+        });
+        bus_.states.take([&](AxisState&& m) {
+            if (m.axis < machine_.axes.size()) { heard_ |= std::uint32_t{1} << m.axis; }
+            states_.push_back(m);
+        });
+        bus_.other_coordinators.take([&](MachineState&& m) { others_.push_back(m); });
+        bus_.commands.take([&](Command&& m) { commands_.push_back(m); });
+    }
+
+    std::string axis_name(std::uint64_t axis) const {
+        return axis < machine_.axes.size() ? machine_.axes[axis].name : std::to_string(axis);
+    }
+
+    void log_notice(const CoordinatorNotice& notice) const {
+        using Kind = CoordinatorNotice::Kind;
+        switch (notice.kind) {
+            case Kind::Phase: return log_info("machine is " + std::string(phase_name(notice.number)));
+            case Kind::AxisSeen: return log_info("axis " + axis_name(notice.number) + " is heard");
+            case Kind::AxisGone:
+                return log_event(spdlog::level::warn, notice.fault, "axis " + axis_name(notice.number) + " fell silent");
+            case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
+            case Kind::Interrupted:
+                return log_event(spdlog::level::warn, notice.fault,
+                                 "the axes came to rest together after frame " + std::to_string(notice.number) +
+                                     ", on the path; goes on from there");
+            case Kind::Fault: {
+                const FaultText* text = find_fault(notice.fault);
+                return log_event(spdlog::level::err, notice.fault,
+                                 "axis " + axis_name(notice.number) + ": " +
+                                     (text == nullptr ? "" : std::string(text->cause) + "; " + std::string(text->remedy)));
+            }
+        }
+    }
+
+    /// Once every few seconds: whom it waits for, and what it was sent and did not believe.
+    void complain(Tick now) {
+        const Ticks period{5'000'000'000 / machine_.tick_ns};
+        if (now - complained_ < period) { return; }
+        complained_ = now;
+        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+            if ((heard_ >> i & 1) == 0) { log_info("waits for axis " + machine_.axes[i].name); }
+        }
+        heard_ = 0;
+        const std::uint64_t refused = bus_.states.refusals().count + bus_.commands.refusals().count + bus_.chunks.refusals().count;
+        if (refused != refused_) {
+            refused_ = refused;
+            log_warning(std::to_string(refused) + " messages refused so far: " + bus_.states.refusals().last + " " +
+                        bus_.commands.refusals().last + " " + bus_.chunks.refusals().last);
+        }
+    }
+
+    MachineConfig machine_;
+    MachineClock clock_;
+    Coordinator coordinator_;
+    CoordinatorBus bus_;
+    std::unique_ptr<RecordSink> sink_;
+    JobRecorder recorder_;
+    ProgramInbox inbox_;
+    std::vector<AxisState> states_;
+    std::vector<MachineState> others_;
+    std::vector<Command> commands_;
+    Tick complained_;
+    std::uint32_t heard_ = 0;
+    std::uint64_t refused_ = 0;
+};
+
+int fail(const std::string& why) {
+    log_error(why);
+    return kServiceFailed;
+}
+
+int run(const ServiceOptions& options, const MachineConfig& machine) {
+    StopSignal stop;
+    if (options.priority > 0) { log_info(try_real_time(options.priority)); }
+    auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
+    if (!bus) { return fail(bus.error()); }
+    const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns).now().value);
+    CoordinatorService service(machine, identity, std::move(*bus), open_record(machine.network, options.record));
+    log_info("coordinator of machine " + machine.name + " is up");
+
+    PeriodicLoop periodic(loop_period(machine));
+    bool alone = true;
+    periodic.run(stop, [&](nanoseconds) {
+        alone = alone && service.loop();
+        if (!alone) { stop.request(); }
+    });
+    log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
+             std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
+    if (alone) { return kServiceDone; }
+    log_event(spdlog::level::err, FaultCode::SecondCoordinator, "another coordinator runs machine " + machine.name + "; stop one of them");
+    return kServiceFailed;
+}
+
+}  // namespace
+
+int serve_coordinator(const ServiceOptions& options) {
+    const auto machine = load_machine_file(options.machine_file);
+    if (!machine) {
+        std::cerr << to_text(options.machine_file.string(), machine.error());
+        return kServiceBadInput;
+    }
+    if (auto log = open_log({"coordinator", "", options.log_file}); !log) {
+        std::cerr << log.error() << '\n';
+        return kServiceBadInput;
+    }
+    return run(options, *machine);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,12 @@
+// lockstep-coordinator: the machine's planner as a process, between DDS and the record.
+#pragma once
+
+#include "services/runtime/service_options.hpp"
+
+namespace lockstep {
+
+/// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause
+/// on standard error.
+int serve_coordinator(const ServiceOptions& options);
+
+}  // namespace lockstep

@@ -1,0 +1,32 @@
+// What every service is told on its command line, and how it begins: the machine's file, read; the log, opened.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+inline constexpr int kServiceDone = 0;
+inline constexpr int kServiceFailed = 1;
+inline constexpr int kServiceBadInput = 2;
+
+struct ServiceOptions {
+    std::filesystem::path machine_file;
+    std::optional<std::filesystem::path> log_file;  // none: standard error
+    bool record = true;                             // publish the record over LCM
+    int priority = 0;                               // of SCHED_FIFO; 0: leave the scheduler as it is
+};
+
+/// How often a service looks at what came: several times a slot, so that sampling costs a message little of its hop.
+inline std::chrono::nanoseconds loop_period(const MachineConfig& machine) {
+    constexpr int kLoopsPerSlot = 4;
+    const std::chrono::nanoseconds period{machine.timing.slot_us * 1000 / kLoopsPerSlot};
+    return std::min<std::chrono::nanoseconds>(period, std::chrono::milliseconds{5});
+}
+
+}  // namespace lockstep
