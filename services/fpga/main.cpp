@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
     app.add_option("--axis", options.axis, "the axis's name in that file")->required();
     app.add_option("--name", options.name, "of the shared memory, under /dev/shm")->required();
     app.footer(
-        "Example: lockstep-fpga --machine machine.txtpb --axis X --name lockstep-x\n"
+        "Example: lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage");
     try {
         app.parse(argc, argv);

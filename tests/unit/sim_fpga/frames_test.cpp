@@ -249,10 +249,11 @@ TEST(Frames, ARunAskedForInMotionWaitsForRestAndDisarmsTheOneInProgress) {
     bench.order(device::Arm{2});
     bench.at(kStart + Ticks{10});
     bench.order(device::BeginRun{2});
+    bench.order(device::Arm{2});
     EXPECT_EQ(bench.at(kStart + Ticks{20}).run, 1u);
     const DeviceStatus after = bench.at(kEnd2);
     EXPECT_EQ(after.run, 2u);
-    EXPECT_EQ(after.position.count(), 11) << "frame 2 of run 1 was armed no more";
+    EXPECT_EQ(after.position.count(), 11) << "what is armed is run 2's, not frame 2 of run 1";
 }
 
 TEST(Frames, TheCountGoesOnFromRunToRun) {
