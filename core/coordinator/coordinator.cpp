@@ -350,6 +350,7 @@ void Coordinator::end_job(JobOutcome outcome, CoordinatorOutputs& out) {
     if (!job_) { return; }
     out.jobs.push_back({.kind = JobEvent::Kind::Ended, .job = job_->number, .job_kind = job_->kind, .outcome = outcome});
     job_.reset();
+    outcome_ = outcome;
     enter(MachinePhase::Idle, out);
 }
 
@@ -384,6 +385,7 @@ MachineState Coordinator::state() const {
     MachineState s{.coordinator = identity_, .stamp = now_slot_, .tick = now_, .phase = phase_,
                    .fault = static_cast<std::uint16_t>(fault_), .fault_axis = static_cast<std::uint32_t>(fault_axis_),
                    .epoch = runner_.epoch(), .sent = runner_.sent(), .veto = runner_.veto(), .job = jobs_,
+                   .outcome = job_ ? std::nullopt : outcome_,
                    .config_hash = config_hash_};
     for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }
     if (moving_ && job_) {

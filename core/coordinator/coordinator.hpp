@@ -19,7 +19,6 @@
 namespace lockstep {
 
 enum class JobKind : std::uint8_t { Home, Move, Run };
-enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
 /// What the record says of a job: enough to do it again.
 struct JobEvent {
@@ -144,6 +143,7 @@ private:
     Intent intent_ = Intent::GoOn;
     bool moving_ = false;  // an epoch is in progress
     std::optional<Job> job_;
+    std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t jobs_ = 0;
     Epoch epochs_ = 0;
     std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;

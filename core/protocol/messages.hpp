@@ -85,6 +85,8 @@ struct AxisCommand {
 
 enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding, Paused, Stopping, Fault };
 
+enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
+
 /// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
 struct MachineState {
     Identity coordinator = 0;
@@ -97,6 +99,7 @@ struct MachineState {
     FrameNumber sent = 0;                // the highest frame sent
     std::optional<FrameNumber> veto;     // the coordinator's own, of this epoch
     std::uint64_t job = 0;               // counts the jobs done or begun since start
+    std::optional<JobOutcome> outcome;   // of that job; nothing while it is in progress
     std::int32_t line = 0;               // of the G-code now in motion
     double progress = 0;                 // 0 ... 1 of the job's planned time
     double remaining_s = 0;

@@ -4,6 +4,7 @@
 namespace lockstep {
 
 static_assert(lockstep_wire_MACHINE_FAULT == static_cast<int>(MachinePhase::Fault));
+static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
 
 lockstep_wire_MachineState to_wire(const MachineState& state) {
     return {.coordinator = state.coordinator,
@@ -17,6 +18,8 @@ lockstep_wire_MachineState to_wire(const MachineState& state) {
             .has_veto = state.veto.has_value(),
             .veto = state.veto.value_or(0),
             .job = state.job,
+            .has_outcome = state.outcome.has_value(),
+            .outcome = static_cast<lockstep_wire_JobOutcome>(state.outcome.value_or(JobOutcome::Done)),
             .line = state.line,
             .progress = state.progress,
             .remaining_s = state.remaining_s,
@@ -32,6 +35,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.within("progress", wire.progress, 0.0, 1.0);
     check.finite("remaining_s", wire.remaining_s);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Fault);
+    const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
     if (!check.passed()) {
         return std::unexpected(check.refusal());
     }
@@ -45,6 +49,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
                         .sent = wire.sent,
                         .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
                         .job = wire.job,
+                        .outcome = wire.has_outcome ? std::optional(outcome) : std::nullopt,
                         .line = wire.line,
                         .progress = wire.progress,
                         .remaining_s = wire.remaining_s,

@@ -120,6 +120,7 @@ TEST(HostileMachineState, IsRefused) {
         expect_refused(wire, field);
     };
     refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_MachinePhase>(8); });
+    refused("outcome", [](auto& w) { w.outcome = enumerator<lockstep_wire_JobOutcome>(3); });
     refused("fault_axis", [](auto& w) { w.fault_axis = 32; });
     refused("progress", [](auto& w) { w.progress = 1.01; });
     refused("progress", [](auto& w) { w.progress = std::nan(""); });

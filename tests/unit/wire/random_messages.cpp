@@ -58,6 +58,7 @@ MachineState RandomMessages::machine_state() {
             .sent = bits(),
             .veto = veto(),
             .job = bits(),
+            .outcome = index(2) == 0 ? std::nullopt : std::optional(static_cast<JobOutcome>(index(3))),
             .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
