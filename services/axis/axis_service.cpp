@@ -99,7 +99,7 @@ private:
     std::vector<AxisState> states_;
     std::vector<MachineState> machine_;
     std::vector<AxisCommand> commands_;
-    Tick complained_;
+    Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
     bool doubled_ = false;

@@ -122,7 +122,7 @@ private:
     std::vector<AxisState> states_;
     std::vector<MachineState> others_;
     std::vector<Command> commands_;
-    Tick complained_;
+    Tick complained_ = clock_.now();
     std::uint32_t heard_ = 0;
     std::uint64_t refused_ = 0;
 };

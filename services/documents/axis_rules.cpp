@@ -122,6 +122,7 @@ private:
     }
 
     void check_homing_speeds() {
+        problems_.require_range("homing.sequence", axis_.homing.sequence, 0, 99);
         const double search = axis_.homing.search_velocity_mm_s;
         const double latch = axis_.homing.latch_velocity_mm_s;
         problems_.require_between({"homing.search_velocity_mm_s", "start_velocity_mm_s"},

@@ -56,6 +56,7 @@ double nearest_in_travel(const AxisConfig& axis, double mm) {
 HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
     const double travel = axis.position_max_mm - axis.position_min_mm;
     HomingConfig homing;
+    homing.sequence = message.sequence();
     homing.toward_min = message.has_toward_min() ? message.toward_min() : homing.toward_min;
     homing.search_velocity_mm_s =
         message.has_search_velocity_mm_s() ? message.search_velocity_mm_s() : axis.start_velocity_mm_s;

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-constexpr int kMaxStallSlots = 1000;
+constexpr int kMaxStallSlots = 200;  // an axis remembers its peers for 512 slots (core/protocol/peer_evidence.hpp)
 constexpr int kMaxSlots = 10'000;
 constexpr std::uint32_t kMaxDomain = 232;  // the last whose ports are below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
@@ -21,7 +21,7 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
                              "timing.slot_us is " + std::to_string(t.slot_us) + ", not a whole number of ticks of " +
                                  std::to_string(machine.tick_ns) + " ns; choose another slot or tick_ns");
     problems.require_range("timing.stall_slots", t.stall_slots, 1, kMaxStallSlots);
-    problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxSlots);
+    problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxStallSlots + 50);
     problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 1, kMaxSlots);
     problems.require_range("timing.frame_slots", t.frame_slots, 1, kMaxSlots);
 }

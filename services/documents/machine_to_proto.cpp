@@ -18,6 +18,7 @@ void write_network(const NetworkConfig& network, proto::Network& message) {
 }
 
 void write_homing(const HomingConfig& homing, proto::Homing& message) {
+    message.set_sequence(homing.sequence);
     message.set_toward_min(homing.toward_min);
     message.set_search_velocity_mm_s(homing.search_velocity_mm_s);
     message.set_latch_velocity_mm_s(homing.latch_velocity_mm_s);
