@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <expected>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,8 +21,12 @@ public:
     /// ends contradict each other.
     static std::expected<DeviceDriver, std::string> attach(RegisterWindow window, std::int64_t tick_ns);
 
-    /// One consistent look. Error where the device stopped in the middle of an update, or its words make no sense.
-    std::expected<DeviceStatus, std::string> read() const;
+    /// One consistent look, never a wait: while the device is held up in the middle of an update it is the look before,
+    /// as if the device had not come that far. Error where that goes on for kMaxStaleReads reads, where there is no
+    /// look before, or where the words make no sense. A device that stopped between updates shows by `now` standing
+    /// still.
+    std::expected<DeviceStatus, std::string> read();
+    static constexpr int kMaxStaleReads = 1000;
 
     /// Error, and nothing has changed: a frame that does not fit the ring or has no body, or that comes before any run;
     /// a run whose number is not new.
@@ -41,10 +46,13 @@ private:
     Result apply_one(const device::Arm& order);
     Result apply_one(const device::Veto& order);
     Result apply_one(const device::StopNow& order);
+    std::expected<DeviceStatus, std::string> stale_look();
     DeviceStatus read_words() const;
     std::int64_t signed_word(std::size_t offset) const { return static_cast<std::int64_t>(window_.load(offset)); }
 
     RegisterWindow window_;
+    std::optional<DeviceStatus> last_look_;
+    int stale_reads_ = 0;
 };
 
 }  // namespace lockstep

@@ -52,9 +52,20 @@ TEST(Driver, AWildRingEndIsAnErrorNotACrash) {
     EXPECT_NE(attach_error(bench.window).find("segment ring"), std::string::npos);
 }
 
+TEST(Driver, ADeviceHeldUpInAnUpdateIsSeenAsItWasBefore) {
+    DeviceBench bench;
+    bench.at(Tick{5});
+    bench.window.store(registers::kSequence, 7);
+    bench.window.store(registers::kTick, 6);
+    EXPECT_EQ(bench.driver.read()->now, Tick{5});
+    EXPECT_EQ(bench.at(Tick{8}).now, Tick{8}) << "and as it is once it goes on";
+}
+
 TEST(Driver, ADeviceThatDiedInAnUpdateIsAnErrorNotAWaitForEver) {
     DeviceBench bench;
+    bench.at(Tick{5});
     bench.window.store(registers::kSequence, 7);
+    for (int read = 0; read < DeviceDriver::kMaxStaleReads; ++read) { ASSERT_TRUE(bench.driver.read()); }
     const auto status = bench.driver.read();
     ASSERT_FALSE(status);
     EXPECT_NE(status.error().find("in the middle of an update"), std::string::npos) << status.error();
