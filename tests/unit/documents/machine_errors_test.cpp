@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Machine, MachineRefused, testing::Values(
     Refusal{machine_with("tick_ns: 99"), 11, 1, "100 to 1000000"},
     Refusal{machine_with("timing { slot_us: 10001 }\ntick_ns: 3000"), 11, 10, "whole number of ticks"},
     Refusal{machine_with("timing { slot_us: 499 }"), 11, 10, "500 to 1000000"},
-    Refusal{machine_with("timing { stall_slots: 0 }"), 11, 10, "1 to 1000"},
+    Refusal{machine_with("timing { stall_slots: 0 }"), 11, 10, "1 to 200"},
     Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
     Refusal{machine_with("timing { send_ahead_slots: 29 }"), 11, 10, "at least 30"},
     Refusal{machine_with("timing { frame_slots: 22 }"), 11, 10, "at least 23"},
