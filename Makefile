@@ -1,0 +1,24 @@
+# make demo | make test | make build: each does what it needs before, and can be run again.
+BUILD ?= build
+JOBS  ?= $(shell nproc)
+
+.PHONY: build test demo bench clean
+
+build:
+	@deploy/install-dependencies
+	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >$(BUILD).configure.log 2>&1 || \
+	  { cat $(BUILD).configure.log; rm -f $(BUILD).configure.log; exit 1; }
+	@rm -f $(BUILD).configure.log
+	@cmake --build $(BUILD) -j $(JOBS)
+
+test: build
+	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+demo: build
+	@deploy/demo $(BUILD)
+
+bench: build
+	@$(BUILD)/bin/lockstep-bench
+
+clean:
+	@rm -rf $(BUILD) out
