@@ -13,6 +13,12 @@
 
 namespace lockstep {
 
+/// What was done of a stretch: how many of its ticks, and whether to go on.
+struct Walked {
+    std::int64_t ticks = 0;
+    bool going = true;
+};
+
 /// One axis in motion, piece after piece. At rest, with no piece, its velocity is 0.
 class StepEngine {
 public:
@@ -29,6 +35,11 @@ public:
     /// after that tick. It must not touch the engine. Returns the tick reached.
     template <typename OnStep>
     Tick run(Tick until, OnStep&& on_step);
+
+    /// The same, stretch by stretch, for those who find the steps of a stretch their own way: calls
+    /// walk(Stretch, Tick of its start) for each in order, which returns what it has done of it. See walk.hpp.
+    template <typename Walk>
+    Tick run_stretches(Tick until, std::uint64_t crossover, Walk&& walk_stretch);
 
     /// To a later instant, at rest, position unchanged.
     void wait(Tick until);
@@ -54,26 +65,34 @@ private:
     Acceleration acceleration_;
 };
 
+template <typename Walk>
+Tick StepEngine::run_stretches(Tick until, std::uint64_t crossover, Walk&& walk_stretch) {
+    Walked walked;
+    while (walked.going && now_ < until && !idle()) {
+        const Ticks ticks = (until < end_ ? until : end_) - now_;
+        const Stretch stretch = next_stretch(position_, velocity_, acceleration_, ticks, crossover);
+        walked = walk_stretch(stretch, now_);
+        advance(stretch, walked.ticks);
+    }
+    return now_;
+}
+
 template <typename OnStep>
 Tick StepEngine::run(Tick until, OnStep&& on_step) {
-    bool going = true;
-    while (going && now_ < until && !idle()) {
-        const Ticks ticks = (until < end_ ? until : end_) - now_;
-        const Stretch stretch = next_stretch(position_, velocity_, acceleration_, ticks, kCrossover);
+    return run_stretches(until, kCrossover, [&](const Stretch& stretch, Tick start) {
         const auto direction = static_cast<std::int8_t>(stretch.backward ? -1 : 1);
-        const std::int64_t done = walk(stretch, [&, start = now_](std::int64_t n) {
+        bool going = true;
+        const std::int64_t ticks = walk(stretch, [&](std::int64_t n) {
             const StepEdge edge{start + Ticks{n}, direction};
             if constexpr (std::is_void_v<decltype(on_step(edge))>) {
                 on_step(edge);
-                return true;
             } else {
                 going = on_step(edge);
-                return going;
             }
+            return going;
         });
-        advance(stretch, done);
-    }
-    return now_;
+        return Walked{ticks, going};
+    });
 }
 
 /// Calls on_step(StepEdge) for every step of an executable segment, in order.

@@ -6,24 +6,24 @@
 namespace lockstep {
 
 StepSeed::StepSeed(const Stretch& stretch)
-    : gap_((static_cast<double>(~stretch.phase) + 1.0) * 0x1p-64),
-      a_(static_cast<double>(stretch.acceleration) * 0x1p-64),
-      w_(static_cast<double>(stretch.speed) * 0x1p-64 - 0.5 * a_),
-      last_(static_cast<double>(stretch.ticks - 1)) {}
+    : gap((static_cast<double>(~stretch.phase) + 1.0) * 0x1p-64),
+      a(static_cast<double>(stretch.acceleration) * 0x1p-64),
+      w(static_cast<double>(stretch.speed) * 0x1p-64 - 0.5 * a),
+      last(static_cast<double>(stretch.ticks - 1)) {}
 
 SeedBatch StepSeed::batch(std::int64_t k) const {
     constexpr int kSize = static_cast<int>(kSeedBatch);
-    const double first = gap_ + static_cast<double>(k - 1);
+    const double first = gap + static_cast<double>(k - 1);
     double g[kSize];
     double s[kSize];
     for (int i = 0; i < kSize; ++i) { g[i] = first + static_cast<double>(i); }
-    for (int i = 0; i < kSize; ++i) { s[i] = std::sqrt(std::max(w_ * w_ + 2.0 * a_ * g[i], 0.0)); }
+    for (int i = 0; i < kSize; ++i) { s[i] = std::sqrt(std::max(w * w + 2.0 * a * g[i], 0.0)); }
     // Of the two ways to write the root, the one that does not subtract what is nearly equal.
     double x[kSize];
-    if (w_ >= 0.0) {
-        for (int i = 0; i < kSize; ++i) { x[i] = std::min(2.0 * g[i] / (w_ + s[i]), last_); }
+    if (w >= 0.0) {
+        for (int i = 0; i < kSize; ++i) { x[i] = std::min(2.0 * g[i] / (w + s[i]), last); }
     } else {
-        for (int i = 0; i < kSize; ++i) { x[i] = std::min((s[i] - w_) / a_, last_); }
+        for (int i = 0; i < kSize; ++i) { x[i] = std::min((s[i] - w) / a, last); }
     }
     SeedBatch ticks;
     for (std::size_t i = 0; i < ticks.size(); ++i) { ticks[i] = 1 + static_cast<std::int64_t>(x[i]); }

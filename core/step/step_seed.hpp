@@ -13,20 +13,19 @@ namespace lockstep {
 inline constexpr std::int64_t kSeedBatch = 4;
 using SeedBatch = std::array<std::int64_t, static_cast<std::size_t>(kSeedBatch)>;
 
-/// Seeds for the ticks of steps; see walk_roots.hpp for the formula and what makes a tick of a seed.
-class StepSeed {
-public:
+/// The quadratic of a stretch in steps and ticks, and its roots; walk_roots.hpp has the formula and makes ticks of
+/// them.
+struct StepSeed {
+    double gap = 0;   // from the start to the first step
+    double a = 0;     // steps per tick^2
+    double w = 0;     // steps per tick
+    double last = 0;  // ticks - 1, the bound of a root rounded down
+
     explicit StepSeed(const Stretch& stretch);
 
     /// The ticks of steps k, k+1, ..., k + kSeedBatch - 1, nearly. k >= 1. All in 1 ... ticks, also past the last step.
     SeedBatch batch(std::int64_t k) const;
     std::int64_t operator()(std::int64_t k) const { return batch(k).front(); }
-
-private:
-    double gap_;   // from the start to the first step, in steps
-    double a_;     // steps per tick^2
-    double w_;     // steps per tick
-    double last_;  // ticks - 1
 };
 
 }  // namespace lockstep
