@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <regex>
 
 namespace lockstep {
 namespace {
@@ -17,9 +16,10 @@ TEST(Log, ALineSaysWhenWhoWhatAndWhichCode) {
     std::ifstream file(path);
     std::string line;
     std::getline(file, line);
-    EXPECT_TRUE(std::regex_match(
-        line, std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z warning axis X limit-hit at 100 % of \{travel\})")))
-        << line;
+    ASSERT_GT(line.size(), 24u);
+    EXPECT_EQ(line[10], 'T') << line;  // 2025-01-31T12:00:00.123Z
+    EXPECT_EQ(line[23], 'Z') << line;
+    EXPECT_EQ(line.substr(24), " warning axis X limit-hit at 100 % of {travel}");
     std::filesystem::remove(path);
     ASSERT_TRUE(open_log({.service = "test", .axis = ""}));
 }

@@ -1,8 +1,8 @@
 // A sample that lies is refused, with the field that lies.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -12,10 +12,11 @@
 namespace lockstep {
 namespace {
 
-/// An enumerator that does not exist, as a hostile sender may write it.
+/// Makes an enumeration hold a number that is none of its own, as a hostile sender may.
 template <typename Enum>
-Enum enumerator(std::uint32_t number) {
-    return std::bit_cast<Enum>(number);
+void overwrite(Enum& field, std::uint32_t number) {
+    static_assert(sizeof field == sizeof number);
+    std::memcpy(&field, &number, sizeof number);
 }
 
 template <typename Wire>
@@ -104,8 +105,8 @@ TEST(HostileAxisState, IsRefused) {
         expect_refused(wire, field);
     };
     refused("axis", [](auto& w) { w.axis = kMaxAxes; });
-    refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_AxisPhase>(7); });
-    refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_AxisPhase>(0xFFFFFFFF); });
+    refused("phase", [](auto& w) { overwrite(w.phase, 7); });
+    refused("phase", [](auto& w) { overwrite(w.phase, 0xFFFFFFFF); });
     refused("stamp", [](auto& w) { w.stamp = INT64_MIN; });
     refused("tick", [](auto& w) { w.tick = INT64_MAX; });
     refused("position_count", [](auto& w) { w.position_count = INT64_MIN; });
@@ -119,8 +120,8 @@ TEST(HostileMachineState, IsRefused) {
         lie(wire);
         expect_refused(wire, field);
     };
-    refused("phase", [](auto& w) { w.phase = enumerator<lockstep_wire_MachinePhase>(8); });
-    refused("outcome", [](auto& w) { w.outcome = enumerator<lockstep_wire_JobOutcome>(3); });
+    refused("phase", [](auto& w) { overwrite(w.phase, 8); });
+    refused("outcome", [](auto& w) { overwrite(w.outcome, 3); });
     refused("fault_axis", [](auto& w) { w.fault_axis = 32; });
     refused("progress", [](auto& w) { w.progress = 1.01; });
     refused("progress", [](auto& w) { w.progress = std::nan(""); });
@@ -130,13 +131,13 @@ TEST(HostileMachineState, IsRefused) {
 
 TEST(HostileCommands, AreRefused) {
     auto axis_command = to_wire(AxisCommand{});
-    axis_command.kind = enumerator<lockstep_wire_AxisCommandKind>(3);
+    overwrite(axis_command.kind, 3);
     expect_refused(axis_command, "kind");
     axis_command = to_wire(AxisCommand{});
     axis_command.axis = 32;
     expect_refused(axis_command, "axis");
     auto command = to_wire(Command{});
-    command.kind = enumerator<lockstep_wire_CommandKind>(8);
+    overwrite(command.kind, 8);
     expect_refused(command, "kind");
 }
 
@@ -158,7 +159,7 @@ TEST(HostileChunk, IsRefused) {
 
 TEST(HostileReply, IsRefused) {
     auto wire = to_wire(Reply{});
-    wire.status = enumerator<lockstep_wire_ReplyStatus>(2);
+    overwrite(wire.status, 2);
     expect_refused(wire, "status");
     wire = to_wire(Reply{});
     std::fill(std::begin(wire.text), std::end(wire.text), 'x');  // no end
