@@ -6,9 +6,9 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -43,7 +43,9 @@ public:
     /// Core's enumerator for a value on the wire, which has core's order: 0 ... last.
     template <typename Enum, typename WireEnum>
     Enum choice(const char* field, const WireEnum& value, Enum last) {
-        const auto number = std::bit_cast<std::uint32_t>(value);
+        static_assert(sizeof value == sizeof(std::uint32_t));
+        std::uint32_t number = 0;
+        std::memcpy(&number, &value, sizeof number);  // reading it as an enumeration would be undefined
         within(field, number, std::uint32_t{0}, static_cast<std::uint32_t>(last));
         return static_cast<Enum>(std::min(number, static_cast<std::uint32_t>(last)));
     }
