@@ -1,0 +1,197 @@
+// One axis of two, by hand: what it holds, arms, vetoes and refuses.
+#include "core/axis/setpoint_follower.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kSlot = 1000;  // ticks
+constexpr Slot kStart = 100;
+constexpr Epoch kEpoch = 7;
+
+MachineConfig machine() {
+    MachineConfig m{.name = "pair", .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2,
+                                               .send_ahead_slots = 12, .frame_slots = 5}};
+    const AxisConfig axis{.name = "X", .steps_per_mm = 100, .start_velocity_mm_s = 10, .max_velocity_mm_s = 100,
+                          .max_accel_mm_s2 = 1000, .max_decel_mm_s2 = 1000, .position_min_mm = -100, .position_max_mm = 100};
+    m.axes = {axis, axis};
+    m.axes[1].name = "Y";
+    return m;
+}
+
+constexpr Velocity kSlow{static_cast<std::int64_t>(0x1p64 * 500e-6)};    // 500 steps/s, below the start velocity
+constexpr Velocity kTooFast{static_cast<std::int64_t>(0x1p64 * 2e-2)};   // 20,000 steps/s, above the limit
+
+/// Frame k at constant speed from `from`, ending its axis's motion by stopping dead, as the start velocity allows.
+Frame frame(FrameNumber k, Position from, Velocity v = kSlow, bool last = false) {
+    Frame f{.coordinator = 1, .epoch = kEpoch, .number = k, .start = {(kStart + 5 * static_cast<Slot>(k - 1)) * kSlot},
+            .ticks = {5 * kSlot}, .last = last};
+    f.axes.resize(2);
+    for (AxisTrack& track : f.axes) {
+        track.from = from;
+        (void)track.body.push_back({f.ticks, v, {0}});
+    }
+    return f;
+}
+
+AxisState peer(Slot stamp, FrameNumber held, std::optional<FrameNumber> veto = std::nullopt) {
+    return {.identity = 2, .axis = 1, .stamp = stamp, .epoch = kEpoch, .held = held, .veto = veto};
+}
+
+const Position kHome = Position::steps(0);
+
+class Follower : public testing::Test {
+protected:
+    SetpointFollower follower{0, machine()};
+
+    bool armed_at(Slot now, FrameNumber k) {
+        for (const DeviceOrder& order : follower.decide(now)) {
+            const auto* arm = std::get_if<device::Arm>(&order);
+            if (arm != nullptr && arm->number == k) { return true; }
+        }
+        return false;
+    }
+};
+
+TEST_F(Follower, ArmsWhatEveryoneHolds) {
+    EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
+    EXPECT_EQ(follower.held(), 1u);
+    follower.hear(peer(94, 1));
+    EXPECT_FALSE(armed_at(94, 1)) << "before the check instant";
+    EXPECT_TRUE(armed_at(95, 1));
+    EXPECT_FALSE(follower.veto().has_value());
+}
+
+TEST_F(Follower, ALateCheckDecidesAsAPunctualOne) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(94, 1));
+    EXPECT_TRUE(armed_at(96, 1));
+}
+
+TEST_F(Follower, VetoesWhatAPeerHasNotSaidItHolds) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(94, 0));
+    EXPECT_FALSE(armed_at(95, 1));
+    EXPECT_EQ(follower.veto(), 1u);
+}
+
+TEST_F(Follower, StaleOrPrematureEvidenceIsNone) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(91, 1));
+    follower.hear(peer(95, 1));
+    EXPECT_FALSE(armed_at(95, 1));
+    EXPECT_EQ(follower.veto(), 1u);
+}
+
+TEST_F(Follower, EvidenceOfAnotherEpochIsNone) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    AxisState other = peer(94, 1);
+    other.epoch = kEpoch - 1;
+    follower.hear(other);
+    EXPECT_FALSE(armed_at(95, 1));
+}
+
+TEST_F(Follower, TooLateMeansTheNextFrameIsVetoed) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(94, 1));
+    const auto orders = follower.decide(97);
+    EXPECT_EQ(follower.veto(), 2u) << "the others may run frame 1";
+    ASSERT_EQ(orders.size(), 1u);
+    EXPECT_EQ(std::get<device::Veto>(orders[0]).number, 1u) << "but its own device does not";
+}
+
+TEST_F(Follower, APeersVetoReachesTheDeviceAndIsRepeated) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(94, 1));
+    EXPECT_TRUE(armed_at(95, 1));
+    follower.hear(peer(96, 1, 1));
+    const auto orders = follower.decide(97);
+    ASSERT_EQ(orders.size(), 1u);
+    EXPECT_EQ(std::get<device::Veto>(orders[0]).number, 1u);
+    EXPECT_EQ(follower.veto(), 1u);
+}
+
+TEST_F(Follower, AFrameThatDoesNotComeIsVetoedAtItsCheck) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(94, 1));
+    EXPECT_TRUE(armed_at(95, 1));
+    follower.hear(peer(99, 1));
+    (void)follower.decide(100);  // Y(2)
+    EXPECT_EQ(follower.veto(), 2u);
+}
+
+TEST_F(Follower, NothingIsExpectedAfterTheLastFrame) {
+    (void)follower.offer(frame(1, kHome, kSlow, true), kHome);
+    follower.hear(peer(94, 1));
+    EXPECT_TRUE(armed_at(95, 1));
+    (void)follower.decide(120);
+    EXPECT_FALSE(follower.veto().has_value());
+}
+
+TEST_F(Follower, RefusesAFrameThatDoesNotStartWhereTheTrajectoryIs) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    const Position end = kHome + Piece{{5 * kSlot}, kSlow, {0}}.covered();
+    const Position off{end.raw + 1};
+    EXPECT_EQ(follower.offer(frame(2, off), std::nullopt), FaultCode::FrameDiscontinuous) << "by 2^-64 of a step";
+    EXPECT_EQ(follower.offer(frame(2, end), std::nullopt), FaultCode::None);
+    EXPECT_EQ(follower.held(), 2u);
+}
+
+TEST_F(Follower, RefusesAFirstFrameFromElsewhere) {
+    EXPECT_EQ(follower.offer(frame(1, Position::steps(3)), kHome), FaultCode::FrameDiscontinuous);
+    EXPECT_EQ(follower.held(), 0u);
+}
+
+TEST_F(Follower, TakesAFirstFrameFromTheWholeStepOrTheVeryFraction) {
+    const Position fraction{Position::steps(5).raw + 12345};
+    EXPECT_EQ(follower.offer(frame(1, Position::steps(5)), fraction), FaultCode::None);
+    SetpointFollower exact{0, machine()};
+    EXPECT_EQ(exact.offer(frame(1, fraction), fraction), FaultCode::None);
+    SetpointFollower mirrored{0, machine()};
+    EXPECT_EQ(mirrored.offer(frame(1, rest_position(5, true)), fraction), FaultCode::None);
+}
+
+TEST_F(Follower, RefusesWhatBreaksItsOwnLimits) {
+    EXPECT_EQ(follower.offer(frame(1, kHome, kTooFast), kHome), FaultCode::FrameBeyondLimits);
+    Frame far = frame(1, Position::steps(9'999));
+    EXPECT_EQ(SetpointFollower(0, machine()).offer(far, Position::steps(9'999)), FaultCode::FrameOutsideTravel);
+    Frame steep = frame(1, kHome);
+    steep.axes[0].body[0].acceleration.raw = static_cast<std::int64_t>(0x1p64 * 2e-7);  // 200,000 steps/s^2
+    EXPECT_EQ(SetpointFollower(0, machine()).offer(steep, kHome), FaultCode::FrameBeyondLimits);
+}
+
+TEST_F(Follower, RefusesATailThatDoesNotComeToRest) {
+    Frame f = frame(1, kHome);
+    const Velocity fast{static_cast<std::int64_t>(0x1p64 * 5e-3)};  // 5,000 steps/s: legal, but not to stop from
+    const Acceleration up{static_cast<std::int64_t>(0x1p64 * 0.99e-7)};
+    f.axes[0].body.clear();
+    (void)f.axes[0].body.push_back({{5 * kSlot}, kSlow, up});
+    EXPECT_EQ(follower.offer(f, kHome), FaultCode::None) << "500 steps/s more is within the start velocity";
+    Frame g = frame(2, kHome + f.axes[0].body[0].covered());
+    g.axes[0].body.clear();
+    (void)g.axes[0].body.push_back({{5 * kSlot}, {f.axes[0].body[0].velocity.raw + 5 * kSlot * up.raw}, up});
+    EXPECT_EQ(follower.offer(g, std::nullopt), FaultCode::FrameBeyondLimits) << fast.raw;
+}
+
+TEST_F(Follower, FramesAgainOrOutOfOrderChangeNothing) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    const Position end = kHome + Piece{{5 * kSlot}, kSlow, {0}}.covered();
+    EXPECT_EQ(follower.offer(frame(3, end), std::nullopt), FaultCode::None);
+    EXPECT_EQ(follower.offer(frame(1, kHome), std::nullopt), FaultCode::None);
+    EXPECT_EQ(follower.held(), 1u);
+}
+
+TEST_F(Follower, ANewEpochBeginsOnlyFromRest) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    Frame next = frame(1, kHome);
+    next.epoch = kEpoch + 1;
+    EXPECT_EQ(follower.offer(next, std::nullopt), FaultCode::None);
+    EXPECT_EQ(follower.epoch(), kEpoch);
+    follower.close();
+    EXPECT_EQ(follower.offer(next, kHome), FaultCode::None);
+    EXPECT_EQ(follower.epoch(), kEpoch + 1);
+}
+
+}  // namespace
+}  // namespace lockstep
