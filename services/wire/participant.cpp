@@ -21,7 +21,6 @@ constexpr const char* kTuning =
     "<Internal><HeartbeatInterval min=\"1 ms\" minsched=\"1 ms\" max=\"20 ms\">2 ms</HeartbeatInterval>"
     "<NackDelay>0 ms</NackDelay><AckDelay>1 ms</AckDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>"
     "<AutoReschedNackDelay>2 ms</AutoReschedNackDelay>"
-    "<Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>16 MB</WhcHigh><WhcHighInit>16 MB</WhcHighInit></Watermarks>"
     "</Internal>";
 
 bool is_interface_name(const std::string& name) {

@@ -4,7 +4,8 @@
 // not move a machine, and states and setpoints come again each slot.
 //
 // Setpoints are reliable: a frame is awaited. They are kept 64 deep and never "all": a reader that stops taking must
-// not stop the writer, and 64 outlast a stall, after which the coordinator repeats what is not held.
+// not stop the writer (Cyclone DDS never makes a keep-last writer wait), and 64 outlast a stall, after which the
+// coordinator repeats what is not held.
 //
 // States are best effort: each one contains all that the one before said and comes every slot, so a copy sent again
 // would only be late, and acknowledgements between all pairs of axes cost more than they give. They too are kept 64
