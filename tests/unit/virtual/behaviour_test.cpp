@@ -1,0 +1,232 @@
+// What the machine does when asked, and when things go wrong: each a small story.
+#include <cmath>
+
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+FaultCode why(const Reply& reply) { return static_cast<FaultCode>(reply.fault); }
+
+TEST_F(Rig, NothingRunsBeforeHoming) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    const Reply reply = run(program_of({{10, 10}}, 20, {0, 0}));
+    EXPECT_EQ(reply.status, ReplyStatus::Refused);
+    EXPECT_EQ(why(reply), FaultCode::NotHomed);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Idle);
+}
+
+TEST_F(Rig, ATargetOutsideTravelIsRefusedBeforeAnythingMoves) {
+    home();
+    const auto before = counts();
+    const Reply reply = run(program_of({{20, 20}, {20, 120}}, 20));
+    EXPECT_EQ(why(reply), FaultCode::OutsideTravel);
+    EXPECT_NE(reply.text.find("Y 120 mm"), std::string::npos) << reply.text;
+    wait(0.5);
+    EXPECT_EQ(counts(), before);
+}
+
+TEST_F(Rig, AProgramMadeForAnotherStartIsRefused) {
+    home();
+    EXPECT_EQ(why(run(program_of({{10, 10}}, 20, {4, 5}))), FaultCode::StartMismatch);
+}
+
+TEST_F(Rig, AProgramThatNeverArrivedIsRefused) {
+    home();
+    EXPECT_EQ(why(ask(CommandKind::Run, 0, 999)), FaultCode::UnknownProgram);
+}
+
+TEST_F(Rig, OneThingAtATime) {
+    home();
+    ASSERT_EQ(run(program_of({{90, 90}}, 50)).status, ReplyStatus::Accepted);
+    EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::Busy);
+    EXPECT_EQ(why(run(program_of({{90, 90}}, 50))), FaultCode::Busy);
+    EXPECT_EQ(why(ask(CommandKind::Reset)), FaultCode::Busy);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10));
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{9000, 9000}));
+}
+
+TEST_F(Rig, NothingToHoldResumeOrStopIsSaid) {
+    home();
+    EXPECT_EQ(why(ask(CommandKind::Hold)), FaultCode::NothingToDo);
+    EXPECT_EQ(why(ask(CommandKind::Resume)), FaultCode::NothingToDo);
+    EXPECT_EQ(why(ask(CommandKind::Stop)), FaultCode::NothingToDo);
+}
+
+TEST_F(Rig, AStopIsOnThePathAndTheMachineIsReadyAgain) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    EXPECT_EQ(ask(CommandKind::Stop).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
+    const auto at = counts();
+    EXPECT_GT(at[0], 500);
+    EXPECT_LT(at[0], 8500);
+    EXPECT_NEAR(static_cast<double>(at[1] - 500), static_cast<double>(at[0] - 500) / 2, 1.0);
+    ASSERT_EQ(run(program_of({{5, 5}}, 40, {static_cast<double>(at[0]) / 100, static_cast<double>(at[1]) / 100})).status,
+              ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10));
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
+}
+
+TEST_F(Rig, AHoldBeginsSoonAndAResumeEndsWhereTheProgramDoes) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    const Tick asked = vm.now();
+    EXPECT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
+    // Not later than the check instant, a frame, the braking and the hops take: 12 + 5 slots, 40 ms of braking.
+    EXPECT_LT((vm.now() - asked).value, 80'000);
+    EXPECT_NEAR(static_cast<double>(counts()[1] - 500), static_cast<double>(counts()[0] - 500) / 2, 1.0);
+    wait(1);
+    EXPECT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
+}
+
+TEST_F(Rig, APauseWaitsForAPerson) {
+    home();
+    Program program = program_of({{10, 10}}, 40);
+    program.blocks.push_back({2, Pause{}});
+    program.blocks.push_back({3, LinearMove{{20, 5}, 40, false}});
+    ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Paused, 5)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));
+    wait(2);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Paused);
+    EXPECT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 500}));
+}
+
+TEST_F(Rig, AnEmergencyStopCeasesPulsesAtOnceAndAsksForHoming) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    (void)ask(CommandKind::EmergencyStop);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    EXPECT_EQ(fault(), FaultCode::EmergencyStopped);
+    const auto at = counts();
+    wait(0.5);
+    EXPECT_EQ(counts(), at) << "position is kept";
+    EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::InFault);
+    EXPECT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
+    EXPECT_EQ(why(run(program_of({{10, 10}}, 20))), FaultCode::NotHomed);
+    home();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
+}
+
+TEST_F(Rig, ALimitSwitchStopsItsAxisAtOnceAndTheOthersOnTheirLine) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    vm.axis(0).simulated()->plant().push(9'000);  // a hand pushes the slide onto the far limit switch
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    EXPECT_EQ(axis_fault(1), FaultCode::None) << describe();
+    EXPECT_FALSE(vm.axis_states()[0]->homed);
+    EXPECT_TRUE(vm.axis_states()[1]->homed);
+    EXPECT_EQ(vm.axis_states()[0]->phase == AxisPhase::Initialize || vm.axis_states()[0]->phase == AxisPhase::Fault, true);
+}
+
+TEST_F(Rig, AMotorThatLosesStepsIsFoundOut) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    vm.axis(1).simulated()->plant().push(-20);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    EXPECT_EQ(fault(), FaultCode::FollowingError);
+}
+
+class RigWithoutSwitch : public Rig {
+protected:
+    RigWithoutSwitch() : Rig({.machine = [] {
+        MachineConfig machine = small_machine();
+        machine.axes[0].homing.switch_position_mm = -50;  // behind the limit switch
+        return machine;
+    }()}) {}
+};
+
+TEST_F(RigWithoutSwitch, HomingThatFindsNoSwitchSaysSo) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 30)) << describe();
+    EXPECT_EQ(fault(), FaultCode::HomeSwitchNotFound);
+    EXPECT_EQ(vm.state()->fault_axis, 0u);
+}
+
+class RigOnSwitch : public Rig {
+protected:
+    RigOnSwitch() : Rig({.machine = [] {
+        MachineConfig machine = small_machine();
+        machine.axes[0].plant.start_position_mm = -1.5;  // on the home switch
+        return machine;
+    }()}) {}
+};
+
+TEST_F(RigOnSwitch, AnAxisThatStandsOnItsSwitchPullsOffFirst) {
+    home();
+    EXPECT_EQ(counts()[0], 500);
+    EXPECT_NEAR(vm.axis(0).simulated()->plant().position_mm(), 5, 0.011) << "where the machine says it is";
+}
+
+TEST_F(Rig, HomingEndsWhereTheMachineSaysItIs) {
+    home();
+    for (std::size_t i = 0; i < 2; ++i) { EXPECT_NEAR(vm.axis(i).simulated()->plant().position_mm(), 5, 0.011); }
+}
+
+TEST_F(Rig, ALegalProgramLosesNoStep) {
+    home();
+    ASSERT_EQ(run(program_of({{90, 90}, {10, 90}, {90, 10}, {5, 5}}, 0)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 20)) << describe();
+    for (const auto& state : vm.axis_states()) { EXPECT_EQ(state->following_error_steps, 0); }
+}
+
+TEST(Coordinators, TheYoungerOneGivesWay) {
+    const MachineConfig machine = small_machine();
+    Coordinator younger(machine, 2'000, 1);
+    const MachineState older{.coordinator = 1'000};
+    EXPECT_TRUE(younger.step({.now = {3'000'000}, .others = {&older, 1}}).must_quit);
+    Coordinator first(machine, 500, 1);
+    EXPECT_FALSE(first.step({.now = {3'000'000}, .others = {&older, 1}}).must_quit);
+}
+
+TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {
+    const MachineConfig machine = small_machine();
+    Coordinator coordinator(machine, 2'000, 1);
+    const AxisState other{.identity = 5, .axis = 1, .stamp = 10, .config_hash = 2};
+    (void)coordinator.step({.now = {10'000}, .axes = {&other, 1}});
+    EXPECT_EQ(coordinator.phase(), MachinePhase::Fault);
+}
+
+TEST(Coordinators, ACommandThatComesTwiceIsDoneOnceAndAnsweredTwice) {
+    const MachineConfig machine = small_machine();
+    Coordinator coordinator(machine, 2'000, 1);
+    const Command stop{.client = 9, .sequence = 1, .kind = CommandKind::Stop};
+    const std::vector<Command> twice{stop, stop};
+    const auto out = coordinator.step({.now = {10'000}, .commands = twice});
+    ASSERT_EQ(out.replies.size(), 2u);
+    EXPECT_EQ(out.replies[0].text, out.replies[1].text);
+}
+
+TEST(Determinism, TheSameOptionsGiveTheSameSteps) {
+    std::vector<StepLog::Step> first;
+    for (int i = 0; i < 2; ++i) {
+        VirtualMachine vm({.machine = small_machine(), .seed = 3, .network = {Ticks{50}, Ticks{900}, 0.1, 0}});
+        StepLog log;
+        vm.observe(log);
+        (void)vm.advance_until([&] { return vm.state() && vm.state()->phase == MachinePhase::Idle; }, Ticks{2'000'000});
+        vm.command(CommandKind::Home);
+        (void)vm.advance_until([] { return false; }, Ticks{5'000'000});
+        vm.give_program(1, program_of({{85, 45}}, 40));
+        vm.command(CommandKind::Run, 0, 1);
+        (void)vm.advance_until([] { return false; }, Ticks{5'000'000});
+        EXPECT_GT(log.steps.size(), 12'000u);
+        if (i == 0) { first = log.steps; }
+        EXPECT_EQ(log.steps, first);
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
