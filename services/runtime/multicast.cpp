@@ -63,6 +63,9 @@ std::expected<bool, std::string> ensure_loopback_multicast() {
     if (change_loopback_route("add")) {
         return true;
     }
+    if (route_interface(kDefaultGroup) == "lo") {  // another process was quicker
+        return false;
+    }
     return std::unexpected("cannot route multicast to lo; " + remedy("lo"));
 }
 

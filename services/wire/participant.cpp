@@ -14,14 +14,11 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 // Why: a lost setpoint must be asked for at once (NackDelay 0; the default 100 ms would cost ten slots), a lost last
 // one must be noticed soon (heartbeats of 2 to 20 ms), and a process that starts or dies must be seen within a second.
-// A writer may keep 64 of the largest frames unacknowledged: by default it would wait for a stalled reader from 30 kB
-// on.
 constexpr const char* kTuning =
     "<Discovery><SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1 s</LeaseDuration></Discovery>"
     "<Internal><HeartbeatInterval min=\"1 ms\" minsched=\"1 ms\" max=\"20 ms\">2 ms</HeartbeatInterval>"
     "<NackDelay>0 ms</NackDelay><AckDelay>1 ms</AckDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>"
-    "<AutoReschedNackDelay>2 ms</AutoReschedNackDelay>"
-    "</Internal>";
+    "<AutoReschedNackDelay>2 ms</AutoReschedNackDelay></Internal>";
 
 bool is_interface_name(const std::string& name) {
     const auto allowed = [](unsigned char c) {

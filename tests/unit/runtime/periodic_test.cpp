@@ -22,13 +22,9 @@ TEST(PeriodicLoop, WakesAtMultiplesOfItsPeriodAndNeverTwiceForOne) {
     loop.run(stop, [&](std::chrono::nanoseconds wake) {
         EXPECT_GE(monotonic_now(), wake);
         EXPECT_EQ((wake - 500us) % 2ms, 0ns);
-        if (!wakes.empty()) {
-            EXPECT_GT(wake, wakes.back());
-        }
+        if (!wakes.empty()) { EXPECT_GT(wake, wakes.back()); }
         wakes.push_back(wake);
-        if (wakes.size() == 5) {
-            stop.request();
-        }
+        if (wakes.size() == 5) { stop.request(); }
     });
     EXPECT_EQ(wakes.size(), 5u);
 }
@@ -38,12 +34,8 @@ TEST(PeriodicLoop, SkipsAndCountsWhatItMissed) {
     PeriodicLoop loop(2ms);
     int runs = 0;
     loop.run(stop, [&](std::chrono::nanoseconds) {
-        if (++runs == 1) {
-            std::this_thread::sleep_for(9ms);
-        }
-        if (runs == 2) {
-            stop.request();
-        }
+        if (++runs == 1) { std::this_thread::sleep_for(9ms); }
+        if (runs == 2) { stop.request(); }
     });
     EXPECT_EQ(runs, 2);
     EXPECT_GE(loop.skipped_periods(), 3u);
@@ -54,11 +46,15 @@ TEST(PeriodicLoop, EndsAtASignal) {
     PeriodicLoop loop(1ms);
     int runs = 0;
     loop.run(stop, [&](std::chrono::nanoseconds) {
-        if (++runs == 3) {
-            kill(getpid(), SIGTERM);
-        }
+        if (++runs == 3) { kill(getpid(), SIGTERM); }
     });
     EXPECT_EQ(runs, 3);
+}
+
+TEST(RealTime, SaysWhatCameOfIt) {
+    std::string said;
+    std::thread([&] { said = try_real_time(1); }).join();  // a thread's own scheduler goes with it
+    EXPECT_TRUE(said.starts_with("scheduler FIFO, priority 1") || said.starts_with("scheduler normal: ")) << said;
 }
 
 TEST(MachineClock, CountsTicksOfTheMonotonicClock) {
