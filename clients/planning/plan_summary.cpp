@@ -1,0 +1,104 @@
+#include "clients/planning/plan_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace lockstep {
+namespace {
+
+/// Counts for every axis of the machine: the program's start where it names the axis, else where it is parked.
+AxisCounts start_counts(const MachineConfig& machine, const Program& program) {
+    AxisCounts counts;
+    for (const AxisConfig& axis : machine.axes) { (void)counts.push_back(to_steps(axis, axis.homing.park_mm)); }
+    for (std::size_t i = 0; i < program.axes.size(); ++i) {
+        const auto place = std::ranges::find(machine.axes, program.axes[i], &AxisConfig::name) - machine.axes.begin();
+        const auto axis = static_cast<std::size_t>(place);
+        if (axis < machine.axes.size()) { counts[axis] = to_steps(machine.axes[axis], program.start_mm[i]); }
+    }
+    return counts;
+}
+
+void add_peaks(const MachineConfig& machine, const PathMove& move, std::size_t i, AxisPlan& axis) {
+    const double share = std::abs(move.share(i));
+    const double per_s = machine.ticks_per_second();
+    const double mm = share / machine.axes[i].steps_per_mm;
+    for (const Phase& phase : move.profile.phases) {
+        const double speed = std::max(phase.velocity_at({}), phase.velocity_at(phase.duration));
+        axis.peak_velocity_mm_s = std::max(axis.peak_velocity_mm_s, speed * mm * per_s);
+        axis.peak_acceleration_mm_s2 =
+            std::max(axis.peak_acceleration_mm_s2, std::abs(phase.acceleration()) * mm * per_s * per_s);
+    }
+}
+
+void add_move(const MachineConfig& machine, const PathMove& move, ProgramPlan& plan) {
+    if (move.lead == 0) { return; }
+    ++plan.moves;
+    plan.length_mm += move.length_mm;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        AxisPlan& axis = plan.axes[i];
+        axis.steps += std::abs(move.to[i] - move.from[i]);
+        const double mm = to_mm(machine.axes[i], static_cast<double>(move.to[i]));
+        axis.min_mm = std::min(axis.min_mm, mm);
+        axis.max_mm = std::max(axis.max_mm, mm);
+        add_peaks(machine, move, i, axis);
+    }
+}
+
+ProgramPlan plan_at_rest(const MachineConfig& machine, const Program& program, const AxisCounts& start) {
+    ProgramPlan plan{.program = program.name};
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const double mm = to_mm(machine.axes[i], static_cast<double>(start[i]));
+        plan.start_mm.push_back(mm);
+        plan.axes.push_back({.name = machine.axes[i].name, .min_mm = mm, .max_mm = mm});
+    }
+    return plan;
+}
+
+}  // namespace
+
+std::vector<double> parked_mm(const MachineConfig& machine) {
+    std::vector<double> places;
+    for (const AxisConfig& axis : machine.axes) {
+        places.push_back(to_mm(axis, static_cast<double>(to_steps(axis, axis.homing.park_mm))));
+    }
+    return places;
+}
+
+std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program) {
+    const ProgramPlanner planner(machine);
+    const AxisCounts start = start_counts(machine, program);
+    auto legs = planner.plan(program, start);
+    if (!legs) { return std::unexpected(legs.error()); }
+    ProgramPlan plan = plan_at_rest(machine, program, start);
+    for (Leg& leg : *legs) {
+        plan.pauses += leg.then_pause ? 1 : 0;
+        if (leg.moves.empty()) { continue; }
+        plan.paths.push_back(planner.path(std::move(leg.moves), {}));
+        plan.duration += plan.paths.back().duration().ceil();
+        for (const PathMove& move : plan.paths.back().moves) { add_move(machine, move, plan); }
+    }
+    plan.duration_s = static_cast<double>(plan.duration.value) / machine.ticks_per_second();
+    return plan;
+}
+
+proto::PlanReport to_report(const ProgramPlan& plan, int lines) {
+    proto::PlanReport report;
+    report.set_program(plan.program);
+    report.set_lines(lines);
+    report.set_moves(plan.moves);
+    report.set_duration_s(plan.duration_s);
+    report.set_length_mm(plan.length_mm);
+    for (const AxisPlan& axis : plan.axes) {
+        proto::AxisPlan& out = *report.add_axes();
+        out.set_name(axis.name);
+        out.set_steps(axis.steps);
+        out.set_peak_velocity_mm_s(axis.peak_velocity_mm_s);
+        out.set_peak_acceleration_mm_s2(axis.peak_acceleration_mm_s2);
+        out.set_min_mm(axis.min_mm);
+        out.set_max_mm(axis.max_mm);
+    }
+    return report;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,35 @@
+// Records a machine in virtual time as its processes record themselves live: every step, run, position and job.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "services/record/axis_recorder.hpp"
+#include "services/record/job_recorder.hpp"
+#include "services/virtual/virtual_machine.hpp"
+
+namespace lockstep {
+
+class MachineRecorder final : public VirtualObserver {
+public:
+    /// Observes the machine from its power-up on. Both, and the sink, outlive the recorder.
+    MachineRecorder(VirtualMachine& vm, RecordSink& sink);
+
+    void on_step(std::size_t axis, StepEdge step) override;
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
+
+    /// At the end: what is still in hand.
+    void finish();
+
+    std::int64_t steps() const { return steps_; }
+
+private:
+    MachineConfig machine_;
+    RecordSink& sink_;
+    std::vector<std::unique_ptr<AxisRecorder>> axes_;  // made when the axis first says who it is
+    std::unique_ptr<JobRecorder> jobs_;                // likewise
+    std::int64_t steps_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,46 @@
+// How long a job's epochs are in motion, from what the coordinator and the axes say.
+#pragma once
+
+#include <algorithm>
+
+#include "services/virtual/virtual_machine.hpp"
+
+namespace lockstep {
+
+class MotionClock final : public VirtualObserver {
+public:
+    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+        for (const JobEvent& event : out.jobs) {
+            if (event.kind == JobEvent::Kind::Begun) { before_ = {}; }
+            if (event.kind == JobEvent::Kind::EpochBegun) { begin(event); }
+            if (event.kind == JobEvent::Kind::Ended) { last_ended_ = event; }
+        }
+    }
+    void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+        for (const ExecutedTrack& track : out.tracks) {
+            if (track.epoch != epoch_) { continue; }
+            Ticks ticks;
+            for (const Piece& piece : track.pieces) { ticks += piece.ticks; }
+            end_ = std::max(end_, track.start + ticks);
+        }
+    }
+
+    /// Of the newest job, so far: from each epoch's start to the end of its last run.
+    Ticks motion() const { return before_ + (end_ - start_); }
+    const std::optional<JobEvent>& last_ended() const { return last_ended_; }
+
+private:
+    void begin(const JobEvent& event) {
+        before_ = motion();
+        epoch_ = event.epoch;
+        start_ = end_ = event.start;
+    }
+
+    Ticks before_;  // in epochs before this one
+    Epoch epoch_ = 0;
+    Tick start_;
+    Tick end_;
+    std::optional<JobEvent> last_ended_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,156 @@
+#include "clients/verification/axis_check.hpp"
+
+#include <cstdlib>
+#include <utility>
+
+namespace lockstep::verification {
+namespace {
+
+std::string at_tick(const std::optional<Tick>& tick, const char* otherwise) {
+    return tick ? "tick " + std::to_string(tick->value) : otherwise;
+}
+
+std::string plural(std::int64_t count, const std::string& one) {
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded)
+    : name_(std::move(name)), findings_(findings), commanded_(std::move(commanded)) {}
+
+void AxisCheck::take(Run run) {
+    if (!findings_.going()) { return; }
+    runs_.push_back(std::move(run));
+    settle(false);
+}
+
+void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
+    const std::string which = end - from == 1 ? "run " + std::to_string(from) + " is"
+                                              : "runs " + std::to_string(from) + " to " + std::to_string(end - 1) + " are";
+    differ("axis " + name_ + ": the record of " + which + " not in the log; the steps up to " +
+               at_tick(last_tick_, "its beginning") + " are compared",
+           {}, {});
+}
+
+void AxisCheck::on_batch(const analysis::StepBatch& batch) {
+    if (!findings_.going()) { return; }
+    std::int64_t count = batch.position_before_steps;
+    for (const StepEdge& step : batch.steps) {
+        count += step.direction;
+        waiting_.push_back({step, count});
+    }
+    settle(false);
+    if (waiting_.size() > kMaxWaiting) {
+        differ("axis " + name_ + ": no run is recorded for " + plural(static_cast<std::int64_t>(waiting_.size()), "step"),
+               {}, waiting_.front().edge.tick);
+    }
+}
+
+void AxisCheck::on_break(const analysis::Break& what) {
+    if (what.missing_batches == 0 || !findings_.going()) { return; }
+    const StepEdge* expected = maker_ ? maker_->next() : nullptr;
+    differ("axis " + name_ + ": " + plural(what.missing_batches, "message") + " with at least " +
+               plural(std::abs(what.position_change), "step") + " missing between " +
+               at_tick(what.from, "the log's beginning") + " and " + at_tick(what.to, "the log's end"),
+           expected != nullptr ? std::optional(expected->tick) : std::nullopt, {});
+}
+
+/// Compares as far as steps and runs have come.
+void AxisCheck::settle(bool log_ended) {
+    while (findings_.going()) {
+        if (!maker_ && !begin_next_run()) { return; }
+        const SeenStep* seen = waiting_.empty() ? nullptr : &waiting_.front();
+        const bool may_be_over = seen != nullptr || log_ended;
+        if (maker_->next() == nullptr || (may_be_over && is_cut_here(seen))) {
+            last_run_ = maker_->run();
+            maker_.reset();
+        } else if (seen != nullptr) {
+            compare(*seen);
+        } else {
+            return;
+        }
+    }
+}
+
+bool AxisCheck::begin_next_run() {
+    if (runs_.empty()) { return false; }
+    maker_.emplace(std::move(runs_.front()));
+    runs_.pop_front();
+    const Run& run = maker_->run();
+    const bool joins = !last_run_ || last_run_->incarnation != run.incarnation;
+    if (!joins && last_run_->device_stop() != run.device_start()) {
+        differ("axis " + name_ + ": " + name_of(run) + " starts at count " + std::to_string(run.device_start()) +
+                   " of the device, the run before it ended at " + std::to_string(last_run_->device_stop()),
+               {}, run.start);
+    } else if (!run.cut && run.to().count() != run.stop_count) {
+        differ("axis " + name_ + ": " + name_of(run) + " is recorded to end at " + std::to_string(run.stop_count) +
+                   ", its pieces end at " + std::to_string(run.to().count()),
+               {}, run.start);
+    }
+    return findings_.going();
+}
+
+/// A run that was cut is over at its stop count, unless the steps go on as its pieces do.
+bool AxisCheck::is_cut_here(const SeenStep* seen) {
+    if (!maker_->run().cut || maker_->count() != maker_->run().stop_count) { return false; }
+    return seen == nullptr || seen->edge != *maker_->next();
+}
+
+void AxisCheck::compare(const SeenStep& seen) {
+    const StepEdge expected = *maker_->next();
+    const std::int64_t count = maker_->count() + expected.direction;
+    const std::string step = step_name();
+    if (seen.edge.tick != expected.tick) {
+        return differ(step + " is expected at tick " + std::to_string(expected.tick.value) + ", the log has it at tick " +
+                          std::to_string(seen.edge.tick.value),
+                      expected.tick, seen.edge.tick);
+    }
+    if (seen.edge.direction != expected.direction) {
+        return differ(step + " is expected to go " + (expected.direction > 0 ? "forward" : "backward") +
+                          ", in the log it goes the other way",
+                      expected.tick, seen.edge.tick);
+    }
+    if (seen.count != count) {
+        return differ(step + " is expected to reach " + std::to_string(count) + ", by the log it reaches " +
+                          std::to_string(seen.count),
+                      expected.tick, seen.edge.tick);
+    }
+    maker_->pass();
+    waiting_.pop_front();
+    ++steps_;
+    ++findings_.steps;
+    last_tick_ = expected.tick;
+    if (!findings_.last_tick || *findings_.last_tick < expected.tick) { findings_.last_tick = expected.tick; }
+}
+
+void AxisCheck::finish() {
+    if (findings_.going()) { stream_.finish(); }
+    settle(true);
+    if (findings_.going()) { end_of_log(); }
+}
+
+void AxisCheck::end_of_log() {
+    const std::string compared = plural(steps_, "step") + " up to " + at_tick(last_tick_, "there") + " compared";
+    if (maker_) {
+        const Tick expected = maker_->next()->tick;
+        differ("axis " + name_ + ": the log has no more steps, though " + name_of(maker_->run()) + " makes one at tick " +
+                   std::to_string(expected.value) + "; " + compared,
+               expected, {});
+    } else if (!waiting_.empty()) {
+        differ("axis " + name_ + ": " + plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +
+                   std::to_string(waiting_.front().edge.tick.value) + " on are of no run in the log; " + compared,
+               {}, waiting_.front().edge.tick);
+    }
+}
+
+void AxisCheck::differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen) {
+    Difference found{.text = std::move(text), .axis = name_, .tick_expected = expected, .tick_seen = seen};
+    const Run* run = maker_ ? &maker_->run() : last_run_ ? &*last_run_ : nullptr;
+    if (run != nullptr) { found.commanded = commanded_(*run, expected.value_or(run->start)); }
+    findings_.differ(std::move(found));
+}
+
+std::string AxisCheck::step_name() const { return "axis " + name_ + ": step " + std::to_string(steps_ + 1); }
+
+}  // namespace lockstep::verification

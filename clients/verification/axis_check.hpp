@@ -1,0 +1,63 @@
+// One axis's steps against the steps that its runs make: each step is of a run, each step of a run is there.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "clients/analysis/step_stream.hpp"
+#include "clients/verification/findings.hpp"
+#include "clients/verification/run.hpp"
+
+namespace lockstep::verification {
+
+class AxisCheck final : public analysis::StepListener {
+public:
+    /// What was in motion at a tick of a run, in words.
+    using Commanded = std::function<std::string(const Run&, Tick)>;
+    /// So many steps may wait for the record of their run, which is written when it has ended.
+    static constexpr std::size_t kMaxWaiting = 1 << 22;
+
+    AxisCheck(std::string name, Findings& findings, Commanded commanded);
+    AxisCheck(const AxisCheck&) = delete;  // the stream tells its steps to this object
+    AxisCheck& operator=(const AxisCheck&) = delete;
+
+    void take(analysis::StepBatch batch) { stream_.take(std::move(batch)); }
+    /// In the order of their numbers.
+    void take(Run run);
+    void runs_missing(std::int64_t from, std::int64_t end);
+    /// Call once, at the end of the log.
+    void finish();
+
+    void on_batch(const analysis::StepBatch& batch) override;
+    void on_break(const analysis::Break& what) override;
+
+private:
+    struct SeenStep {
+        StepEdge edge;
+        std::int64_t count = 0;  // after it, by the log
+    };
+
+    void settle(bool log_ended);
+    bool begin_next_run();
+    bool is_cut_here(const SeenStep* seen);
+    void compare(const SeenStep& seen);
+    void end_of_log();
+    void differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen);
+    std::string step_name() const;
+
+    std::string name_;
+    Findings& findings_;
+    Commanded commanded_;
+    analysis::StepStream stream_{{this}};
+    std::deque<SeenStep> waiting_;
+    std::deque<Run> runs_;
+    std::optional<StepMaker> maker_;  // of the run being compared
+    std::optional<Run> last_run_;     // the one before it
+    std::int64_t steps_ = 0;          // compared and equal
+    std::optional<Tick> last_tick_;   // of these
+};
+
+}  // namespace lockstep::verification

@@ -1,0 +1,46 @@
+// The frames of one epoch, made again by the coordinator's own path, and its judgement of how the epoch ended.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/coordinator/epoch_runner.hpp"
+
+namespace lockstep::verification {
+
+/// How far an axis came in an epoch: frames begun, and where it rests.
+struct AxisEnd {
+    FrameNumber ran = 0;
+    Position at;
+};
+
+class EpochReplay {
+public:
+    /// `at`: where each axis rests before it. `start`: of frame 1, as recorded.
+    EpochReplay(const MachineConfig& machine, Epoch epoch, Path path, const std::vector<Position>& at, Tick start);
+
+    Epoch epoch() const { return runner_.epoch(); }
+    const Path& path() const { return runner_.path(); }
+
+    /// Null: the epoch has no such frame, or it was forgotten.
+    const Frame* frame(FrameNumber number);
+    void forget_before(FrameNumber number);
+
+    EpochEnd judge(std::span<const AxisEnd> axes) const;
+
+    /// The line of the program in motion at a tick.
+    std::int32_t line_at(Tick tick) const;
+
+private:
+    void make_up_to(FrameNumber number);
+
+    EpochRunner runner_;
+    Slot slot_ = 0;
+    Ticks shift_;               // from the runner's own time to the recorded one
+    std::deque<Frame> frames_;  // in recorded time
+    FrameNumber made_ = 0;
+    bool all_made_ = false;
+};
+
+}  // namespace lockstep::verification

@@ -1,0 +1,236 @@
+#include "clients/verification/job_check.hpp"
+
+#include <algorithm>
+
+#include "clients/verification/run_difference.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/documents/program_document.hpp"
+
+namespace lockstep::verification {
+namespace {
+
+PathPlace place_in(const job_t& record) {
+    const Int128 along = Int128{record.resume_high} * kOneStep + Int128{static_cast<std::uint64_t>(record.resume_low)};
+    return {static_cast<std::uint32_t>(record.resume_block), {along}};
+}
+
+std::string text_of(const PathPlace& place) {
+    return "block " + std::to_string(place.block) + ", " + std::to_string(place.along.as_steps()) + " steps along it";
+}
+
+std::string number_of(const job_t& record) { return "job " + std::to_string(record.job); }
+
+std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
+    return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
+}
+
+Run planned_run(const Frame& frame, std::size_t axis, bool tail) {
+    const AxisTrack& track = frame.axes[axis];
+    Run run{.epoch = frame.epoch, .frame = frame.number, .start = frame.start, .from = track.from, .pieces = {}};
+    run.pieces.assign(track.body.begin(), track.body.end());
+    if (!tail) { return run; }
+    run.tail = true;
+    run.from = run.to();
+    run.start += frame.ticks;
+    run.pieces.assign(track.tail.begin(), track.tail.end());
+    return run;
+}
+
+}  // namespace
+
+// ---- Records -----------------------------------------------------------------------------------------------------
+
+void JobCheck::take(const job_t& record) {
+    records_.push_back(record);
+    std::deque<std::pair<std::string, Run>> waiting;
+    waiting.swap(waiting_);
+    for (const auto& [axis, run] : waiting) { take(axis, run); }
+}
+
+void JobCheck::handle(const job_t& record) {
+    close_epoch();
+    if (record.event == "begun") { return begin(record); }
+    if (record.event == "epoch") { return begin_epoch(record); }
+    end(record);
+}
+
+void JobCheck::begin(const job_t& record) {
+    if (job_ && job_->coordinator == record.coordinator) {
+        return differ(job_->label + ": the log has no end of it, though " + number_of(record) + " begins");
+    }
+    if (job_) { findings_.notes.push_back(job_->label + " has no end: another coordinator began " + number_of(record)); }
+    job_ = Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
+    if (record.program.empty()) { return; }
+    const auto machine = parse_machine(record.config);
+    const auto program = program_from_text(record.program);
+    if (!machine || !program) {
+        findings_.unreadable = number_of(record) + (machine ? ": its program: " + program.error()
+                                                            : to_text(": its configuration", machine.error()));
+        return;
+    }
+    job_->label += " " + program->name;
+    auto replay = JobReplay::plan(*machine, *program, record.start_count);
+    if (!replay) { return differ(job_->label + ": it cannot be planned again: " + replay.error()); }
+    job_->replay = std::move(*replay);
+}
+
+bool JobCheck::is_of_job(const job_t& record) const {
+    return job_ && job_->number == record.job && job_->coordinator == record.coordinator;
+}
+
+void JobCheck::begin_epoch(const job_t& record) {
+    if (!is_of_job(record) || !job_->replay) {
+        return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
+    }
+    if (!job_->broken.empty()) { return differ(job_->label + " goes on, though " + job_->broken); }
+    auto start = job_->replay->next();
+    if (!start) { return differ(job_->label + " goes on, though its program is done"); }
+    const PathPlace place = place_in(record);
+    if (place.block != start->place.block || place.along != start->place.along) {
+        return differ(job_->label + " goes on from " + text_of(place) + "; planned: " + text_of(start->place));
+    }
+    std::vector<Progress> axes;
+    for (const Position at : start->at) { axes.push_back({.at = at}); }
+    const auto epoch = static_cast<Epoch>(record.epoch);
+    epoch_.emplace(EpochReplay(job_->replay->machine(), epoch, std::move(start->path), start->at, {record.start_tick}),
+                   std::move(axes));
+    labels_.emplace_back(epoch, job_->label);
+    if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
+}
+
+void JobCheck::end(const job_t& record) {
+    if (!is_of_job(record)) {
+        return differ("the log has the end of " + number_of(record) + ", but not its beginning");
+    }
+    const Job job = *std::exchange(job_, std::nullopt);
+    if (!job.replay) { return; }
+    if (record.outcome == "failed") {
+        findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
+                                  "; what was run of it is as planned");
+    } else if (!job.broken.empty()) {
+        return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken);
+    } else if (record.outcome == "done" && job.replay->next()) {
+        return differ(job.label + " is recorded as done, but its program goes on at " +
+                      text_of(job.replay->next()->place));
+    }
+    ++findings_.jobs;
+}
+
+/// What the epoch leaves of its job, by the coordinator's own judgement.
+void JobCheck::close_epoch() {
+    if (!epoch_) { return; }
+    job_->broken = why_broken();
+    if (job_->broken.empty()) {
+        std::vector<AxisEnd> ends;
+        for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
+        const EpochEnd end = epoch_->replay.judge(ends);
+        const std::string axis = job_->replay->machine().axes[end.axis].name;
+        if (end.kind == EpochEnd::Kind::FramesDiffer) { job_->broken = "axis " + axis + " ran other frames than the rest"; }
+        if (end.kind == EpochEnd::Kind::Misplaced) { job_->broken = "axis " + axis + " is not where its frames end"; }
+        if (job_->broken.empty()) { job_->replay->ended(epoch_->replay.path(), end); }
+    }
+    epoch_.reset();
+}
+
+/// Empty: every axis ran frames to the end of the last, and its tail.
+std::string JobCheck::why_broken() {
+    for (std::size_t i = 0; i < epoch_->axes.size(); ++i) {
+        const Progress& axis = epoch_->axes[i];
+        const std::string name = "axis " + job_->replay->machine().axes[i].name;
+        const std::string frame = "frame " + std::to_string(axis.ran);
+        if (axis.cut) { return name + " was stopped early in " + frame; }
+        if (axis.ran == 0 || axis.in_tail) { continue; }
+        const Frame* last = epoch_->replay.frame(axis.ran);
+        if (last != nullptr && !last->last && !last->axes[i].tail.empty()) {
+            return "the log has nothing of " + name + " after " + frame + ", which is not its last";
+        }
+    }
+    return "";
+}
+
+void JobCheck::finish() {
+    for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
+    if (!waiting_.empty()) {
+        const auto& [axis, run] = waiting_.front();
+        differ("axis " + axis + ": the log has no record of epoch " + std::to_string(run.epoch) + ", which it ran", axis,
+               &run);
+    }
+    if (!job_) { return; }
+    const auto& last = findings_.last_tick;
+    differ("the log ends before " + job_->label + " does; the steps up to " +
+           (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
+}
+
+// ---- Runs --------------------------------------------------------------------------------------------------------
+
+void JobCheck::take(const std::string& axis, const Run& run) {
+    if (!findings_.going() || place(axis, run)) { return; }
+    if (waiting_.size() == kMaxWaiting) { return differ("axis " + axis + ": runs of an unknown epoch", axis, &run); }
+    waiting_.emplace_back(axis, run);
+}
+
+/// False: the run's epoch is not known yet.
+bool JobCheck::place(const std::string& axis, const Run& run) {
+    const auto begins_it = [&](const job_t& record) {
+        return record.event == "epoch" && static_cast<Epoch>(record.epoch) == run.epoch;
+    };
+    if (!epoch_ || epoch_->replay.epoch() != run.epoch) {
+        const auto found = std::ranges::find_if(records_, begins_it);
+        if (found == records_.end()) { return false; }
+        for (auto left = found - records_.begin() + 1; left > 0 && findings_.going(); --left) {
+            handle(records_.front());
+            records_.pop_front();
+        }
+        if (!findings_.going()) { return true; }
+    }
+    const std::size_t i = index_of(job_->replay->machine(), axis);
+    if (i < epoch_->axes.size()) {
+        compare(i, axis, run);
+    } else {
+        differ("axis " + axis + " ran a frame of a machine that has no such axis", axis, &run);
+    }
+    return true;
+}
+
+void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run) {
+    Progress& progress = epoch_->axes[axis];
+    if (const std::string why = out_of_order(progress, run); !why.empty()) {
+        return differ("axis " + name + ": " + name_of(run) + why, name, &run);
+    }
+    const Frame* frame = epoch_->replay.frame(run.frame);
+    if (frame == nullptr) { return differ("axis " + name + ": the plan has no " + name_of(run), name, &run); }
+    if (const auto found = compare_runs(planned_run(*frame, axis, run.tail), run)) {
+        return findings_.differ({"axis " + name + ": " + name_of(run) + " " + found->text, name, found->tick_expected,
+                                 found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))});
+    }
+    progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to()};
+    ++findings_.runs;
+    epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
+}
+
+/// Empty: the run follows what the axis has run.
+std::string JobCheck::out_of_order(const Progress& axis, const Run& run) const {
+    const std::string after = " follows frame " + std::to_string(axis.ran);
+    if (axis.cut || axis.in_tail) { return after + ", with which the epoch had ended"; }
+    const FrameNumber next = run.tail ? axis.ran : axis.ran + 1;
+    return run.frame == next && run.frame > 0 ? "" : after;
+}
+
+std::string JobCheck::commanded(const Run& run, Tick tick) const {
+    if (run.epoch == 0) { return (job_ ? job_->label + ", " : "") + name_of(run); }
+    std::string text;
+    for (const auto& [epoch, label] : labels_) {
+        if (epoch == run.epoch) { text = label + ", "; }
+    }
+    if (epoch_ && epoch_->replay.epoch() == run.epoch) {
+        text += "line " + std::to_string(epoch_->replay.line_at(tick)) + ", ";
+    }
+    return text + "epoch " + std::to_string(run.epoch) + ", " + name_of(run);
+}
+
+void JobCheck::differ(std::string text, const std::string& axis, const Run* run) {
+    findings_.differ({std::move(text), axis, {}, run != nullptr ? std::optional(run->start) : std::nullopt,
+                      run != nullptr ? commanded(*run, run->start) : job_ ? job_->label : ""});
+}
+
+}  // namespace lockstep::verification

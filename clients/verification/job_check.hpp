@@ -1,0 +1,76 @@
+// The runs of jobs against what the coordinator's planning makes of their programs: every frame, bit for bit.
+#pragma once
+
+#include <deque>
+#include <lockstep/job_t.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clients/verification/epoch_replay.hpp"
+#include "clients/verification/findings.hpp"
+#include "clients/verification/job_replay.hpp"
+#include "clients/verification/run.hpp"
+
+namespace lockstep::verification {
+
+class JobCheck {
+public:
+    /// So many runs may wait for the record of their epoch, which is written before they begin.
+    static constexpr std::size_t kMaxWaiting = 4096;
+
+    explicit JobCheck(Findings& findings) : findings_(findings) {}
+
+    void take(const job_t& record);
+    /// A run of a job; in the order of their numbers for each axis.
+    void take(const std::string& axis, const Run& run);
+    /// Call once, at the end of the log.
+    void finish();
+
+    /// What was in motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
+    std::string commanded(const Run& run, Tick tick) const;
+
+private:
+    struct Job {
+        std::int64_t coordinator = 0;
+        std::int64_t number = 0;
+        std::string label;                // "job 2, run plate.gcode"
+        std::optional<JobReplay> replay;  // none for homing
+        std::string broken;               // why what was run is not the whole plan; empty: it is
+    };
+    struct Progress {  // of an axis in an epoch
+        FrameNumber ran = 0;
+        bool in_tail = false;
+        bool cut = false;
+        Position at;
+    };
+    struct EpochCheck {
+        EpochReplay replay;
+        std::vector<Progress> axes;
+    };
+
+    void handle(const job_t& record);
+    void begin(const job_t& record);
+    void begin_epoch(const job_t& record);
+    void end(const job_t& record);
+    void close_epoch();
+    std::string why_broken();
+    bool is_of_job(const job_t& record) const;
+
+    bool place(const std::string& axis, const Run& run);
+    void compare(std::size_t axis, const std::string& name, const Run& run);
+    std::string out_of_order(const Progress& axis, const Run& run) const;
+    void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
+
+    static constexpr std::size_t kLabelsKept = 16;
+
+    Findings& findings_;
+    std::deque<job_t> records_;  // handled when the first run after them comes: late runs of what they end come before
+    std::deque<std::pair<std::string, Run>> waiting_;
+    std::optional<Job> job_;
+    std::optional<EpochCheck> epoch_;
+    std::deque<std::pair<Epoch, std::string>> labels_;  // of the newest epochs
+};
+
+}  // namespace lockstep::verification

@@ -1,0 +1,78 @@
+#include "clients/verification/log_check.hpp"
+
+#include "clients/analysis/log_step.hpp"
+
+namespace lockstep::verification {
+
+LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck& jobs)
+    : check(name, findings, [&jobs](const Run& run, Tick tick) { return jobs.commanded(run, tick); }),
+      runs(
+          [this, name, &findings, &jobs](Run run) {
+              if (!findings.going()) { return; }
+              run.epoch == 0 ? void(++findings.local_runs) : jobs.take(name, run);
+              check.take(std::move(run));
+          },
+          [this](std::int64_t from, std::int64_t end) { check.runs_missing(from, end); }) {}
+
+void LogCheck::on_steps(const step_batch_t& message, std::uint64_t offset) {
+    Axis* to = axis(message.machine, message.axis, offset);
+    if (to == nullptr) { return; }
+    auto batch = analysis::to_batch(message);
+    batch ? to->check.take(std::move(*batch)) : on_damage(offset, batch.error());
+}
+
+void LogCheck::on_run(const run_t& message, std::uint64_t offset) {
+    Axis* to = axis(message.machine, message.axis, offset);
+    if (to == nullptr) { return; }
+    auto run = to_run(message);
+    run ? to->runs.take(std::move(*run)) : on_damage(offset, run.error());
+}
+
+void LogCheck::on_job(const job_t& message, std::uint64_t offset) {
+    if (Machine* to = machine(message.machine, offset)) { to->jobs.take(message); }
+}
+
+void LogCheck::on_damage(std::uint64_t offset, std::string what) {
+    if (++damages_ > kDamagesNoted) { return; }
+    findings_.notes.push_back("damaged at byte " + std::to_string(offset) + ": " + what);
+}
+
+LogCheck::Machine* LogCheck::machine(const std::string& name, std::uint64_t offset) {
+    const auto known = machines_.find(name);
+    if (known != machines_.end()) { return &known->second; }
+    if (machines_.size() == kMaxMachines) {
+        on_damage(offset, "more machines than a log is believed to hold");
+        return nullptr;
+    }
+    return &machines_.try_emplace(name, JobCheck(findings_)).first->second;
+}
+
+LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::string& name, std::uint64_t offset) {
+    Machine* of = machine(machine_name, offset);
+    if (of == nullptr) { return nullptr; }
+    if (of->axes.size() == kMaxAxes && !of->axes.contains(name)) {
+        on_damage(offset, "more axes than a machine can have");
+        return nullptr;
+    }
+    auto& found = of->axes[name];
+    if (!found) { found = std::make_unique<Axis>(name, findings_, of->jobs); }
+    return found.get();
+}
+
+Findings LogCheck::finish() {
+    for (auto& [name, machine] : machines_) {
+        for (auto& [axis_name, axis] : machine.axes) { axis->runs.finish(); }
+        machine.jobs.finish();
+        for (auto& [axis_name, axis] : machine.axes) { axis->check.finish(); }
+    }
+    if (damages_ > kDamagesNoted) {
+        findings_.notes.push_back("and " + std::to_string(damages_ - kDamagesNoted) + " more damaged places");
+    }
+    if (findings_.local_runs > 0) {
+        findings_.notes.push_back(std::to_string(findings_.local_runs) +
+                                  " moves of axes on their own (homing) were compared with their records alone");
+    }
+    return std::move(findings_);
+}
+
+}  // namespace lockstep::verification

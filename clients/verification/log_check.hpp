@@ -1,0 +1,49 @@
+// Sends a log's messages to where they are compared: steps and runs by axis, jobs by machine.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "clients/analysis/log_read.hpp"
+#include "clients/verification/axis_check.hpp"
+#include "clients/verification/job_check.hpp"
+#include "clients/verification/run_stream.hpp"
+
+namespace lockstep::verification {
+
+class LogCheck final : public analysis::LogListener {
+public:
+    void on_steps(const step_batch_t& message, std::uint64_t offset) override;
+    void on_position(const axis_position_t& /*message*/, std::uint64_t /*offset*/) override {}
+    void on_run(const run_t& message, std::uint64_t offset) override;
+    void on_job(const job_t& message, std::uint64_t offset) override;
+    void on_foreign(std::string_view /*channel*/) override {}
+    void on_damage(std::uint64_t offset, std::string what) override;
+
+    Findings finish();
+
+private:
+    static constexpr std::size_t kMaxMachines = 64;
+    static constexpr std::size_t kDamagesNoted = 5;
+
+    struct Axis {
+        Axis(const std::string& name, Findings& findings, JobCheck& jobs);
+        AxisCheck check;
+        RunStream runs;
+    };
+    struct Machine {
+        JobCheck jobs;
+        std::map<std::string, std::unique_ptr<Axis>> axes;
+    };
+
+    Machine* machine(const std::string& name, std::uint64_t offset);
+    Axis* axis(const std::string& machine, const std::string& name, std::uint64_t offset);
+
+    Findings findings_;
+    std::map<std::string, Machine> machines_;
+    std::size_t damages_ = 0;
+};
+
+}  // namespace lockstep::verification

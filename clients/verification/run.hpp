@@ -1,0 +1,66 @@
+// A frame or a tail that an axis's device has run, as the log has it; and the steps it must have made.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <lockstep/run_t.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/protocol/messages.hpp"
+#include "core/step/engine.hpp"
+
+namespace lockstep::verification {
+
+struct Run {
+    std::int64_t incarnation = 0;  // of the axis's process; sequences start anew with each
+    std::int64_t sequence = 0;     // without gaps
+    Epoch epoch = 0;               // 0: the axis's own move
+    FrameNumber frame = 0;
+    bool tail = false;
+    Tick start;
+    Position from;  // machine coordinates
+    std::vector<Piece> pieces;
+    bool cut = false;             // pulses ceased early, at stop_count
+    std::int64_t stop_count = 0;  // at its end
+    std::int64_t zero_count = 0;  // machine coordinates = device count - zero_count
+
+    Position to() const;  // where its pieces end
+    Ticks ticks() const;
+    /// The device's own counts, which no zeroing changes.
+    std::int64_t device_start() const { return from.count() + zero_count; }
+    std::int64_t device_stop() const { return stop_count + zero_count; }
+};
+
+/// The error says what cannot be: pieces that no engine executes, numbers beyond counting.
+std::expected<Run, std::string> to_run(const run_t& message);
+
+/// "frame 12", "tail of frame 12", or "run 3 of its own" outside any epoch.
+std::string name_of(const Run& run);
+
+/// The steps of a run, one by one, as the tick-exact engine makes them.
+class StepMaker {
+public:
+    explicit StepMaker(Run run);
+
+    const Run& run() const { return run_; }
+    /// The next step; null at the end of the pieces.
+    const StepEdge* next();
+    void pass();
+    /// Where the axis is after the steps passed, machine coordinates.
+    std::int64_t count() const { return count_; }
+
+private:
+    static constexpr std::size_t kMadeAtOnce = 4096;
+    void make_more();
+
+    Run run_;
+    StepEngine engine_;
+    std::size_t begun_ = 0;  // pieces
+    std::vector<StepEdge> made_;
+    std::size_t passed_ = 0;  // of made_
+    std::int64_t count_;
+};
+
+}  // namespace lockstep::verification

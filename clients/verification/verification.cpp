@@ -1,0 +1,60 @@
+#include "clients/verification/verification.hpp"
+
+#include "clients/verification/log_check.hpp"
+
+namespace lockstep::verification {
+namespace {
+
+std::string counted(const Findings& findings) {
+    return std::to_string(findings.steps) + " steps, " + std::to_string(findings.runs + findings.local_runs) +
+           " runs and " + std::to_string(findings.jobs) + " jobs";
+}
+
+void fill(const Difference& difference, proto::Difference& out) {
+    out.set_text(difference.text);
+    out.set_axis(difference.axis);
+    out.set_commanded(difference.commanded);
+    if (difference.tick_expected) { out.set_tick_expected(difference.tick_expected->value); }
+    if (difference.tick_seen) { out.set_tick_seen(difference.tick_seen->value); }
+}
+
+}  // namespace
+
+std::expected<Findings, std::string> verify_log(const std::filesystem::path& log,
+                                                const std::function<void(double)>& progress) {
+    LogCheck check;
+    const auto events = analysis::read_log(log, check, progress);
+    if (!events) { return std::unexpected(events.error()); }
+    Findings findings = check.finish();
+    if (findings.unreadable) { return std::unexpected(log.string() + ": " + *findings.unreadable); }
+    if (findings.going() && findings.steps + findings.runs + findings.local_runs + findings.jobs == 0) {
+        return std::unexpected(log.string() + ": no step, no run and no job is in it that could be verified");
+    }
+    return findings;
+}
+
+proto::VerifyReport to_report(const Findings& findings) {
+    proto::VerifyReport report;
+    report.set_exact(!findings.difference);
+    report.set_steps_compared(findings.steps);
+    report.set_runs_compared(findings.runs + findings.local_runs);
+    report.set_jobs_compared(findings.jobs);
+    if (findings.difference) { fill(*findings.difference, *report.mutable_first_difference()); }
+    for (const std::string& note : findings.notes) { report.add_notes(note); }
+    return report;
+}
+
+std::string to_text(const Findings& findings) {
+    std::string text;
+    if (findings.difference) {
+        text = "not exact: " + findings.difference->text + "\n";
+        if (!findings.difference->commanded.empty()) { text += "  in motion: " + findings.difference->commanded + "\n"; }
+        text += "  compared before that and equal: " + counted(findings) + "\n";
+    } else {
+        text = "exact: " + counted(findings) + " are what the programs give, tick for tick\n";
+    }
+    for (const std::string& note : findings.notes) { text += "  note: " + note + "\n"; }
+    return text;
+}
+
+}  // namespace lockstep::verification
