@@ -16,15 +16,12 @@ std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDe
 AxisNode::AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver)
     : device_(std::move(device)),
       driver_(std::move(driver)),
-      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash) {}
+      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash),
+      longest_standstill_(setup.machine.slot_ticks() * rules::silence_slots(setup.machine.timing)) {}
 
 AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step) {
     if (device_.simulated) { device_.simulated->advance(now); }
-    if (auto status = driver_.read()) {
-        status_ = *status;
-    } else {
-        trouble_ = status.error();
-    }
+    look(now);
     AxisOutputs out = controller_.step({.now = now,
                                         .device = status_,
                                         .device_failed = !trouble_.empty(),
@@ -36,6 +33,20 @@ AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step
     if (device_.simulated) { device_.simulated->advance(now); }
     if (const auto drained = driver_.drain_capture(on_step); !drained) { trouble_ = drained.error(); }
     return out;
+}
+
+void AxisNode::look(Tick now) {
+    const auto status = driver_.read();
+    if (!status) {
+        trouble_ = status.error();
+        return;
+    }
+    if (status->now != status_.now || clock_moved_ == Tick{}) { clock_moved_ = now; }
+    if (now - clock_moved_ > longest_standstill_) {
+        trouble_ = "the device's clock has stood at tick " + std::to_string(status->now.value) + " for " +
+                   std::to_string((now - clock_moved_).value) + " ticks; is its process, or its board, still running?";
+    }
+    status_ = *status;
 }
 
 void AxisNode::give(const std::vector<DeviceOrder>& orders) {

@@ -54,12 +54,15 @@ public:
 
 private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
+    void look(Tick now);
     void give(const std::vector<DeviceOrder>& orders);
 
     AxisDevice device_;
     DeviceDriver driver_;
     AxisController controller_;
     DeviceStatus status_;
+    Tick clock_moved_;          // when the device's clock was last seen to go on
+    Ticks longest_standstill_;  // of it: a device that is late looks the same for a while
     std::string trouble_;
 };
 
