@@ -9,7 +9,9 @@ StepSeed::StepSeed(const Stretch& stretch)
     : gap((static_cast<double>(~stretch.phase) + 1.0) * 0x1p-64),
       a(static_cast<double>(stretch.acceleration) * 0x1p-64),
       w(static_cast<double>(stretch.speed) * 0x1p-64 - 0.5 * a),
-      last(static_cast<double>(stretch.ticks - 1)) {}
+      last(static_cast<double>(stretch.ticks - 1)),
+      inverse_a(1.0 / a),
+      curved(std::abs(w) < 0x1p40 * std::abs(a)) {}
 
 SeedBatch StepSeed::batch(std::int64_t k) const {
     constexpr int kSize = static_cast<int>(kSeedBatch);
@@ -18,12 +20,11 @@ SeedBatch StepSeed::batch(std::int64_t k) const {
     double s[kSize];
     for (int i = 0; i < kSize; ++i) { g[i] = first + static_cast<double>(i); }
     for (int i = 0; i < kSize; ++i) { s[i] = std::sqrt(std::max(w * w + 2.0 * a * g[i], 0.0)); }
-    // Of the two ways to write the root, the one that does not subtract what is nearly equal.
     double x[kSize];
-    if (w >= 0.0) {
-        for (int i = 0; i < kSize; ++i) { x[i] = std::min(2.0 * g[i] / (w + s[i]), last); }
+    if (curved) {
+        for (int i = 0; i < kSize; ++i) { x[i] = std::min((s[i] - w) * inverse_a, last); }
     } else {
-        for (int i = 0; i < kSize; ++i) { x[i] = std::min((s[i] - w) / a, last); }
+        for (int i = 0; i < kSize; ++i) { x[i] = std::min(2.0 * g[i] / (w + s[i]), last); }
     }
     SeedBatch ticks;
     for (std::size_t i = 0; i < ticks.size(); ++i) { ticks[i] = 1 + static_cast<std::int64_t>(x[i]); }

@@ -20,6 +20,8 @@ struct StepSeed {
     double a = 0;     // steps per tick^2
     double w = 0;     // steps per tick
     double last = 0;  // ticks - 1, the bound of a root rounded down
+    double inverse_a = 0;
+    bool curved = false;  // |w| < 2^40 |a|: the root may be written without a division per step
 
     explicit StepSeed(const Stretch& stretch);
 

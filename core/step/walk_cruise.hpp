@@ -2,6 +2,7 @@
 // r = 2^64 - q*u and the phase p left after a step, q ticks carry again exactly where p >= r. Additions only.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/step/stretch.hpp"
@@ -27,10 +28,8 @@ std::int64_t walk_cruise(const Stretch& stretch, Step&& step) {
         if (--steps == 0) {
             return stretch.ticks;
         }
-        const bool longer = phase < r;
-        const std::uint64_t after_q = phase - r;
-        phase = longer ? after_q + u : after_q;
-        n += q + (longer ? 1 : 0);
+        n += q + (phase < r ? 1 : 0);
+        phase = std::min(phase - r, phase + (u - r));  // phase - r, unless that wraps: a choice without a branch
     }
 }
 

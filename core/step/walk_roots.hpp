@@ -1,13 +1,15 @@
 // The steps of a slow stretch in closed form: the tick of step k is a root of a quadratic, whatever the distance.
 //
 // Step k is the first tick n with w*n + a*n^2/2 >= g, where w = u - a/2 and g = k - phase, in steps. Its seed is
-// floor(x) + 1 with x = 2g / (w + sqrt(w^2 + 2ag)) in floating point; the exact registers at the seed then say whether
-// it is the tick, and if not, on which side the tick lies. No seed depends on another, so the processor overlaps them.
+// floor(x) + 1, where x is the root in floating point: with s = sqrt(w^2 + 2ag), x = (s - w) / a, or, where the motion
+// is all but straight, x = 2g / (w + s). The exact registers at the seed then say whether it is the tick, and if not,
+// on which side the tick lies. No seed depends on another, so several are found at a time.
 //
-// Why the wrapping registers suffice: with g below 2^42 the position at x is within 2^-50 * g < 2^-8 step of g. So the
-// seed's own position lies between g - 2^-8 and g + 2^-8 + speed, where the speed is at most 1/2: a carry at the seed
-// can only be that of step k; a seed too early leaves a phase near 1, one too late a phase of little more than 1/2 at
-// most.
+// Why the wrapping registers suffice: in its rounding errors, the position at x is within 2^-8 step of g. Sketch, with
+// e = 2^-52, speeds <= 1/2 and ticks <= 2^42: where |w| < 2^40 |a| an error of e in s^2 moves it by e * s^2 / 2|a|
+// and one of e in s - w by e * s * s/|a|, and s/|a| is below 2^43; else the quotient's error moves it by e * g, and g
+// is below 2^42. So the seed's own position lies between g - 2^-8 and g + 2^-8 + speed: a carry at the seed can only be
+// that of step k; a seed too early leaves a phase near 1, one too late a phase of little more than 1/2 at most.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,8 @@ public:
     static constexpr std::size_t kSlack = 32;  // lanes of the longest vectors there are
 
     EdgeBuffer() = default;
-    explicit EdgeBuffer(std::span<std::int64_t> room) : room_(room), capacity_(room.size() - kSlack) {}
+    explicit EdgeBuffer(std::span<std::int64_t> room)
+        : room_(room), capacity_(room.size() > kSlack ? room.size() - kSlack : 0) {}
 
     std::size_t size() const { return size_; }
     void clear() { size_ = 0; }

@@ -27,10 +27,10 @@ constexpr Integers kIntegers;
 /// StepSeed::batch for the steps whose distances are g.
 HWY_INLINE HWY_ATTR WordVec seeds_at(const StepSeed& seed, DoubleVec g) {
     const auto w = hn::Set(kDoubles, seed.w);
-    const auto a = hn::Set(kDoubles, seed.a);
-    const auto square = hn::MulAdd(hn::Add(a, a), g, hn::Mul(w, w));
+    const auto square = hn::MulAdd(hn::Set(kDoubles, 2.0 * seed.a), g, hn::Mul(w, w));
     const auto s = hn::Sqrt(hn::Max(square, hn::Zero(kDoubles)));
-    const auto x = seed.w >= 0.0 ? hn::Div(hn::Add(g, g), hn::Add(w, s)) : hn::Div(hn::Sub(s, w), a);
+    const auto x =
+        seed.curved ? hn::Mul(hn::Sub(s, w), hn::Set(kDoubles, seed.inverse_a)) : hn::Div(hn::Add(g, g), hn::Add(w, s));
     const auto whole = hn::ConvertTo(kIntegers, hn::Min(x, hn::Set(kDoubles, seed.last)));
     return hn::Add(hn::BitCast(kWords, whole), hn::Set(kWords, 1));
 }
