@@ -1,5 +1,7 @@
 #include "services/axis/axis_node.hpp"
 
+#include <utility>
+
 namespace lockstep {
 
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
@@ -24,34 +26,38 @@ AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step
     look(now);
     AxisOutputs out = controller_.step({.now = now,
                                         .device = status_,
-                                        .device_failed = !trouble_.empty(),
+                                        .device_failed = std::exchange(failed_, false),
                                         .frames = mail.frames,
                                         .peers = mail.peers,
                                         .coordinator = mail.coordinator,
                                         .commands = mail.commands});
     give(out.orders);
     if (device_.simulated) { device_.simulated->advance(now); }
-    if (const auto drained = driver_.drain_capture(on_step); !drained) { trouble_ = drained.error(); }
+    if (const auto drained = driver_.drain_capture(on_step); !drained) { note(drained.error()); }
     return out;
 }
 
 void AxisNode::look(Tick now) {
     const auto status = driver_.read();
     if (!status) {
-        trouble_ = status.error();
-        return;
+        return note(status.error());
     }
     if (status->now != status_.now || clock_moved_ == Tick{}) { clock_moved_ = now; }
     if (now - clock_moved_ > longest_standstill_) {
-        trouble_ = "the device's clock has stood at tick " + std::to_string(status->now.value) + " for " +
-                   std::to_string((now - clock_moved_).value) + " ticks; is its process, or its board, still running?";
+        note("the device's clock stands still at tick " + std::to_string(status->now.value) +
+             "; is its process, or its board, still running?");
     }
     status_ = *status;
 }
 
+void AxisNode::note(std::string trouble) {
+    trouble_ = std::move(trouble);
+    failed_ = true;
+}
+
 void AxisNode::give(const std::vector<DeviceOrder>& orders) {
     for (const DeviceOrder& order : orders) {
-        if (const auto given = driver_.apply(order); !given) { trouble_ = given.error(); }
+        if (const auto given = driver_.apply(order); !given) { note(given.error()); }
     }
 }
 

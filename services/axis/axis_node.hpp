@@ -45,9 +45,10 @@ public:
     static std::expected<AxisNode, std::string> attach(const Setup& setup, AxisDevice device);
 
     /// One loop at `now`: lets a simulated device run up to it, decides, and gives the device its orders. Every step
-    /// made since the last loop goes to on_step, in order. Trouble with the device is in `trouble()`, and a fault.
+    /// made since the last loop goes to on_step, in order. Trouble with the device becomes a fault.
     AxisOutputs step(Tick now, const AxisMail& mail, const OnStep& on_step);
 
+    /// What was last wrong with the device; empty: nothing ever was.
     const std::string& trouble() const { return trouble_; }
     const AxisController& controller() const { return controller_; }
     SimulatedDevice* simulated() { return device_.simulated.get(); }
@@ -55,6 +56,7 @@ public:
 private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
     void look(Tick now);
+    void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
     AxisDevice device_;
@@ -64,6 +66,7 @@ private:
     Tick clock_moved_;          // when the device's clock was last seen to go on
     Ticks longest_standstill_;  // of it: a device that is late looks the same for a while
     std::string trouble_;
+    bool failed_ = false;       // since the controller was last told
 };
 
 }  // namespace lockstep

@@ -86,7 +86,10 @@ private:
             log_warning(std::to_string(refused) + " messages refused so far: " + bus_.frames.refusals().last + " " +
                         bus_.states.refusals().last);
         }
-        if (!node_.trouble().empty()) { log_event(spdlog::level::err, FaultCode::DeviceFault, node_.trouble()); }
+        if (node_.trouble() != trouble_) {
+            trouble_ = node_.trouble();
+            log_event(spdlog::level::err, FaultCode::DeviceFault, trouble_);
+        }
     }
 
     AxisNode::Setup setup_;
@@ -102,6 +105,7 @@ private:
     Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
+    std::string trouble_;
     bool doubled_ = false;
 };
 
