@@ -1,0 +1,154 @@
+#include "clients/lockstep/live/bring_up.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "clients/lockstep/live/supervisor.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/log.hpp"
+#include "services/runtime/multicast.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kUpPatience = 20s;
+constexpr std::size_t kTailLines = 6;
+
+void route_multicast(const NetworkConfig& network, Voice& voice) {
+    if (network.interface == "lo") {
+        if (const auto route = ensure_loopback_multicast(); !route) { voice.warn(route.error()); }
+    }
+    if (const auto may = check_multicast(network); !may) { voice.warn("nothing is recorded: " + may.error()); }
+}
+
+std::expected<void, Failure> check_programs(const std::vector<ServiceLine>& lines) {
+    for (const ServiceLine& line : lines) {
+        if (access(line.words[0].c_str(), X_OK) == 0) { continue; }
+        return std::unexpected(failed("cannot execute " + line.words[0] + "; install it beside the lockstep command"));
+    }
+    return {};
+}
+
+std::string names_of(const std::vector<ProcessRecord>& processes) {
+    std::string names;
+    for (const ProcessRecord& process : processes) { names += (names.empty() ? "" : ", ") + process.name; }
+    return names;
+}
+
+std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDirectory& state) {
+    const std::string name = "machine '" + machine.config.name + "'";
+    if (const auto running = state.running(); !running.empty()) {
+        return std::unexpected(failed(name + " is up already (" + names_of(running) + "); see: lockstep status, lockstep down"));
+    }
+    if (auto made = state.make(); !made) { return std::unexpected(failed(made.error())); }
+    if (!state.lock()) { return std::unexpected(failed(name + " is being started by another lockstep up; see: lockstep status")); }
+    state.remove_logs();
+    if (auto written = state.write_machine_file(machine_text(machine.config)); !written) {
+        return std::unexpected(failed(written.error()));
+    }
+    return {};
+}
+
+/// The process that never returns to its caller's terminal.
+[[noreturn]] void be_supervisor(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+    setsid();
+    const int log = open(state.log_file(kSupervisor).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    supervise(state, lines);
+    _exit(0);
+}
+
+std::string with_log(const std::string& what, const std::string& process, const StateDirectory& state) {
+    const std::string tail = tail_of(state.log_file(process), kTailLines);
+    const std::string log = state.log_file(process).string();
+    return what + (tail.empty() ? "; its log " + log + " is empty" : "; the end of its log " + log + ":\n" + tail);
+}
+
+/// A process that is given up, or was not started by this up; nothing while all may still be well.
+std::optional<std::string> trouble(const Session& session, const StateDirectory& state, nanoseconds since) {
+    const auto recorded = state.recorded();
+    for (const ProcessRecord& process : recorded) {
+        if (process.pid == 0) { return with_log(process.name + " ended and is not started again", process.name, state); }
+    }
+    if (!recorded.empty() && !is_running(recorded.front())) { return with_log("the supervisor ended", kSupervisor, state); }
+    const MachineConfig& machine = session.config();
+    const auto is_older = [&](Identity start_ns) { return start_ns < static_cast<Identity>(since.count()); };
+    const auto foreign = [&](const std::string& who) {
+        return who + " of machine '" + machine.name + "' runs already, started by other means; end it first";
+    };
+    const auto tick_ns = static_cast<Identity>(machine.tick_ns);
+    if (session.state() && is_older((session.state()->state.coordinator + 1) * tick_ns)) { return foreign("a coordinator"); }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (session.axis(i) && is_older(session.axis(i)->state.identity)) { return foreign("axis " + machine.axes[i].name); }
+    }
+    return std::nullopt;
+}
+
+bool is_up(const Session& session) {
+    if (!session.state()) { return false; }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        if (!session.axis_present(i) || (session.state()->state.axes_present >> i & 1) == 0) { return false; }
+    }
+    const MachinePhase phase = session.state()->state.phase;
+    return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
+}
+
+Failure missing(const Session& session, const StateDirectory& state) {
+    if (!session.state()) { return failed(with_log("the coordinator is not heard", "coordinator", state)); }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const std::string& name = session.config().axes[i].name;
+        if ((session.state()->state.axes_present >> i & 1) == 0) {
+            return failed(with_log("axis " + name + " is not heard", "axis-" + name, state));
+        }
+    }
+    return failed(with_log("the machine does not become idle", "coordinator", state));
+}
+
+}  // namespace
+
+std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, FpgaKind fpga,
+                                                         const StateDirectory& state, Voice& voice) {
+    std::error_code error;
+    const auto programs = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    const auto lines = service_lines(machine.config, fpga, programs, state);
+    if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
+    if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
+    route_multicast(machine.config.network, voice);
+    return lines;
+}
+
+void supervise(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+    (void)open_log({kSupervisor, ""});  // to standard error, which cannot fail
+    Supervisor(state, lines).run();
+}
+
+std::expected<void, Failure> supervise_in_background(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+    const pid_t pid = fork();
+    if (pid < 0) { return std::unexpected(failed("cannot start the supervisor: no more processes")); }
+    if (pid == 0) { be_supervisor(state, lines); }
+    return {};
+}
+
+std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const StateDirectory& state,
+                                              nanoseconds since) {
+    auto session = Session::join(machine);
+    if (!session) { return session; }
+    while (!is_up(*session)) {
+        if (const auto what = trouble(*session, state, since)) { return std::unexpected(failed(*what)); }
+        if (monotonic_now() - since > kUpPatience) { return std::unexpected(missing(*session, state)); }
+        session->listen(100ms);
+    }
+    if (const auto what = trouble(*session, state, since)) { return std::unexpected(failed(*what)); }
+    return session;
+}
+
+}  // namespace lockstep

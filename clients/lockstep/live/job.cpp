@@ -1,0 +1,209 @@
+#include "clients/lockstep/live/job.hpp"
+
+#include <algorithm>
+
+#include "clients/lockstep/live/job_verdict.hpp"
+#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/status_text.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "core/coordinator/program_plan.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kGlance = 100ms;           // how soon a signal is noticed
+constexpr nanoseconds kFinalStatePatience = 1s;  // for the axes' word of where they came to rest
+
+/// Waits for a job's end, and tells what happens meanwhile.
+class JobWatch {
+public:
+    JobWatch(Session& session, const Job& job, std::uint64_t number, Voice& voice, const StopSignal& stop)
+        : session_(session), job_(job), number_(number), voice_(voice), stop_(stop), asked_(session.state()->state.coordinator) {}
+
+    /// Error: the coordinator fell silent.
+    std::expected<JobVerdict, Failure> wait() {
+        for (;;) {
+            session_.listen(kGlance);
+            if (session_.is_silent()) { return std::unexpected(silent()); }
+            const MachineState& state = session_.state()->state;
+            const JobVerdict verdict = judge(state, number_, asked_);
+            if (verdict != JobVerdict::InProgress) { return verdict; }
+            if (stop_.requested() && !stop_sent_) {
+                if (auto sent = send_stop(); !sent) { return std::unexpected(sent.error()); }
+            }
+            if (state.job == number_) { tell(state); }
+        }
+    }
+
+private:
+    Failure silent() const {
+        Failure failure = session_.silent();
+        failure.errors.front().message = "the coordinator fell silent; the axes come to rest on the path by themselves. " +
+                                         failure.errors.front().message;
+        return failure;
+    }
+
+    std::expected<void, Failure> send_stop() {
+        stop_sent_ = true;
+        voice_.say("stopping on the path ...");
+        const auto reply = session_.command(CommandKind::Stop);
+        if (!reply) { return std::unexpected(reply.error()); }
+        if (reply->status == ReplyStatus::Refused) {
+            return std::unexpected(failed("the stop was refused: " + reply->text +
+                                          "; the machine goes on; to stop it at once: lockstep estop"));
+        }
+        return {};
+    }
+
+    void tell(const MachineState& state) {
+        if (state.line > 0) { line_ = state.line; }
+        const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+        if (rests && state.phase != told_) {
+            const std::string where = line_ > 0 ? " after line " + std::to_string(line_) : "";
+            voice_.say((state.phase == MachinePhase::Paused ? "paused" : "held") + where +
+                       ": go on with lockstep resume, or end it with lockstep stop");
+        }
+        told_ = state.phase;
+        if (rests) { return; }
+        const proto::StatusReport status = status_report(session_);
+        voice_.progress(job_.command == CommandKind::Home ? homing_text(status)
+                        : voice_.is_terminal()            ? progress_bar(status)
+                                                          : progress_text(status));
+    }
+
+    Session& session_;
+    const Job& job_;
+    std::uint64_t number_;
+    Voice& voice_;
+    const StopSignal& stop_;
+    Identity asked_;
+    bool stop_sent_ = false;
+    std::int32_t line_ = 0;
+    std::optional<MachinePhase> told_;
+};
+
+std::string outcome_name(JobVerdict verdict) {
+    switch (verdict) {
+        case JobVerdict::Done: return "done";
+        case JobVerdict::Stopped: return "stopped";
+        case JobVerdict::Failed: return "failed";
+        case JobVerdict::InProgress: return "begun";
+        case JobVerdict::Lost: break;
+    }
+    return "lost";
+}
+
+/// The axes' states reach a client by themselves: waits for ones said after the job's end.
+void add_final_positions(Session& session, proto::RunReport& report) {
+    const nanoseconds end = monotonic_now();
+    const MachineConfig& machine = session.config();
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const auto rests = [&] { return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest; };
+        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.listen(10ms); }
+        if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
+    }
+}
+
+std::string title(const Job& job) { return job.name.empty() || job.name == job.kind ? job.kind : job.kind + " " + job.name; }
+
+void say_end(const Job& job, const proto::RunReport& report, Voice& voice) {
+    const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
+    voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; at " + places_text(report), 80, "  "));
+    if (report.has_fault()) { voice.say(fault_text(report.fault())); }
+    if (report.outcome() == "stopped") { voice.say("stopped on the path; the rest of the job is dropped"); }
+    if (report.outcome() == "lost") { voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status"); }
+}
+
+ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Voice& voice) {
+    report.set_outcome("refused");
+    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    voice.report(report);
+    voice.say(title(job) + ": refused: " + reply.text);
+    voice.say(fault_text(report.fault()));
+    return kExitFailed;
+}
+
+proto::RunReport new_report(const Job& job) {
+    proto::RunReport report;
+    report.set_kind(job.kind);
+    report.set_name(job.name);
+    if (job.planned_s) { report.set_planned_s(*job.planned_s); }
+    return report;
+}
+
+std::expected<Reply, Failure> begin(Session& session, const Job& job) {
+    std::uint64_t program = 0;
+    if (job.program) {
+        const auto sent = session.send(*job.program);
+        if (!sent) { return std::unexpected(sent.error()); }
+        program = *sent;
+    }
+    return session.command(job.command, job.axes, program);
+}
+
+ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {
+    report.set_outcome(outcome_name(verdict));
+    if (verdict == JobVerdict::Failed) {
+        if (auto fault = fault_of(session.state()->state, session.config())) { *report.mutable_fault() = *std::move(fault); }
+    }
+    if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
+    voice.report(report);
+    if (verdict == JobVerdict::InProgress) {
+        voice.say(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep status --watch");
+        return kExitDone;
+    }
+    say_end(job, report, voice);
+    return verdict == JobVerdict::Done ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+ExitCode run_job(Session& session, const Job& job, Voice& voice) {
+    if (session.config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    const StopSignal stop;
+    proto::RunReport report = new_report(job);
+    const auto reply = begin(session, job);
+    if (!reply) { return voice.fail(reply.error()); }
+    if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, voice); }
+    report.set_job(reply->job);
+    if (job.detach) { return end(session, job, JobVerdict::InProgress, report, voice); }
+    const nanoseconds begun = monotonic_now();
+    const auto verdict = JobWatch(session, job, reply->job, voice, stop).wait();
+    if (!verdict) { return voice.fail(verdict.error()); }
+    report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
+    return end(session, job, *verdict, report, voice);
+}
+
+std::expected<std::vector<double>, Failure> start_places(Session& session) {
+    if (auto reached = session.reach_axes(); !reached) { return std::unexpected(reached.error()); }
+    std::vector<double> start_mm;
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const auto count = static_cast<double>(session.axis(i)->state.position.count());
+        start_mm.push_back(to_mm(session.config().axes[i], count));
+    }
+    return start_mm;
+}
+
+std::expected<double, Failure> planned_seconds(const MachineConfig& machine, const Program& program,
+                                               const std::vector<double>& start_mm) {
+    AxisCounts start;
+    for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
+    const ProgramPlanner planner(machine);
+    auto legs = planner.plan(program, start);
+    if (!legs) {
+        return std::unexpected(bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
+    }
+    double ticks = 0;
+    for (Leg& leg : *legs) {
+        if (leg.moves.empty()) { continue; }
+        ticks += static_cast<double>(planner.path(std::move(leg.moves), {}).duration().value) / kSubticksPerTick;
+    }
+    return ticks / machine.ticks_per_second();
+}
+
+}  // namespace lockstep

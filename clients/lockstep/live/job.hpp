@@ -1,0 +1,33 @@
+// A job from the command that begins it to its end: what home, move and run have in common.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+struct Job {
+    CommandKind command = CommandKind::Run;
+    std::string kind;                      // "home", "move", "run"
+    std::string name;                      // of the program
+    std::uint32_t axes = 0;                // home: bit i for axis i; 0: all
+    std::optional<Program> program = {};   // move, run
+    std::optional<double> planned_s = {};
+    bool detach = false;                   // ends when the job has begun
+};
+
+/// Begins it, shows its progress, waits for its end, reports. SIGINT and SIGTERM stop the machine on its path first.
+ExitCode run_job(Session& session, const Job& job, Voice& voice);
+
+/// Where every axis stands, in mm and to the step. Error: an axis is not heard.
+std::expected<std::vector<double>, Failure> start_places(Session& session);
+
+/// How long a program takes from there, s. Error: why it cannot be planned.
+std::expected<double, Failure> planned_seconds(const MachineConfig& machine, const Program& program,
+                                               const std::vector<double>& start_mm);
+
+}  // namespace lockstep

@@ -1,0 +1,28 @@
+// How a job stands, from what the coordinator says once a slot. Pure.
+#pragma once
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+enum class JobVerdict {
+    InProgress,
+    Done,
+    Stopped,
+    Failed,
+    Lost,  // the coordinator was started anew, or went on to another job: how this one ended is not known
+};
+
+/// `job`: as the reply named it, by the coordinator `asked`.
+constexpr JobVerdict judge(const MachineState& state, std::uint64_t job, Identity asked) {
+    if (state.coordinator != asked || state.job > job) { return JobVerdict::Lost; }
+    if (state.job < job || !state.outcome) { return JobVerdict::InProgress; }  // fewer jobs: said before the reply
+    switch (*state.outcome) {
+        case JobOutcome::Done: return JobVerdict::Done;
+        case JobOutcome::Stopped: return JobVerdict::Stopped;
+        case JobOutcome::Failed: break;
+    }
+    return JobVerdict::Failed;
+}
+
+}  // namespace lockstep

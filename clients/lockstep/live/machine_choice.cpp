@@ -1,0 +1,44 @@
+#include "clients/lockstep/live/machine_choice.hpp"
+
+#include <cstdlib>
+
+#include "clients/lockstep/live/state_directory.hpp"
+#include "services/documents/machine_file.hpp"
+
+namespace lockstep {
+
+void add_live_options(CLI::App& verb, LiveOptions& options) {
+    verb.add_option("--machine", options.machine_file,
+                    "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host");
+    verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
+}
+
+std::string footer(const std::string& examples) {
+    return "Examples:\n" + examples +
+           "Exit codes: 0 done, 1 failed or refused, 2 bad usage or input (nothing was done), 3 machine not reachable";
+}
+
+std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
+                                                          const std::vector<std::filesystem::path>& up) {
+    if (!option.empty()) { return option; }
+    if (environment != nullptr && *environment != '\0') { return environment; }
+    if (up.size() == 1) { return up.front(); }
+    constexpr const char* kHow = "say which: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
+    if (up.empty()) { return std::unexpected(bad_input("no machine is named and none is up on this host; " + std::string(kHow))); }
+    std::string names;
+    for (const auto& file : up) { names += (names.empty() ? "" : ", ") + file.parent_path().filename().string(); }
+    return std::unexpected(bad_input("several machines are up on this host (" + names + "); " + kHow));
+}
+
+std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) {
+    std::vector<std::filesystem::path> up;
+    for (const std::string& name : machines_up()) { up.push_back(StateDirectory(name).machine_file()); }
+    auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up);
+    if (!file) { return std::unexpected(file.error()); }
+    auto config = load_machine_file(*file);
+    if (!config) { return std::unexpected(bad_file(file->string(), config.error())); }
+    const std::uint64_t hash = config_hash(*config);
+    return ChosenMachine{*file, *std::move(config), hash};
+}
+
+}  // namespace lockstep

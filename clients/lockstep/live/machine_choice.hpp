@@ -1,0 +1,42 @@
+// Which machine a verb is about: --machine, else $LOCKSTEP_MACHINE, else the one that is up on this host.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/failure.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+/// What every verb that speaks to a machine takes.
+struct LiveOptions {
+    std::string machine_file;
+    bool json = false;
+};
+
+void add_live_options(CLI::App& verb, LiveOptions& options);
+
+/// Examples, one per line, then the exit codes.
+std::string footer(const std::string& examples);
+
+struct ChosenMachine {
+    std::filesystem::path file;
+    MachineConfig config;
+    std::uint64_t hash = 0;
+};
+
+/// Which file: pure, given what there is to choose from. `up`: configuration files of the machines that are up.
+/// Error: none or several are up; it says how to choose.
+std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
+                                                          const std::vector<std::filesystem::path>& up);
+
+/// Error: no machine chosen, or everything that is wrong with its file.
+std::expected<ChosenMachine, Failure> choose_machine(const std::string& option);
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// "X=10 Y=-3.5" becomes a program of one move. Pure.
+#pragma once
+
+#include <expected>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+struct AxisTarget {
+    std::string axis;
+    double mm = 0;
+};
+
+/// "X=-3.5". Error: what is wrong with it, and an example.
+std::expected<AxisTarget, std::string> parse_target(std::string_view word);
+
+struct MoveOptions {
+    std::vector<std::string> targets;        // "X=10"; absolute machine mm
+    std::optional<double> feed_mm_min = {};  // along the path; none: rapid
+    bool relative = false;                   // targets are from where each axis stands
+};
+
+/// From where the axes stand; those not named stay. Errors: an axis that the machine lacks or that is named twice, a
+/// place outside the travel, a feed out of range.
+std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                 const MoveOptions& options);
+
+/// The axis's place in the configuration; capitals do not matter. Error: the names there are.
+std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name);
+
+}  // namespace lockstep

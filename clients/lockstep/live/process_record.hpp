@@ -1,0 +1,36 @@
+// Processes as they are remembered in a file: by number and start time, so that a number given anew to another
+// process is never taken for the old one.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lockstep {
+
+struct ProcessRecord {
+    std::string name;         // "supervisor", "coordinator", "axis-X", "fpga-X"
+    pid_t pid = 0;            // 0: it ended, and is not started again
+    std::uint64_t start = 0;  // clock ticks after the host's start, as /proc says
+    bool operator==(const ProcessRecord&) const = default;
+};
+
+/// One line each; what is no record is left out on the way in.
+std::string to_text(const std::vector<ProcessRecord>& records);
+std::vector<ProcessRecord> records_from_text(std::string_view text);
+
+/// When a process started. Nothing where it is gone or only waits to be reaped.
+std::optional<std::uint64_t> start_of(pid_t pid);
+bool is_running(const ProcessRecord& record);
+
+/// Nothing happens where it has ended: a signal reaches the process of the record or none.
+void signal_process(const ProcessRecord& record, int signal);
+/// Sleeps until none of them runs. False: the time passed first.
+bool wait_until_gone(const std::vector<ProcessRecord>& records, std::chrono::milliseconds time);
+
+}  // namespace lockstep

@@ -1,0 +1,24 @@
+// The processes a machine on one host consists of, and the command line of each. Pure.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "clients/lockstep/live/state_directory.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+enum class FpgaKind { Sim, Shared };  // in the axis's process; in a process of its own, on shared memory
+
+struct ServiceLine {
+    std::string name;                // as in the record of processes
+    std::vector<std::string> words;  // the program's path and its arguments
+};
+
+/// Devices first: an axis attaches to its own. `programs`: the directory of the services' executables.
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga, const std::filesystem::path& programs,
+                                       const StateDirectory& state);
+
+}  // namespace lockstep

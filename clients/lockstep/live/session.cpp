@@ -1,0 +1,150 @@
+#include "clients/lockstep/live/session.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "clients/lockstep/live/chunked_program.hpp"
+#include "core/protocol/rules.hpp"
+#include "services/documents/program_document.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kRepeatCommandAfter = 250ms;
+constexpr nanoseconds kAnswerPatience = 3s;
+constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that reads or plans a large program answers late
+
+static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
+
+Identity new_identity() {
+    std::random_device source;
+    return Identity{source()} << 32 | source();
+}
+
+}  // namespace
+
+Session::Session(const ChosenMachine& machine, ClientBus bus)
+    : machine_(machine), bus_(std::move(bus)), client_(new_identity()), axes_(machine.config.axes.size()) {}
+
+std::expected<Session, Failure> Session::join(const ChosenMachine& machine) {
+    auto bus = open_bus<ClientBus>(machine.config.network, machine.config.name);
+    if (!bus) { return std::unexpected(unreachable(bus.error())); }
+    return Session(machine, std::move(*bus));
+}
+
+std::expected<Session, Failure> Session::open(const ChosenMachine& machine) {
+    auto session = join(machine);
+    if (!session) { return session; }
+    if (auto reached = session->reach(); !reached) { return std::unexpected(reached.error()); }
+    return session;
+}
+
+std::expected<void, Failure> Session::reach(nanoseconds patience) {
+    const nanoseconds deadline = monotonic_now() + patience;
+    while (!state_ || bus_.commands.matched() == 0 || bus_.chunks.matched() == 0 || bus_.replies.matched() == 0) {
+        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
+        listen(50ms);
+    }
+    return {};
+}
+
+std::expected<void, Failure> Session::reach_axes(nanoseconds patience) {
+    const nanoseconds deadline = monotonic_now() + patience;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        while (!axis_present(i)) {
+            if (monotonic_now() > deadline) {
+                return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
+                                                   "' is not heard; start its lockstep-axis, or see its log"));
+            }
+            listen(50ms);
+        }
+    }
+    return {};
+}
+
+void Session::listen(nanoseconds at_most) {
+    (void)bus_.arrivals->wait_for(at_most);
+    take();
+}
+
+void Session::take() {
+    const nanoseconds now = monotonic_now();
+    bus_.machine.take([&](MachineState&& state) {
+        // Where two speak, the later one gives way; one that has fallen silent was replaced.
+        const bool is_other = state_ && state.coordinator > state_->state.coordinator;
+        if (!is_other || now - state_->time > 1s) { state_ = {state, now}; }
+    });
+    bus_.states.take([&](AxisState&& state) {
+        if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
+    });
+    bus_.replies.take([&](Reply&& reply) {
+        if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }
+    });
+}
+
+nanoseconds Session::longest_silence() const {
+    const ProtocolTiming& timing = config().timing;
+    return std::max<nanoseconds>(1s, std::chrono::microseconds{rules::silence_slots(timing) * timing.slot_us});
+}
+
+bool Session::axis_present(std::size_t i) const {
+    return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
+}
+
+bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
+
+std::string Session::whereabouts() const {
+    return "machine '" + config().name + "' answers on interface " + config().network.interface + ", domain " +
+           std::to_string(config().network.domain);
+}
+
+Failure Session::silent() const {
+    const std::string start = "lockstep up --machine " + machine_.file.string();
+    std::string heard;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (axis_present(i)) { heard += (heard.empty() ? "" : ", ") + config().axes[i].name; }
+    }
+    const std::string none = "no coordinator of " + whereabouts();
+    if (heard.empty()) { return unreachable(none + ": is it up? " + start); }
+    return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " + start);
+}
+
+std::expected<Reply, Failure> Session::command(CommandKind kind, std::uint32_t axes, std::uint64_t program) {
+    const Command command{client_, ++sequence_, kind, axes, program};
+    const nanoseconds deadline = monotonic_now() + (program == 0 ? kAnswerPatience : kPlanPatience);
+    nanoseconds repeat_at{};
+    while (!replies_.contains(command.sequence)) {
+        const nanoseconds now = monotonic_now();
+        if (now > deadline) { return std::unexpected(silent()); }
+        if (now >= repeat_at) {
+            (void)bus_.commands.write(command);
+            repeat_at = now + kRepeatCommandAfter;
+        }
+        listen(50ms);
+    }
+    return replies_.extract(command.sequence).mapped();
+}
+
+std::expected<std::uint64_t, Failure> Session::send(const Program& program) {
+    const std::uint64_t id = new_identity() | 1;  // never 0, which says: none
+    ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program));
+    sequence_ += chunks.count();
+    nanoseconds deadline = monotonic_now() + kPlanPatience;
+    while (!chunks.done()) {
+        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
+        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)bus_.chunks.write(chunk); }
+        listen(50ms);
+        for (const auto& [sequence, reply] : std::exchange(replies_, {})) {
+            if (reply.status == ReplyStatus::Refused) { return std::unexpected(failed(reply.text)); }
+            chunks.take_answer(sequence);
+            deadline = monotonic_now() + kPlanPatience;
+        }
+    }
+    return id;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,76 @@
+// A client's conversation with a machine: what it hears of coordinator and axes, what it asks, and the answers.
+#pragma once
+
+#include <chrono>
+#include <expected>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/lockstep/live/failure.hpp"
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "core/program.hpp"
+#include "core/protocol/messages.hpp"
+#include "services/wire/bus.hpp"
+
+namespace lockstep {
+
+inline constexpr std::chrono::seconds kReachPatience{3};
+
+template <typename State>
+struct Heard {
+    State state;
+    std::chrono::nanoseconds time;  // CLOCK_MONOTONIC of this host
+};
+
+class Session {
+public:
+    /// On the machine's network; hears nobody yet. Error: DDS cannot be opened.
+    static std::expected<Session, Failure> join(const ChosenMachine& machine);
+    /// join, and reach.
+    static std::expected<Session, Failure> open(const ChosenMachine& machine);
+
+    /// Waits until a coordinator speaks and listens. Error: none does; who is heard at all, and what to do.
+    std::expected<void, Failure> reach(std::chrono::nanoseconds patience = kReachPatience);
+    /// Waits until every axis is heard. Error: who is not.
+    std::expected<void, Failure> reach_axes(std::chrono::nanoseconds patience = kReachPatience);
+
+    /// Sleeps until something comes, at most so long, and takes it.
+    void listen(std::chrono::nanoseconds at_most);
+
+    const MachineConfig& config() const { return machine_.config; }
+    /// Of another configuration than the client's: its places and limits are not to be relied on.
+    bool config_differs() const { return state_ && state_->state.config_hash != machine_.hash; }
+
+    /// The newest heard; nothing before the first.
+    const std::optional<Heard<MachineState>>& state() const { return state_; }
+    const std::optional<Heard<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
+    /// Whether it was heard within the time after which the machine counts it as gone.
+    bool axis_present(std::size_t i) const;
+    /// No state of the coordinator for longer than any stall that the machine's timing allows.
+    bool is_silent() const;
+    Failure silent() const;
+
+    /// Asks until the answer comes. Error: none comes.
+    std::expected<Reply, Failure> command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0);
+    /// Sends a program; what it is called in a command. Error: it is refused, or no answer comes.
+    std::expected<std::uint64_t, Failure> send(const Program& program);
+
+private:
+    Session(const ChosenMachine& machine, ClientBus bus);
+
+    void take();
+    std::chrono::nanoseconds longest_silence() const;
+    std::string whereabouts() const;
+
+    ChosenMachine machine_;
+    ClientBus bus_;
+    Identity client_;
+    std::uint64_t sequence_ = 0;
+    std::optional<Heard<MachineState>> state_;
+    std::vector<std::optional<Heard<AxisState>>> axes_;
+    std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at
+};
+
+}  // namespace lockstep

@@ -1,0 +1,113 @@
+#include "clients/lockstep/live/state_directory.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <deque>
+#include <fstream>
+#include <iterator>
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path root() {
+    if (const char* set = std::getenv("LOCKSTEP_STATE"); set != nullptr && *set != '\0') { return fs::absolute(set); }
+    if (geteuid() == 0) { return "/run/lockstep"; }
+    if (const char* own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own != '\0') { return fs::path(own) / "lockstep"; }
+    return "/tmp/lockstep-" + std::to_string(geteuid());
+}
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Whole or not at all.
+bool replace_file(const fs::path& path, const std::string& text) {
+    const fs::path fresh = path.string() + ".new";
+    const bool is_written = static_cast<bool>(std::ofstream(fresh, std::ios::binary) << text << std::flush);
+    std::error_code error;
+    if (is_written) { fs::rename(fresh, path, error); }
+    return is_written && !error;
+}
+
+}  // namespace
+
+StateDirectory::StateDirectory(const std::string& machine) : path_(root() / machine) {}
+
+std::expected<void, std::string> StateDirectory::make() const {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (!error && access(path_.c_str(), W_OK) != 0) { error = std::error_code(errno, std::generic_category()); }
+    if (error) {
+        return std::unexpected("cannot use the state directory " + path_.string() + ": " + error.message() +
+                               "; set LOCKSTEP_STATE to a directory of your own");
+    }
+    return {};
+}
+
+void StateDirectory::remove_logs() const {
+    std::error_code error;
+    std::vector<fs::path> logs;
+    for (const auto& entry : fs::directory_iterator(path_, error)) {
+        if (entry.path().extension() == ".log") { logs.push_back(entry.path()); }
+    }
+    for (const fs::path& log : logs) { fs::remove(log, error); }
+}
+
+bool StateDirectory::lock() const {
+    const int file = open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
+    return file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
+}
+
+std::expected<void, std::string> StateDirectory::write_machine_file(const std::string& text) const {
+    if (replace_file(machine_file(), text)) { return {}; }
+    return std::unexpected("cannot write " + machine_file().string() + "; is there space on its disk?");
+}
+
+void StateDirectory::record(const std::vector<ProcessRecord>& processes) const {
+    (void)replace_file(processes_file(), to_text(processes));
+}
+
+std::vector<ProcessRecord> StateDirectory::recorded() const { return records_from_text(text_of(processes_file())); }
+
+std::vector<ProcessRecord> StateDirectory::running() const {
+    std::vector<ProcessRecord> records = recorded();
+    std::erase_if(records, [](const ProcessRecord& record) { return !is_running(record); });
+    return records;
+}
+
+void StateDirectory::forget_processes() const {
+    std::error_code error;
+    fs::remove(processes_file(), error);
+}
+
+std::vector<std::string> machines_up() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(root(), error)) {
+        const std::string name = entry.path().filename().string();
+        if (!StateDirectory(name).running().empty()) { names.push_back(name); }
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+std::string tail_of(const fs::path& path, std::size_t lines) {
+    std::ifstream file(path);
+    std::deque<std::string> kept;
+    for (std::string line; std::getline(file, line);) {
+        kept.push_back(line);
+        if (kept.size() > lines) { kept.pop_front(); }
+    }
+    std::string text;
+    for (const std::string& line : kept) { text += "    " + line + "\n"; }
+    return text;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,22 @@
+// A machine's status and a job's progress as text for a person, within 80 columns. Pure.
+#pragma once
+
+#include <string>
+
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+
+/// A block of lines: the machine, a table of the axes, the faults with what to do.
+std::string status_text(const proto::StatusReport& status);
+
+/// One line: "[######              ]  30 %  line 12  4.2 s left".
+std::string progress_bar(const proto::StatusReport& status);
+/// One line without the bar: "Running: 30 %, line 12, 4.2 s left".
+std::string progress_text(const proto::StatusReport& status);
+/// One line: "X 12.000 homed   Y 3.250 Initialize".
+std::string homing_text(const proto::StatusReport& status);
+/// "X 12.000  Y 3.250", of final positions.
+std::string places_text(const proto::RunReport& report);
+
+}  // namespace lockstep

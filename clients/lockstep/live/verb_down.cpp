@@ -1,0 +1,73 @@
+// lockstep down
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/state_directory.hpp"
+#include "clients/lockstep/live/take_down.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "idl/proto/report.pb.h"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kRestPatience = 10s;
+
+/// A machine in motion comes to rest on its path first. One that does not answer is taken down as it is.
+void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
+    auto session = Session::join(machine);
+    if (!session || !session->reach(1s)) { return; }
+    const auto moves = [&] {
+        const MachinePhase phase = session->state()->state.phase;
+        return phase == MachinePhase::Running || phase == MachinePhase::Stopping;
+    };
+    if (!moves()) { return; }
+    voice.say("stopping on the path ...");
+    if (!session->command(CommandKind::Stop)) { return; }
+    const auto deadline = monotonic_now() + kRestPatience;
+    while (moves() && monotonic_now() < deadline) { session->listen(50ms); }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) { text += (text.empty() ? "" : ", ") + name; }
+    return text;
+}
+
+ExitCode say_done(const std::string& text, Voice& voice) {
+    proto::CommandReport report;
+    report.set_accepted(true);
+    report.set_text(text);
+    voice.report(report);
+    voice.say(text);
+    return kExitDone;
+}
+
+ExitCode down(const LiveOptions& options) {
+    Voice voice(options.json);
+    const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
+    if (!is_named && machines_up().empty()) { return say_done("nothing is up", voice); }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    const StateDirectory state(machine->config.name);
+    if (state.running().empty()) { return say_done("nothing of machine '" + machine->config.name + "' is up", voice); }
+    bring_to_rest(*machine, voice);
+    const TakenDown taken = take_down(state);
+    if (taken.left.empty()) { return say_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), voice); }
+    return voice.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name + "'; see " +
+                             state.path().string() + "/processes"));
+}
+
+}  // namespace
+
+void add_down(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("down", "stop the machine on its path if it moves, then end its processes on this host");
+    const auto options = std::make_shared<LiveOptions>();
+    add_live_options(*verb, *options);
+    verb->footer("Where nothing is up there is nothing to do: it says so, and that is done.\n" + footer("  lockstep down\n"));
+    verb->callback([&action, options] { action = [options] { return down(*options); }; });
+}
+
+}  // namespace lockstep

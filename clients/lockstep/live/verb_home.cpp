@@ -1,0 +1,46 @@
+// lockstep home
+#include "clients/lockstep/live/job.hpp"
+#include "clients/lockstep/live/move_program.hpp"
+#include "clients/lockstep/verb.hpp"
+
+namespace lockstep {
+namespace {
+
+struct HomeOptions : LiveOptions {
+    std::vector<std::string> axes;
+};
+
+/// Bit i for axis i; 0 where none is named.
+std::expected<std::uint32_t, Failure> axes_of(const MachineConfig& machine, const std::vector<std::string>& names) {
+    std::uint32_t axes = 0;
+    for (const std::string& name : names) {
+        const auto axis = find_axis(machine, name);
+        if (!axis) { return std::unexpected(bad_input(axis.error())); }
+        axes |= std::uint32_t{1} << *axis;
+    }
+    return axes;
+}
+
+ExitCode home(const HomeOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    const auto axes = axes_of(machine->config, options.axes);
+    if (!axes) { return voice.fail(axes.error()); }
+    auto session = Session::open(*machine);
+    if (!session) { return voice.fail(session.error()); }
+    return run_job(*session, {.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes}, voice);
+}
+
+}  // namespace
+
+void add_home(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("home", "find the zero of all axes, or of those named, by their home switches");
+    const auto options = std::make_shared<HomeOptions>();
+    verb->add_option("axes", options->axes, "the axes' names; all where none is named");
+    add_live_options(*verb, *options);
+    verb->footer(footer("  lockstep home\n  lockstep home X Y\n"));
+    verb->callback([&action, options] { action = [options] { return home(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,94 @@
+// lockstep hold, resume, stop, estop, reset
+#include <array>
+
+#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Interrupt {
+    const char* name;
+    CommandKind command;
+    const char* what;
+    bool (*is_settled)(MachinePhase);  // what the verb waits for, once accepted
+    const char* then;                  // what a person may do next
+};
+
+bool is_at_rest(MachinePhase phase) { return phase != MachinePhase::Running && phase != MachinePhase::Stopping; }
+bool is_ready(MachinePhase phase) { return phase == MachinePhase::Idle || phase == MachinePhase::Fault; }
+bool is_anything(MachinePhase) { return true; }
+
+constexpr std::array kInterrupts{
+    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed", is_at_rest,
+              "go on with: lockstep resume; end the job with: lockstep stop"},
+    Interrupt{"resume", CommandKind::Resume, "go on with a job that is held or paused", is_anything,
+              "watch it with: lockstep status --watch"},
+    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", is_at_rest, ""},
+    Interrupt{"estop", CommandKind::EmergencyStop, "cease all pulses at once; positions are kept, homing is suspect",
+              is_anything, "when it is safe: lockstep reset, lockstep home"},
+    Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", is_ready, ""},
+};
+
+constexpr std::chrono::seconds kSettlePatience{10};
+
+/// Waits for states said after the reply; a machine that takes longer is left to itself.
+void settle(Session& session, const Interrupt& interrupt) {
+    const auto replied = monotonic_now();
+    const auto is_settled = [&] {
+        const auto& heard = session.state();
+        const auto slot = std::chrono::microseconds{session.config().timing.slot_us};
+        return heard->time > replied + slot && interrupt.is_settled(heard->state.phase);
+    };
+    while (!is_settled() && monotonic_now() - replied < kSettlePatience) { session.listen(50ms); }
+}
+
+ExitCode say_refusal(const Reply& reply, proto::CommandReport& report, Voice& voice) {
+    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    report.set_text(reply.text);
+    voice.report(report);
+    voice.say("refused: " + reply.text);
+    voice.say(fault_text(report.fault()));
+    return kExitFailed;
+}
+
+ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrupt) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine);
+    if (!session) { return voice.fail(session.error()); }
+    const auto reply = session->command(interrupt.command);
+    if (!reply) { return voice.fail(reply.error()); }
+    proto::CommandReport report;
+    report.set_accepted(reply->status == ReplyStatus::Accepted);
+    if (!report.accepted()) { return say_refusal(*reply, report, voice); }
+    settle(*session, interrupt);
+    report.set_text("the machine is " + std::string(name_of(session->state()->state.phase)));
+    voice.report(report);
+    const std::string then = interrupt.then;
+    voice.say(std::string(interrupt.name) + ": accepted; " + report.text() + (then.empty() ? "" : "\n" + then));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_interrupts(CLI::App& app, Action& action) {
+    for (const Interrupt& interrupt : kInterrupts) {
+        CLI::App* verb = app.add_subcommand(interrupt.name, interrupt.what);
+        const auto options = std::make_shared<LiveOptions>();
+        add_live_options(*verb, *options);
+        verb->footer(footer(std::string("  lockstep ") + interrupt.name + "\n"));
+        verb->callback([&action, &interrupt, options] {
+            action = [&interrupt, options] { return interrupt_machine(*options, interrupt); };
+        });
+    }
+}
+
+}  // namespace lockstep

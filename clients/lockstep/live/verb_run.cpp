@@ -1,0 +1,65 @@
+// lockstep run
+#include "clients/lockstep/live/job.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "idl/proto/report.pb.h"
+#include "services/documents/program_file.hpp"
+#include "services/documents/text_file.hpp"
+
+namespace lockstep {
+namespace {
+
+struct RunOptions : LiveOptions {
+    std::string file;
+    GcodeSwitches switches;
+    bool dry_run = false;
+    bool detach = false;
+};
+
+ExitCode say_dry_run(const Job& job, Voice& voice) {
+    proto::RunReport report;
+    report.set_kind(job.kind);
+    report.set_name(job.name);
+    report.set_outcome("dry-run");
+    report.set_planned_s(*job.planned_s);
+    voice.report(report);
+    voice.say(job.name + ": would run " + std::to_string(job.program->blocks.size()) + " blocks in " +
+              duration_text(*job.planned_s) + " from where the machine stands; nothing was sent");
+    return kExitDone;
+}
+
+ExitCode run(const RunOptions& options) {
+    Voice voice(options.json);
+    if (const auto text = read_text_file(options.file); !text) { return voice.fail(bad_file(options.file, {text.error()})); }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine);
+    if (!session) { return voice.fail(session.error()); }
+    const auto start_mm = start_places(*session);
+    if (!start_mm) { return voice.fail(start_mm.error()); }
+    auto program = load_gcode_file(options.file, machine->config, *start_mm, options.switches);
+    if (!program) { return voice.fail(bad_file(options.file, program.error())); }
+    const auto planned_s = planned_seconds(machine->config, *program, *start_mm);
+    if (!planned_s) { return voice.fail(bad_file(options.file, planned_s.error().errors)); }
+    const Job job{.command = CommandKind::Run, .kind = "run", .name = program->name, .program = *std::move(program),
+                  .planned_s = *planned_s, .detach = options.detach};
+    return options.dry_run ? say_dry_run(job, voice) : run_job(*session, job, voice);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("run", "run a G-code file from where the machine stands, and wait for its end");
+    const auto options = std::make_shared<RunOptions>();
+    verb->add_option("file", options->file, "the G-code file")->required();
+    verb->add_flag("--dry-run", options->dry_run, "read, check and plan it for where the machine stands; move nothing");
+    verb->add_flag("--detach", options->detach, "return once it has begun");
+    verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
+    add_live_options(*verb, *options);
+    verb->footer("Ctrl-C stops the machine on its path and drops the rest of the program.\n" +
+                 footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
+                        "  lockstep run plate.gcode --json > report.json\n"));
+    verb->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lockstep

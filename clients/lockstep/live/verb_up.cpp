@@ -1,0 +1,65 @@
+// lockstep up
+#include "clients/lockstep/live/bring_up.hpp"
+#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/status_text.hpp"
+#include "clients/lockstep/live/take_down.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+struct UpOptions : LiveOptions {
+    FpgaKind fpga = FpgaKind::Sim;
+    bool foreground = false;
+};
+
+ExitCode say_up(const Session& session, const StateDirectory& state, Voice& voice) {
+    const proto::StatusReport report = status_report(session);
+    voice.report(report);
+    voice.say("machine '" + report.machine() + "' is up; logs in " + state.path().string());
+    voice.say(status_text(report) + (report.has_fault() ? "" : "next: lockstep home"));
+    return report.has_fault() ? kExitFailed : kExitDone;
+}
+
+ExitCode up(const UpOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    const StateDirectory state(machine->config.name);
+    const auto lines = prepare(*machine, options.fpga, state, voice);
+    if (!lines) { return voice.fail(lines.error()); }
+    if (options.foreground) {
+        supervise(state, *lines);
+        return kExitDone;
+    }
+    const auto since = monotonic_now();
+    if (auto begun = supervise_in_background(state, *lines); !begun) { return voice.fail(begun.error()); }
+    const auto session = wait_until_up(*machine, state, since);
+    if (session) { return say_up(*session, state, voice); }
+    (void)take_down(state);
+    Failure failure = session.error();
+    failure.errors.front().message += failure.errors.front().message.ends_with('\n') ? "" : "\n";
+    failure.errors.front().message += "machine '" + machine->config.name + "' is not up; what was started is ended again";
+    return voice.fail(failure);
+}
+
+}  // namespace
+
+void add_up(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("up", "start a machine's processes on this host, and wait until it is ready");
+    const auto options = std::make_shared<UpOptions>();
+    const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
+    verb->add_option("--fpga", options->fpga, "the devices: sim, in the axes' processes; shm, in processes of their own")
+        ->transform(CLI::CheckedTransformer(kinds))
+        ->default_str("sim");
+    verb->add_flag("--foreground", options->foreground, "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
+    add_live_options(*verb, *options);
+    verb->footer(
+        "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; where that is not set, in\n"
+        "/run/lockstep/MACHINE (root) or $XDG_RUNTIME_DIR/lockstep/MACHINE.\n" +
+        footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"));
+    verb->callback([&action, options] { action = [options] { return up(*options); }; });
+}
+
+}  // namespace lockstep

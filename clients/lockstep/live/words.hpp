@@ -1,0 +1,23 @@
+// Names of states as they are shown, and the ways numbers and long lines are written for a person.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+std::string_view name_of(MachinePhase phase);
+std::string_view name_of(AxisPhase phase);
+/// "done", "stopped", "failed".
+std::string_view name_of(JobOutcome outcome);
+
+/// With so many digits after the point.
+std::string fixed(double value, int digits);
+/// "8.2 s", "3 min 05 s", "2 h 03 min".
+std::string duration_text(double seconds);
+/// Lines of at most `width` characters, broken at spaces; all but the first begin with `indent`.
+std::string wrapped(std::string_view text, std::size_t width, const std::string& indent);
+
+}  // namespace lockstep

@@ -1,0 +1,52 @@
+// lockstep: the command.
+#include <algorithm>
+#include <iostream>
+#include <string_view>
+
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/verb.hpp"
+
+namespace {
+
+using namespace lockstep;
+
+void add_verbs(CLI::App& app, Action& action) {
+    add_up(app, action);
+    add_status(app, action);
+    add_home(app, action);
+    add_move(app, action);
+    add_run(app, action);
+    add_interrupts(app, action);
+    add_down(app, action);
+    add_plan(app, action);
+    add_simulate(app, action);
+    add_analyze(app, action);
+    add_verify(app, action);
+}
+
+/// Help and version are what was asked for; anything else is bad usage, said as JSON where JSON was asked for.
+int say_usage(const CLI::App& app, const CLI::ParseError& error, bool json) {
+    if (error.get_exit_code() == 0) { return app.exit(error); }
+    if (json) { return Voice(true).fail(bad_input(std::string(error.what()) + "; see: lockstep --help")); }
+    app.exit(error);
+    return kExitBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Lockstep moves stepper axes that live in separate processes as if one chip drove them all.", "lockstep"};
+    app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
+    app.require_subcommand(1);
+    app.footer(footer("  lockstep up --machine mill.textproto\n  lockstep home\n  lockstep move X=10 Y=20\n"
+                      "  lockstep run plate.gcode\n  lockstep down\n") +
+               "\nOptions of a verb: lockstep VERB --help");
+    Action action;
+    add_verbs(app, action);
+    const bool json = std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) { return say_usage(app, error, json); }
+    return action();
+}
