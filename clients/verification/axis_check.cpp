@@ -14,6 +14,11 @@ std::string plural(std::int64_t count, const std::string& one) {
     return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
+bool starts_from_rest(const Run& run) {
+    const std::int64_t count = run.from.count();
+    return run.from == rest_position(count, false) || run.from == rest_position(count, true);
+}
+
 }  // namespace
 
 AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded)
@@ -78,8 +83,8 @@ bool AxisCheck::begin_next_run() {
     maker_.emplace(std::move(runs_.front()));
     runs_.pop_front();
     const Run& run = maker_->run();
-    const bool joins = !last_run_ || last_run_->incarnation != run.incarnation;
-    if (!joins && last_run_->device_stop() != run.device_start()) {
+    const bool follows = last_run_ && last_run_->incarnation == run.incarnation;
+    if (follows && last_run_->device_stop() != run.device_start()) {
         differ("axis " + name_ + ": " + name_of(run) + " starts at count " + std::to_string(run.device_start()) +
                    " of the device, the run before it ended at " + std::to_string(last_run_->device_stop()),
                {}, run.start);
@@ -87,6 +92,8 @@ bool AxisCheck::begin_next_run() {
         differ("axis " + name_ + ": " + name_of(run) + " is recorded to end at " + std::to_string(run.stop_count) +
                    ", its pieces end at " + std::to_string(run.to().count()),
                {}, run.start);
+    } else if (run.epoch == 0 && !starts_from_rest(run)) {
+        differ("axis " + name_ + ": " + name_of(run) + " does not start from rest on a whole step", {}, run.start);
     }
     return findings_.going();
 }

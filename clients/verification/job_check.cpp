@@ -82,7 +82,7 @@ void JobCheck::begin_epoch(const job_t& record) {
     if (!is_of_job(record) || !job_->replay) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
-    if (!job_->broken.empty()) { return differ(job_->label + " goes on, though " + job_->broken); }
+    if (!job_->broken.empty()) { return differ(job_->label + " goes on, though " + job_->broken, job_->broken_axis); }
     auto start = job_->replay->next();
     if (!start) { return differ(job_->label + " goes on, though its program is done"); }
     const PathPlace place = place_in(record);
@@ -108,7 +108,7 @@ void JobCheck::end(const job_t& record) {
         findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
                                   "; what was run of it is as planned");
     } else if (!job.broken.empty()) {
-        return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken);
+        return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
     } else if (record.outcome == "done" && job.replay->next()) {
         return differ(job.label + " is recorded as done, but its program goes on at " +
                       text_of(job.replay->next()->place));
@@ -116,36 +116,46 @@ void JobCheck::end(const job_t& record) {
     ++findings_.jobs;
 }
 
-/// What the epoch leaves of its job, by the coordinator's own judgement.
+/// What the epoch leaves of its job.
 void JobCheck::close_epoch() {
     if (!epoch_) { return; }
-    job_->broken = why_broken();
-    if (job_->broken.empty()) {
-        std::vector<AxisEnd> ends;
-        for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
-        const EpochEnd end = epoch_->replay.judge(ends);
-        const std::string axis = job_->replay->machine().axes[end.axis].name;
-        if (end.kind == EpochEnd::Kind::FramesDiffer) { job_->broken = "axis " + axis + " ran other frames than the rest"; }
-        if (end.kind == EpochEnd::Kind::Misplaced) { job_->broken = "axis " + axis + " is not where its frames end"; }
-        if (job_->broken.empty()) { job_->replay->ended(epoch_->replay.path(), end); }
-    }
+    bool whole = true;
+    for (std::size_t i = 0; i < epoch_->axes.size() && whole; ++i) { whole = !breaks_off(i); }
+    if (whole) { judge_epoch(); }
     epoch_.reset();
 }
 
-/// Empty: every axis ran frames to the end of the last, and its tail.
-std::string JobCheck::why_broken() {
-    for (std::size_t i = 0; i < epoch_->axes.size(); ++i) {
-        const Progress& axis = epoch_->axes[i];
-        const std::string name = "axis " + job_->replay->machine().axes[i].name;
-        const std::string frame = "frame " + std::to_string(axis.ran);
-        if (axis.cut) { return name + " was stopped early in " + frame; }
-        if (axis.ran == 0 || axis.in_tail) { continue; }
-        const Frame* last = epoch_->replay.frame(axis.ran);
-        if (last != nullptr && !last->last && !last->axes[i].tail.empty()) {
-            return "the log has nothing of " + name + " after " + frame + ", which is not its last";
-        }
+/// Whether the axis did not run its last frame and tail to their end.
+bool JobCheck::breaks_off(std::size_t i) {
+    const Progress& axis = epoch_->axes[i];
+    const std::string frame = "frame " + std::to_string(axis.ran);
+    if (axis.cut) {
+        break_off(i, "was stopped early in " + frame);
+        return true;
     }
-    return "";
+    if (axis.ran == 0 || axis.in_tail) { return false; }
+    const Frame* last = epoch_->replay.frame(axis.ran);
+    if (last == nullptr || last->last || last->axes[i].tail.empty()) { return false; }
+    break_off(i, "has nothing in the log after " + frame + ", which is not its last");
+    return true;
+}
+
+/// By the coordinator's own judgement of where the axes came to rest.
+void JobCheck::judge_epoch() {
+    std::vector<AxisEnd> ends;
+    for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
+    const EpochEnd end = epoch_->replay.judge(ends);
+    switch (end.kind) {
+        case EpochEnd::Kind::FramesDiffer: return break_off(end.axis, "ran other frames than the rest");
+        case EpochEnd::Kind::Misplaced: return break_off(end.axis, "is not where its frames end");
+        case EpochEnd::Kind::Complete:
+        case EpochEnd::Kind::Interrupted: job_->replay->ended(epoch_->replay.path(), end);
+    }
+}
+
+void JobCheck::break_off(std::size_t axis, const std::string& why) {
+    job_->broken_axis = job_->replay->machine().axes[axis].name;
+    job_->broken = "axis " + job_->broken_axis + " " + why;
 }
 
 void JobCheck::finish() {

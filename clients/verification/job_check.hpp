@@ -38,6 +38,7 @@ private:
         std::string label;                // "job 2, run plate.gcode"
         std::optional<JobReplay> replay;  // none for homing
         std::string broken;               // why what was run is not the whole plan; empty: it is
+        std::string broken_axis;
     };
     struct Progress {  // of an axis in an epoch
         FrameNumber ran = 0;
@@ -55,7 +56,9 @@ private:
     void begin_epoch(const job_t& record);
     void end(const job_t& record);
     void close_epoch();
-    std::string why_broken();
+    void judge_epoch();
+    void break_off(std::size_t axis, const std::string& why);
+    bool breaks_off(std::size_t axis);
     bool is_of_job(const job_t& record) const;
 
     bool place(const std::string& axis, const Run& run);

@@ -13,7 +13,7 @@ namespace lockstep::verification {
 class RunStream {
 public:
     /// How many records wait for one that is missing before it is given up: datagrams may overtake each other.
-    static constexpr std::size_t kPatience = 16;
+    static constexpr std::size_t kPatience = 4;
 
     /// Records with the numbers [from, end) are missing.
     using OnMissing = std::function<void(std::int64_t from, std::int64_t end)>;

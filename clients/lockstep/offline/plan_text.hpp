@@ -1,0 +1,13 @@
+// A plan in words, for a terminal.
+#pragma once
+
+#include <string>
+
+#include "clients/lockstep/offline/program_input.hpp"
+
+namespace lockstep {
+
+/// A few lines and a table of the axes, without a newline at the end.
+std::string plan_text(const ProgramInput& input);
+
+}  // namespace lockstep

@@ -1,0 +1,30 @@
+// What plan and simulate are given: a machine's configuration and a G-code file made for where it stands.
+#pragma once
+
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "clients/lockstep/live/failure.hpp"
+#include "clients/planning/plan_summary.hpp"
+#include "core/machine.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+struct ProgramInput {
+    MachineConfig machine;
+    Program program;
+    ProgramPlan plan;
+    int lines = 0;  // of the G-code
+};
+
+/// `start`: "X=10,Y=5"; axes that it does not name stand at their park positions, as after homing. Errors: everything
+/// that is wrong with the configuration, the start or the program, by line and column.
+std::expected<ProgramInput, Failure> read_program(const std::string& file, const std::string& machine_file,
+                                                  const std::string& start);
+
+/// Parked, but for the axes that `start` names. Error: what is wrong with it, and an example.
+std::expected<std::vector<double>, std::string> places_at_start(const MachineConfig& machine, const std::string& start);
+
+}  // namespace lockstep

@@ -1,0 +1,72 @@
+// lockstep analyze
+#include <memory>
+#include <sstream>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/analysis/report.hpp"
+#include "clients/analysis/words.hpp"
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/offline/colour.hpp"
+#include "clients/lockstep/verb.hpp"
+
+namespace lockstep {
+namespace {
+
+struct AnalyzeOptions {
+    std::string log;
+    std::string svg_dir;
+    std::string csv_dir;
+    bool json = false;
+    bool no_colour = false;
+};
+
+bool tells_of_trouble(const std::string& line) {
+    const bool missing = line.find(" missing") != line.npos && line.find("nothing missing") == line.npos;
+    return line.starts_with("damaged") || (missing && !line.starts_with("axis "));  // not the table's head
+}
+
+/// What is missing or damaged stands out.
+std::string coloured(const std::string& text) {
+    std::istringstream lines(text);
+    std::string out;
+    for (std::string line; std::getline(lines, line);) {
+        out += (tells_of_trouble(line) ? painted(line, kBad) : line) + "\n";
+    }
+    return out;
+}
+
+ExitCode analyze(const AnalyzeOptions& options) {
+    Voice voice(options.json);
+    analysis::AnalysisOptions what;
+    if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
+    if (!options.csv_dir.empty()) { what.csv_dir = options.csv_dir; }
+    if (voice.is_terminal()) {
+        what.progress = [&](double done) { voice.progress("reading " + fixed(done * 100, 0) + " %"); };
+    }
+    const auto found = analysis::analyze_log(options.log, what);
+    if (!found) { return voice.fail(bad_input(found.error())); }
+    std::string text = analysis::summary(*found);
+    if (wants_colour() && !options.no_colour) { text = coloured(text); }
+    if (text.ends_with('\n')) { text.pop_back(); }
+    voice.say(text);
+    voice.report(analysis::to_report(*found));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("analyze", "say what a log holds: of each axis, of each job, and what is missing");
+    const auto options = std::make_shared<AnalyzeOptions>();
+    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
+    verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
+    verb->add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb->add_flag("--no-color", options->no_colour, "no colours, also on a terminal");
+    verb->footer(footer("  lockstep analyze plate.lcm\n  lockstep analyze plate.lcm --svg pictures --csv tables\n"));
+    verb->callback([&action, options] { action = [options] { return analyze(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,53 @@
+// lockstep plan
+#include <memory>
+
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/offline/figure_files.hpp"
+#include "clients/lockstep/offline/plan_text.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/planning/plan_figures.hpp"
+
+namespace lockstep {
+namespace {
+
+struct PlanOptions {
+    std::string file;
+    std::string machine_file;
+    std::string start;
+    std::string svg_dir;
+    bool json = false;
+};
+
+ExitCode plan(const PlanOptions& options) {
+    Voice voice(options.json);
+    const auto input = read_program(options.file, options.machine_file, options.start);
+    if (!input) { return voice.fail(input.error()); }
+    if (!options.svg_dir.empty()) {
+        const auto drawn = write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input->machine, input->plan)},
+                                                           {"speed.svg", plan_speed_figure(input->machine, input->plan)}});
+        if (!drawn) { return voice.fail(bad_input(drawn.error())); }
+    }
+    voice.say(plan_text(*input));
+    voice.report(to_report(input->plan, input->lines));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("plan", "say how long a G-code file takes and what it asks of each axis; "
+                                                "needs no running machine");
+    const auto options = std::make_shared<PlanOptions>();
+    verb->add_option("file", options->file, "the G-code file")->required();
+    verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
+    verb->add_option("--start", options->start,
+                     "where the axes stand when it begins, in mm: X=10,Y=5; those not named are parked");
+    verb->add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb->footer(footer("  lockstep plan plate.gcode --machine mill.textproto\n"
+                        "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"));
+    verb->callback([&action, options] { action = [options] { return plan(*options); }; });
+}
+
+}  // namespace lockstep

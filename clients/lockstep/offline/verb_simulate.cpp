@@ -1,0 +1,110 @@
+// lockstep simulate
+#include <memory>
+
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/offline/program_input.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/simulation/new_log_file.hpp"
+#include "clients/simulation/simulate.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+struct SimulateOptions {
+    std::string file;
+    std::string machine_file;
+    std::string log;
+    bool force = false;
+    bool speed_report = false;
+    bool json = false;
+};
+
+double seconds_now() { return static_cast<double>(monotonic_now().count()) * 1e-9; }
+
+std::string outcome_of(const SimulationResult& result) {
+    return result.job == 0 ? "failed" : std::string(name_of(result.outcome));
+}
+
+proto::RunReport run_report(const ProgramInput& input, const SimulationResult& result) {
+    proto::RunReport report;
+    report.set_job(result.job);
+    report.set_kind("run");
+    report.set_name(input.program.name);
+    report.set_outcome(outcome_of(result));
+    report.set_planned_s(input.plan.duration_s);
+    report.set_real_s(static_cast<double>(result.motion.value) / input.machine.ticks_per_second());
+    if (result.fault != FaultCode::None) {
+        const std::string axis = result.fault_axis ? input.machine.axes[*result.fault_axis].name : "";
+        *report.mutable_fault() = fault_report(result.fault, axis);
+    }
+    for (std::size_t i = 0; i < result.final_counts.size(); ++i) {
+        proto::FinalPosition& place = *report.add_final_positions();
+        place.set_name(input.machine.axes[i].name);
+        place.set_position_steps(result.final_counts[i]);
+        place.set_position_mm(to_mm(input.machine.axes[i], static_cast<double>(result.final_counts[i])));
+    }
+    return report;
+}
+
+std::string speed_row(const std::string& name, const SimulatedStage& stage) {
+    return "\n  " + name + fixed(stage.machine_s, 3) + " s of machine time in " + fixed(stage.computing_s, 3) + " s, " +
+           fixed(stage.times_real_time(), 0) + " times real time";
+}
+
+std::string in_words(const SimulateOptions& options, const ProgramInput& input, const SimulationResult& result) {
+    const SimulatedStage all{result.homing.machine_s + result.running.machine_s,
+                             result.homing.computing_s + result.running.computing_s};
+    std::string text = input.program.name + ": " + outcome_of(result) + ", " + std::to_string(result.steps) +
+                       " steps recorded in " + options.log + "; " + fixed(all.times_real_time(), 0) +
+                       " times real time";
+    if (!options.speed_report) { return text; }
+    text += speed_row("homing   ", result.homing) + speed_row("program  ", result.running);
+    return text + "\n  " + fixed(static_cast<double>(result.steps) / std::max(all.computing_s, 1e-9) / 1000, 0) +
+           " thousand steps a second";
+}
+
+ExitCode simulate_verb(const SimulateOptions& options) {
+    Voice voice(options.json);
+    const auto input = read_program(options.file, options.machine_file, "");
+    if (!input) { return voice.fail(input.error()); }
+    auto log = NewLogFile::begin(options.log, options.force);
+    if (!log) { return voice.fail(bad_input(log.error())); }
+    const StopSignal stop;
+    const auto result = simulate(input->machine, input->program, log->sink(),
+                                 {.progress =
+                                      [&](double done) {
+                                          voice.progress("simulating " + fixed(done * 100, 0) + " %");
+                                          return !stop.requested();
+                                      },
+                                  .stopwatch = seconds_now});
+    if (!result) { return voice.fail(failed(result.error() + "; no log was written")); }
+    if (auto kept = log->keep(); !kept) { return voice.fail(failed(kept.error())); }
+    voice.say(in_words(options, *input, *result));
+    voice.report(run_report(*input, *result));
+    if (!result->trouble.empty()) { voice.warn(result->trouble); }
+    return result->job != 0 && result->outcome == JobOutcome::Done ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("simulate", "home a simulated machine, run a G-code file on it, and write the "
+                                                    "log that a live run gives");
+    const auto options = std::make_shared<SimulateOptions>();
+    verb->add_option("file", options->file, "the G-code file; its pauses are passed at once")->required();
+    verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
+    verb->add_option("--log", options->log, "the LCM log to write; a log of that name is replaced")->required();
+    verb->add_flag("--force", options->force, "replace the file whatever it is");
+    verb->add_flag("--speed-report", options->speed_report, "say how fast each stage was simulated");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb->footer(footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"
+                        "  lockstep verify plate.lcm\n"));
+    verb->callback([&action, options] { action = [options] { return simulate_verb(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,50 @@
+// lockstep verify
+#include <memory>
+
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/offline/colour.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/verification/verification.hpp"
+
+namespace lockstep {
+namespace {
+
+struct VerifyOptions {
+    std::string log;
+    bool json = false;
+};
+
+ExitCode verify(const VerifyOptions& options) {
+    Voice voice(options.json);
+    std::function<void(double)> progress;
+    if (voice.is_terminal()) {
+        progress = [&](double done) { voice.progress("comparing " + fixed(done * 100, 0) + " %"); };
+    }
+    const auto findings = verification::verify_log(options.log, progress);
+    if (!findings) { return voice.fail(bad_input(findings.error())); }
+    const bool exact = !findings->difference;
+    std::string text = verification::to_text(*findings);
+    text.pop_back();
+    const std::size_t verdict = text.find(':');
+    if (wants_colour()) { text = painted(text.substr(0, verdict), exact ? kGood : kBad) + text.substr(verdict); }
+    voice.say(text);
+    voice.report(verification::to_report(*findings));
+    return exact ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("verify", "compare every step in a log with what its programs must give, tick "
+                                                  "for tick");
+    const auto options = std::make_shared<VerifyOptions>();
+    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb->footer("Exit 0: exact. 1: not exact; the first difference is said. 2: not a log, or nothing in it.\n" +
+                 footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n"));
+    verb->callback([&action, options] { action = [options] { return verify(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,120 @@
+// What the machine does verifies, through holds, stops, pauses and faults.
+#include <gtest/gtest.h>
+
+#include "clients/verification/verification.hpp"
+#include "tests/unit/verification/recorded_machine.hpp"
+
+namespace lockstep::verification {
+namespace {
+
+using test::RecordedMachine;
+
+constexpr std::string_view kSquare = "G21 G90 F6000\nG1 X60 Y8\nX62 Y50\nG4 P0.2\nG0 X10 Y40\nX5 Y5\n";
+
+class Exact : public testing::Test {
+protected:
+    std::filesystem::path log() const { return test::test_directory() / "run.lcm"; }
+    void expect_exact(std::int64_t jobs) const {
+        const auto findings = verify_log(log());
+        ASSERT_TRUE(findings.has_value()) << findings.error();
+        EXPECT_FALSE(findings->difference.has_value()) << to_text(*findings);
+        EXPECT_GT(findings->steps, 1000);
+        EXPECT_EQ(findings->jobs, jobs);
+    }
+
+    MachineConfig machine = test::example("two-axis");
+};
+
+TEST_F(Exact, AProgramRunToItsEnd) {
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, kSquare));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(1);
+}
+
+TEST_F(Exact, TwoProgramsOneAfterTheOther) {
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        for (int i = 0; i < 2; ++i) {
+            recorded.begin(test::program_of(machine, kSquare));
+            ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        }
+    }
+    expect_exact(2);
+}
+
+TEST_F(Exact, APauseBetweenTwoLegs) {
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, "G0 X40 Y10\nM0\nG0 X5 Y5\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Paused));
+        recorded.vm().command(CommandKind::Resume);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(1);
+}
+
+class HeldAt : public Exact, public testing::WithParamInterface<int> {};
+
+TEST_P(HeldAt, AndResumedTwice) {
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, kSquare));
+        for (int i = 0; i < 2; ++i) {
+            recorded.advance_ms(GetParam());
+            recorded.vm().command(CommandKind::Hold);
+            ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
+            recorded.vm().command(CommandKind::Resume);
+            ASSERT_TRUE(recorded.reaches(MachinePhase::Running));
+        }
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(1);
+}
+INSTANTIATE_TEST_SUITE_P(Milliseconds, HeldAt, testing::Values(0, 150, 350, 600, 777, 1000));
+
+TEST_F(Exact, StoppedInTheMiddle) {
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, kSquare));
+        recorded.advance_ms(700);
+        recorded.vm().command(CommandKind::Stop);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(1);
+}
+
+TEST_F(Exact, AnEmergencyStopAndTheHomingAfterIt) {
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, kSquare));
+        recorded.advance_ms(800);
+        recorded.vm().command(CommandKind::EmergencyStop);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Fault));
+        recorded.vm().command(CommandKind::Reset);
+        recorded.home();
+    }
+    expect_exact(1);
+}
+
+TEST_F(Exact, SixAxesAtOnce) {
+    machine = test::example("six-axis");
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, "G0 X30 Y20 Z50 A0 B10 C-90\nG0 X5 Y5 Z58 A-174 B-84 C-174\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(1);
+}
+
+}  // namespace
+}  // namespace lockstep::verification
