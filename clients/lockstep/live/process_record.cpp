@@ -1,9 +1,13 @@
 #include "clients/lockstep/live/process_record.hpp"
 
 #include <poll.h>
-#include <sys/pidfd.h>
 #include <unistd.h>
 
+extern "C" {  // which this header of glibc 2.36 leaves out
+#include <sys/pidfd.h>
+}
+
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 

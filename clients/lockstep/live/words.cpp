@@ -32,10 +32,6 @@ std::string_view name_of(AxisPhase phase) {
                 phase);
 }
 
-std::string_view name_of(JobOutcome outcome) {
-    return pick(std::array<std::string_view, 3>{"done", "stopped", "failed"}, outcome);
-}
-
 std::string fixed(double value, int digits) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.*f", digits, value);

@@ -5,13 +5,12 @@
 #include <string_view>
 
 #include "core/protocol/messages.hpp"
+#include "services/record/job_recorder.hpp"  // the names of how jobs end
 
 namespace lockstep {
 
 std::string_view name_of(MachinePhase phase);
 std::string_view name_of(AxisPhase phase);
-/// "done", "stopped", "failed".
-std::string_view name_of(JobOutcome outcome);
 
 /// With so many digits after the point.
 std::string fixed(double value, int digits);
