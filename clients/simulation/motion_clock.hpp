@@ -11,14 +11,14 @@ class MotionClock final : public VirtualObserver {
 public:
     void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const JobEvent& event : out.jobs) {
-            if (event.kind == JobEvent::Kind::Begun) { before_ = {}; }
-            if (event.kind == JobEvent::Kind::EpochBegun) { begin(event); }
+            if (event.kind == JobEvent::Kind::Begun) { begin_job(); }
+            if (event.kind == JobEvent::Kind::EpochBegun) { begin_epoch(event); }
             if (event.kind == JobEvent::Kind::Ended) { last_ended_ = event; }
         }
     }
     void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) {
-            if (track.epoch != epoch_) { continue; }
+            if (track.epoch == 0 || track.epoch != epoch_) { continue; }  // 0: homing
             Ticks ticks;
             for (const Piece& piece : track.pieces) { ticks += piece.ticks; }
             end_ = std::max(end_, track.start + ticks);
@@ -30,7 +30,11 @@ public:
     const std::optional<JobEvent>& last_ended() const { return last_ended_; }
 
 private:
-    void begin(const JobEvent& event) {
+    void begin_job() {
+        before_ = {};
+        start_ = end_;
+    }
+    void begin_epoch(const JobEvent& event) {
         before_ = motion();
         epoch_ = event.epoch;
         start_ = end_ = event.start;

@@ -9,6 +9,7 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/simulation/new_log_file.hpp"
 #include "clients/simulation/simulate.hpp"
+#include "services/record/job_recorder.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -78,7 +79,9 @@ ExitCode simulate_verb(const SimulateOptions& options) {
     const auto result = simulate(input->machine, input->program, log->sink(),
                                  {.progress =
                                       [&](double done) {
-                                          voice.progress("simulating " + fixed(done * 100, 0) + " %");
+                                          if (voice.is_terminal()) {
+                                              voice.progress("simulating " + fixed(done * 100, 0) + " %");
+                                          }
                                           return !stop.requested();
                                       },
                                   .stopwatch = seconds_now});

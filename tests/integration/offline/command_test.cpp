@@ -1,0 +1,136 @@
+// The command as a person or a script runs it: what it prints and how it exits.
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+namespace {
+
+struct Ended {
+    int exit = -1;
+    std::string out;
+};
+
+Ended run(const std::string& words) {
+    Ended ended;
+    FILE* pipe = popen((std::string(LOCKSTEP_COMMAND) + " " + words).c_str(), "r");
+    std::array<char, 4096> part{};
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) { ended.out.append(part.data(), got); }
+    ended.exit = WEXITSTATUS(pclose(pipe));
+    return ended;
+}
+
+template <typename Report>
+Report report_of(const Ended& ended) {
+    Report report;
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(ended.out, &report).ok()) << ended.out;
+    return report;
+}
+
+class Command : public testing::Test {
+protected:
+    Command() {
+        std::filesystem::remove_all(directory);
+        std::filesystem::create_directories(directory);
+    }
+    std::string file(const std::string& name, const std::string& text) const {
+        std::ofstream(directory / name) << text;
+        return (directory / name).string();
+    }
+    std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "lockstep_command" /
+                                      testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::string log = (directory / "plate.lcm").string();
+    std::string plate = "deploy/examples/plate.gcode --machine deploy/examples/three-axis.textproto";
+};
+
+TEST_F(Command, PlanSimulateAnalyzeVerify) {
+    const auto plan = run("plan " + plate + " --json");
+    ASSERT_EQ(plan.exit, 0);
+    const auto planned = report_of<proto::PlanReport>(plan);
+    const auto simulated = run("simulate " + plate + " --log " + log + " --json");
+    ASSERT_EQ(simulated.exit, 0);
+    const auto done = report_of<proto::RunReport>(simulated);
+    EXPECT_EQ(done.outcome(), "done");
+    EXPECT_DOUBLE_EQ(done.real_s(), planned.duration_s());
+    EXPECT_DOUBLE_EQ(done.planned_s(), planned.duration_s());
+
+    const auto analysed = report_of<proto::AnalysisReport>(run("analyze " + log + " --json"));
+    ASSERT_EQ(analysed.axes_size(), 3);
+    EXPECT_GT(analysed.axes(0).steps(), planned.axes(0).steps());  // homing comes on top
+    const auto verified = run("verify " + log + " --json");
+    EXPECT_EQ(verified.exit, 0);
+    const auto verdict = report_of<proto::VerifyReport>(verified);
+    EXPECT_TRUE(verdict.exact());
+    EXPECT_EQ(verdict.steps_compared(),
+              analysed.axes(0).steps() + analysed.axes(1).steps() + analysed.axes(2).steps());
+}
+
+TEST_F(Command, PicturesAndTables) {
+    EXPECT_EQ(run("plan " + plate + " --svg " + (directory / "plan").string()).exit, 0);
+    ASSERT_EQ(run("simulate " + plate + " --log " + log + " --speed-report").exit, 0);
+    const std::string to = (directory / "log").string();
+    EXPECT_EQ(run("analyze " + log + " --no-color --svg " + to + " --csv " + to).exit, 0);
+    for (const char* name : {"plan/xy.svg", "plan/speed.svg", "log/xy.svg", "log/speed.svg", "log/steps_X.csv"}) {
+        EXPECT_GT(std::filesystem::file_size(directory / name), 1000U) << name;
+    }
+}
+
+TEST_F(Command, ALogThatLacksItsEndDoesNotVerify) {
+    ASSERT_EQ(run("simulate " + plate + " --log " + log).exit, 0);
+    std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
+    const auto verified = run("verify " + log);
+    EXPECT_EQ(verified.exit, 1);
+    EXPECT_NE(verified.out.find("not exact: the log ends before job 2, run plate.gcode does"), std::string::npos)
+        << verified.out;
+}
+
+TEST_F(Command, BadInputIsSaidByPlaceAndExits2) {
+    const std::string bad = file("bad.gcode", "G21 G90\nG1 X10 F100\nG1 X900\n");
+    const std::string machine = " --machine deploy/examples/three-axis.textproto";
+    const auto planned = run("plan " + bad + machine + " 2>&1");
+    EXPECT_EQ(planned.exit, 2);
+    EXPECT_NE(planned.out.find("bad.gcode:3:"), std::string::npos) << planned.out;
+    const auto json = report_of<proto::ErrorReport>(run("plan " + bad + machine + " --json"));
+    ASSERT_EQ(json.errors_size(), 1);
+    EXPECT_EQ(json.errors(0).line(), 3);
+    EXPECT_EQ(run("simulate " + bad + machine + " --log " + log + " 2>&1").exit, 2);
+    EXPECT_FALSE(std::filesystem::exists(log));
+}
+
+TEST_F(Command, WhatIsNoLogExits2) {
+    EXPECT_EQ(run("verify deploy/examples/plate.gcode 2>&1").exit, 2);
+    EXPECT_EQ(run("analyze deploy/examples/plate.gcode 2>&1").exit, 2);
+    EXPECT_EQ(run("verify /nowhere.lcm 2>&1").exit, 2);
+    EXPECT_EQ(run("verify 2>&1").exit, 2);
+}
+
+TEST_F(Command, AStartElsewhere) {
+    const std::string line = file("line.gcode", "G0 X20\n");
+    const std::string machine = " --machine deploy/examples/three-axis.textproto --json";
+    const auto parked = report_of<proto::PlanReport>(run("plan " + line + machine));
+    const auto placed = report_of<proto::PlanReport>(run("plan " + line + machine + " --start X=10,Y=5"));
+    EXPECT_DOUBLE_EQ(parked.length_mm(), 15);
+    EXPECT_DOUBLE_EQ(placed.length_mm(), 10);
+    EXPECT_EQ(run("plan " + line + machine + " --start W=10").exit, 2);
+    EXPECT_EQ(run("plan " + line + machine + " --start X=1000").exit, 2);
+    EXPECT_EQ(run("plan " + line + machine + " --start X").exit, 2);
+}
+
+TEST_F(Command, AFileThatIsNoLogIsNotReplaced) {
+    const std::string notes = file("notes.txt", "mine\n");
+    EXPECT_EQ(run("simulate " + plate + " --log " + notes + " 2>&1").exit, 2);
+    EXPECT_EQ(std::filesystem::file_size(notes), 5U);
+    EXPECT_EQ(run("simulate " + plate + " --force --log " + notes).exit, 0);
+    EXPECT_EQ(run("verify " + notes).exit, 0);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,119 @@
+// A simulation is as long as its plan, ends where the program does, and leaves the same record every time.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/simulation/new_log_file.hpp"
+#include "clients/simulation/simulate.hpp"
+#include "tests/unit/verification/recorded_machine.hpp"
+
+namespace lockstep {
+namespace {
+
+using test::example;
+using test::program_of;
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+SimulationResult simulate_into(const std::filesystem::path& path, const MachineConfig& machine, const Program& program) {
+    auto log = NewLogFile::begin(path, false).value();
+    const auto result = simulate(machine, program, log.sink());
+    EXPECT_TRUE(log.keep().has_value());
+    return result.value();
+}
+
+TEST(Simulate, InMotionForAsLongAsPlanned) {
+    const MachineConfig machine = example("three-axis");
+    const auto program = load_gcode_file("deploy/examples/plate.gcode", machine, parked_mm(machine));
+    NoSink nowhere;
+    const auto result = simulate(machine, *program, nowhere);
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ(result->outcome, JobOutcome::Done);
+    EXPECT_EQ(result->motion, plan_program(machine, *program)->duration);
+}
+
+TEST(Simulate, ThroughEveryPauseToTheEnd) {
+    const MachineConfig machine = example("two-axis");
+    NoSink nowhere;
+    const Program program = program_of(machine, "G0 X15\nM0\nM0\nG0 X20\nM0\nG0 X25 Y30\nM0\n");
+    const auto result = simulate(machine, program, nowhere);
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ(result->outcome, JobOutcome::Done) << result->trouble;
+    EXPECT_EQ(result->final_counts, (std::vector<std::int64_t>{25 * 80, 30 * 80}));
+    EXPECT_EQ(result->motion, plan_program(machine, program)->duration);
+}
+
+TEST(Simulate, TheSameRecordByteForByte) {
+    const MachineConfig machine = example("two-axis");
+    const Program program = program_of(machine, "G0 X30 Y40\nG0 X5 Y5\n");
+    const auto directory = test::test_directory();
+    simulate_into(directory / "one.lcm", machine, program);
+    simulate_into(directory / "two.lcm", machine, program);
+    EXPECT_EQ(bytes_of(directory / "one.lcm"), bytes_of(directory / "two.lcm"));
+}
+
+TEST(Simulate, ItsLogIsAnalysedWithNothingMissing) {
+    const MachineConfig machine = example("two-axis");
+    const auto path = test::test_directory() / "run.lcm";
+    const auto result = simulate_into(path, machine, program_of(machine, "G0 X30 Y40\nG0 X5 Y5\n"));
+    const auto found = analysis::analyze_log(path);
+    ASSERT_TRUE(found.has_value());
+    std::int64_t steps = 0;
+    for (const auto& axis : found->axes) {
+        steps += axis->statistics().steps();
+        EXPECT_EQ(axis->statistics().missing_steps(), 0);
+        EXPECT_EQ(axis->unrecorded_steps(), 0);
+    }
+    EXPECT_EQ(steps, result.steps);
+    ASSERT_EQ(found->jobs.size(), 2U);
+    EXPECT_EQ(found->jobs[1].outcome, "done");
+}
+
+TEST(Simulate, AHomingThatFailsIsAResult) {
+    MachineConfig machine = example("two-axis");
+    machine.axes[0].plant.start_position_mm = 0;
+    machine.axes[0].homing.switch_position_mm = -500;  // out of reach
+    NoSink nowhere;
+    const auto result = simulate(machine, program_of(machine, "G0 X30\n"), nowhere);
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ(result->job, 0U);
+    EXPECT_NE(result->fault, FaultCode::None);
+    EXPECT_FALSE(result->trouble.empty());
+}
+
+TEST(Simulate, GivesUpWhenTold) {
+    const MachineConfig machine = example("two-axis");
+    NoSink nowhere;
+    const SimulationHooks hooks{.progress = [](double) { return false; }, .stopwatch = {}};
+    EXPECT_FALSE(simulate(machine, program_of(machine, "G0 X30\n"), nowhere, hooks).has_value());
+}
+
+TEST(NewLogFile, ReplacesALogButNothingElse) {
+    const auto directory = test::test_directory();
+    const auto notes = directory / "notes.txt";
+    std::ofstream(notes) << "not a log\n";
+    EXPECT_FALSE(NewLogFile::begin(notes, false).has_value());
+    EXPECT_FALSE(NewLogFile::begin(directory, true).has_value());
+    EXPECT_TRUE(NewLogFile::begin(notes, true).has_value());
+    EXPECT_EQ(bytes_of(notes), "not a log\n");  // not kept: nothing has happened
+    const MachineConfig machine = example("two-axis");
+    simulate_into(directory / "run.lcm", machine, program_of(machine, "G0 X6\n"));
+    simulate_into(directory / "run.lcm", machine, program_of(machine, "G0 X7\n"));
+}
+
+TEST(NewLogFile, WhatIsNotKeptLeavesNothing) {
+    const auto directory = test::test_directory() / "empty";
+    std::filesystem::create_directories(directory);
+    { auto log = NewLogFile::begin(directory / "run.lcm", false); }
+    EXPECT_TRUE(std::filesystem::is_empty(directory));
+    EXPECT_FALSE(NewLogFile::begin(directory / "no" / "such" / "run.lcm", false).has_value());
+}
+
+}  // namespace
+}  // namespace lockstep
