@@ -33,6 +33,8 @@ void Plant::judge(StepEdge edge) {
     const double place = static_cast<double>(pulses_) - 0.5 * edge.direction;
     const auto ticks = static_cast<double>((edge.tick - judged_).value);
     const double commanded = (place - judged_place_) / ticks;
+    const bool stops_or_turns = commanded * speed_ <= 0;
+    if (stops_or_turns && std::abs(speed_) <= max_gap_) { speed_ = 0; }
     const double change = max_acceleration_ * ticks;
     speed_ = std::clamp(commanded, speed_ - change, speed_ + change);
     const double rounding = 2 * std::abs(commanded) / ticks;  // a tick at either end

@@ -7,7 +7,7 @@
 // the two then differ by more than max_jump_mm_s + sqrt(A), and what rounding of pulses to ticks can feign, the rotor
 // slips: every pulse is a step lost. sqrt(A), in steps and ticks, is the speed gained in the first half step from rest,
 // which pulses cannot tell from a jump. So jumps of up to max_jump, accelerations of up to A, and both together lose
-// nothing; a greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(A)) * a /
+// nothing; slow enough to stop by a jump it stops or turns by one, as often as it is told to; a greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(A)) * a /
 // (a - A) on, where the rotor has fallen back by that much. A dead stop loses nothing: no pulse follows it that could
 // be lost.
 #pragma once

@@ -37,6 +37,10 @@ TEST(Motor, LosesNothingInAReversalWithinTheJump) {
     EXPECT_EQ(steps_lost(axis(), {{kJump / 2, kJump / 2, 0.1}, {-kJump / 2, -kJump / 2, 0.1}}), 0);
 }
 
+TEST(Motor, LosesNothingWhenItStopsByAJumpAndGoesBackByAnother) {
+    EXPECT_EQ(steps_lost(axis(), {{kJump, kJump, 0.1}, {0, 0, 0.002}, {-kJump, -kJump, 0.1}}), 0);
+}
+
 TEST(Motor, ToleratesTheRoundingOfPulsesToTicksAtHighSpeed) {
     EXPECT_EQ(steps_lost(axis(), trapezoid(kJump, 4321, kAccel, 0.5)), 0);  // 345,680 steps/s: 2 or 3 ticks a step
 }
