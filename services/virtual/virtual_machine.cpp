@@ -124,9 +124,13 @@ void VirtualMachine::listen() {
 }
 
 std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std::uint64_t program) {
-    network_.send(now_, static_cast<VirtualNetwork::Receiver>(coordinator_address()),
-                  Command{kClient, ++commands_, kind, axes, program});
-    return commands_;
+    command_ = {kClient, command_.sequence + 1, kind, axes, program};
+    repeat_command();
+    return command_.sequence;
+}
+
+void VirtualMachine::repeat_command() {
+    network_.send(now_, static_cast<VirtualNetwork::Receiver>(coordinator_address()), command_);
 }
 
 const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {

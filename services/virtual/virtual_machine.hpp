@@ -46,6 +46,8 @@ public:
 
     /// As a client would: over the network. Returns its sequence number.
     std::uint64_t command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0);
+    /// The last command once more, with its sequence number: for a client whose reply does not come.
+    void repeat_command();
     /// A program that has arrived whole at the coordinator.
     void give_program(std::uint64_t id, Program program) { coordinator_.accept_program(id, std::move(program)); }
     const std::vector<Reply>& replies() const { return replies_; }
@@ -81,7 +83,7 @@ private:
     Coordinator coordinator_;
     std::vector<Process> processes_;  // the axes, then the coordinator
     std::vector<VirtualObserver*> observers_;
-    std::uint64_t commands_ = 0;
+    Command command_{.client = kClient};  // the last one given
     std::vector<Reply> replies_;
     std::optional<MachineState> machine_state_;
     std::vector<std::optional<AxisState>> axis_states_;
