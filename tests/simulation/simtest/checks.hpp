@@ -1,0 +1,32 @@
+// The judges of a run. They know the configuration, the programs and the pulses, and share no formula with the code
+// they judge.
+#pragma once
+
+#include "tests/simulation/simtest/recording.hpp"
+#include "tests/simulation/simtest/violation.hpp"
+
+namespace lockstep::simtest {
+
+/// Exact: the steps of a job are those of its program, in order, none more; all of them where it was done. From rest
+/// at power-up on, they add up.
+Violations check_counts(const Recording& recording);
+
+/// Within limits: there is a motion within the axis's speed, acceleration, deceleration and sudden change whose
+/// half-step crossings all lie within the tick before their step.
+///
+/// For any two windows of steps that follow each other, their mean speeds differ by at most a times the time between
+/// their middles, plus one start velocity for each joint of moves in them; means are bounded by times a tick longer
+/// or shorter. All windows of 1, 4, 16 ... steps are judged. From rest and to rest likewise, with v^2 = v0^2 + 2 a s.
+Violations check_limits(const Recording& recording);
+
+/// Together: at every step there is a place on the program's path from which no axis is more than half a step off,
+/// which is what rounding to whole steps makes of a place on the path itself.
+Violations check_together(const Recording& recording);
+
+/// Frames: every axis ran the same frames of each epoch, in order, each once, and the same tail, when they were sent
+/// for; only what was armed; and made no step outside them.
+Violations check_frames(const Recording& recording);
+
+Violations check_all(const Recording& recording);
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,105 @@
+#include <algorithm>
+
+#include "tests/simulation/simtest/draw_machine.hpp"
+#include "tests/simulation/simtest/draw_program.hpp"
+#include "tests/simulation/simtest/scenario.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// A hop is two slots: up to half a slot until the sender's loop, one on the way, up to half until the receiver's.
+NetworkBehaviour draw_network(Draw& draw, const NetworkFaults& faults, Ticks slot) {
+    const auto part_of_slot = [&](double most) {
+        return Ticks{1 + static_cast<std::int64_t>(draw.part() * most * static_cast<double>(slot.value - 1))};
+    };
+    NetworkBehaviour network;
+    network.delay_min = faults.delay ? part_of_slot(1) : Ticks{1 + slot.value / 50};
+    network.delay_max = network.delay_min;
+    if (faults.reorder) {
+        network.delay_max = std::max(network.delay_min, part_of_slot(1));
+        if (draw.chance(0.5)) { network.delay_min = Ticks{1}; }
+    }
+    if (faults.duplicate) { network.duplicated = draw.magnitude(0.01, 0.8); }
+    if (faults.loss) { network.lost = draw.magnitude(0.001, 0.05); }
+    return network;
+}
+
+/// A program that starts where no axis can be.
+Program elsewhere(Program program, const MachineConfig& machine) {
+    for (const std::string& name : program.axes) {
+        const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
+        program.start_mm.push_back(axis->position_max_mm + 10 / axis->steps_per_mm);
+    }
+    return program;
+}
+
+WrongCommand wrong_when_idle(Draw& draw, const MachineConfig& machine) {
+    const std::size_t i = draw.index(machine.axes.size());
+    const AxisConfig& axis = machine.axes[i];
+    Program program{.name = "wrong", .axes = {axis.name}, .start_mm = {}, .blocks = {}};
+    const double step = 1 / axis.steps_per_mm;
+    switch (draw.index(8)) {
+        case 0: return {CommandKind::Hold, {}, FaultCode::NothingToDo};
+        case 1: return {CommandKind::Resume, {}, FaultCode::NothingToDo};
+        case 2: return {CommandKind::Stop, {}, FaultCode::NothingToDo};
+        case 3: return {CommandKind::Run, {}, FaultCode::UnknownProgram};
+        case 4: program.axes = {"none"}; return {CommandKind::Run, program, FaultCode::BadProgram};
+        case 5: program.blocks = {{1, LinearMove{{axis.position_max_mm + 1.5 * step}, 0, true}}}; break;
+        case 6: program.blocks = {{1, LinearMove{{axis.position_min_mm - 1.5 * step}, 0, true}}}; break;
+        default: return {CommandKind::Run, elsewhere(program, machine), FaultCode::StartMismatch};
+    }
+    return {CommandKind::Run, program, FaultCode::OutsideTravel};
+}
+
+WrongCommand wrong_in_motion(Draw& draw, const MachineConfig& machine) {
+    switch (draw.index(5)) {
+        case 0: return {CommandKind::Home, {}, FaultCode::Busy};
+        case 1: return {CommandKind::Reset, {}, FaultCode::Busy};
+        case 2: return {CommandKind::Run, {}, FaultCode::Busy};
+        case 3: return {CommandKind::Run, elsewhere(draw_program(draw, machine), machine), FaultCode::Busy};
+        default: return {CommandKind::Resume, {}, FaultCode::NothingToDo};
+    }
+}
+
+Interrupt draw_interrupt(Draw& draw, const MachineConfig& machine) {
+    Interrupt interrupt;
+    interrupt.after_s = draw.chance(0.2) ? 0 : draw.magnitude(0.002, 3);
+    interrupt.rest_s = draw.magnitude(0.001, 0.1);
+    const double kind = draw.part();
+    if (kind < 0.25) {
+        interrupt.kind = Interrupt::Kind::WrongCommand;
+        interrupt.wrong = wrong_in_motion(draw, machine);
+    } else if (kind < 0.4) {
+        interrupt.kind = Interrupt::Kind::Stop;
+    } else if (kind < 0.45) {
+        interrupt.kind = Interrupt::Kind::HoldAndStop;
+    }
+    return interrupt;
+}
+
+Task draw_task(Draw& draw, const MachineConfig& machine) {
+    Task task{.program = draw_program(draw, machine), .before = {}, .interrupts = {}};
+    while (draw.chance(0.3)) { task.before.push_back(wrong_when_idle(draw, machine)); }
+    for (int n = 0; n < 5 && draw.chance(0.6); ++n) { task.interrupts.push_back(draw_interrupt(draw, machine)); }
+    return task;
+}
+
+}  // namespace
+
+Scenario draw_scenario(std::uint64_t seed, const NetworkFaults& faults, std::optional<std::size_t> axes) {
+    Draw draw(seed);
+    Scenario scenario{.seed = seed, .lossy = faults.loss};
+    const std::size_t drawn = 1 + draw.index(6);
+    scenario.machine = draw_machine(draw, axes.value_or(drawn));
+    scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
+    if (draw.chance(0.3)) {
+        scenario.before_homing.push_back(
+            {CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
+    }
+    for (std::int64_t n = draw.whole(1, 3); n > 0; --n) {
+        scenario.tasks.push_back(draw_task(draw, scenario.machine));
+    }
+    return scenario;
+}
+
+}  // namespace lockstep::simtest

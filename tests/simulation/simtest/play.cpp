@@ -1,0 +1,69 @@
+#include "tests/simulation/simtest/play.hpp"
+
+#include <cmath>
+
+#include "tests/simulation/simtest/play_job.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// The slide stands where it should, by its true place: within two steps, by what whole steps make of the switch's.
+void check_slides(Bench& bench, const Counts& at) {
+    for (std::size_t i = 0; i < at.size() && !bench.over(); ++i) {
+        const AxisConfig& axis = bench.machine().axes[i];
+        const double mm = static_cast<double>(at[i]) / axis.steps_per_mm;
+        const double is = bench.vm().axis(i).simulated()->plant().position_mm();
+        if (std::abs(is - mm) * axis.steps_per_mm > 2) {
+            bench.object("place", axis.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));
+        }
+    }
+}
+
+/// What the axes say, what their encoders saw and what their pulses add up to is the same.
+void check_places(Bench& bench, const Counts& at) {
+    bench.wait_slots(bench.lossy() ? 40 : 4);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const AxisConfig& axis = bench.machine().axes[i];
+        const auto& state = bench.vm().axis_states()[i];
+        std::int64_t pulses = 0;
+        for (const StepEdge& step : bench.recording().axes[i].steps) { pulses += step.direction; }
+        const std::int64_t encoder = bench.vm().axis(i).simulated()->plant().encoder();
+        if (encoder != pulses) {
+            bench.object("lost", axis.name + " has moved " + std::to_string(encoder) + " steps after " + std::to_string(pulses) + " pulses");
+        } else if (!state || state->position.count() != at[i] || !state->homed || !state->at_rest) {
+            bench.object("place", axis.name + " does not say that it rests homed at step " + std::to_string(at[i]));
+        }
+    }
+}
+
+void play_all(const Scenario& scenario, Bench& bench) {
+    Counts at(scenario.machine.axes.size(), 0);
+    const double listening = (3 * scenario.machine.timing.freshness_slots + 30) * bench.slot_s();
+    (void)bench.await([&] { return bench.watch().phase() == MachinePhase::Idle; }, listening, "power-up");
+    for (const WrongCommand& wrong : scenario.before_homing) { play_refusal(bench, wrong, at); }
+    if (!bench.over()) { play_homing(bench, at); }
+    check_slides(bench, at);
+    for (const Task& task : scenario.tasks) {
+        for (const WrongCommand& wrong : task.before) { play_refusal(bench, wrong, at); }
+        if (!bench.over()) { JobPlayer(bench, task, at).play(); }
+    }
+    if (!bench.over()) { check_places(bench, at); }
+}
+
+}  // namespace
+
+Played play(const Scenario& scenario) {
+    Played played;
+    played.recording.machine = scenario.machine;
+    played.recording.axes.resize(scenario.machine.axes.size());
+    Bench bench(scenario, played);
+    played.recording.began = bench.vm().now();
+    play_all(scenario, bench);
+    played.recording.ended = bench.vm().now();
+    for (const std::string& trouble : played.recording.troubles) {
+        if (!scenario.lossy) { played.violations.push_back({"trouble", {}, {}, {}, trouble}); }
+    }
+    return played;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,180 @@
+#include "tests/simulation/simtest/play_job.hpp"
+
+#include <algorithm>
+
+namespace lockstep::simtest {
+namespace {
+
+/// The program, made for where the axes stand.
+Program starting_at(const Counts& at, const MachineConfig& machine, Program program) {
+    if (!program.start_mm.empty()) { return program; }
+    for (const std::string& name : program.axes) {
+        const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
+        const bool known = axis != machine.axes.end();
+        const auto i = static_cast<std::size_t>(axis - machine.axes.begin());
+        program.start_mm.push_back(known ? static_cast<double>(at[i]) / axis->steps_per_mm : 0);
+    }
+    return program;
+}
+
+/// Far more than the protocol needs to come to rest and set out again, as often as it may have to.
+double protocol_seconds(const Bench& bench) {
+    const ProtocolTiming& t = bench.machine().timing;
+    const double rests = bench.lossy() ? 60 : 6;
+    return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
+}
+
+std::string answer_text(const Reply& reply) {
+    return std::string(reply.status == ReplyStatus::Accepted ? "accepted" : "refused: ") +
+           (reply.fault == 0 ? "" : std::string(name_of(static_cast<FaultCode>(reply.fault)))) + " " + reply.text;
+}
+
+bool is_refusal(const Reply& reply, FaultCode why) {
+    return reply.status == ReplyStatus::Refused && reply.fault == static_cast<std::uint16_t>(why);
+}
+
+}  // namespace
+
+void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
+    const auto before = bench.steps_made();
+    std::uint64_t program = 0;
+    if (wrong.program) { program = bench.send_program(starting_at(at, bench.machine(), *wrong.program)); }
+    const Reply* reply = bench.ask(wrong.kind, program);
+    if (reply == nullptr) { return; }
+    if (!is_refusal(*reply, wrong.refusal)) {
+        return bench.object("refusal", "expected " + std::string(name_of(wrong.refusal)) + ", " + answer_text(*reply));
+    }
+    bench.wait_slots(3);
+    if (bench.watch().phase() != MachinePhase::Idle || bench.steps_made() != before) {
+        bench.object("refusal", "a refused command was not without effect");
+    }
+}
+
+void play_homing(Bench& bench, Counts& at) {
+    JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made()};
+    double seconds = protocol_seconds(bench);
+    for (const AxisConfig& axis : bench.machine().axes) {
+        const HomingConfig& h = axis.homing;
+        const double travel = axis.position_max_mm - axis.position_min_mm + 2 * axis.plant.travel_margin_mm;
+        seconds += travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
+                   2 * h.pulloff_mm / h.latch_velocity_mm_s + 2 * travel / axis.start_velocity_mm_s;
+    }
+    const Reply* reply = bench.ask(CommandKind::Home);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) { return bench.object("homing", answer_text(*reply)); }
+    (void)bench.await([&] { return bench.watch().outcome().has_value(); }, seconds, "homing");
+    job.end_step = bench.steps_made();
+    job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
+    bench.recording().jobs.push_back(std::move(job));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const AxisConfig& axis = bench.machine().axes[i];
+        at[i] = nearest_step(axis, axis.homing.park_mm);
+    }
+}
+
+void JobPlayer::play() {
+    if (!start()) { return; }
+    const double seconds = 2 * job_.course.seconds + protocol_seconds(bench_) * static_cast<double>(
+        1 + task_.interrupts.size() + job_.course.pauses);
+    const Tick deadline = bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
+    while (!bench_.over() && !ended()) {
+        go_on();
+        if (bench_.vm().now() > deadline) { bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s"); }
+    }
+    (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
+    record();
+}
+
+bool JobPlayer::start() {
+    job_.course = course_of(task_.program, bench_.machine(), at_);
+    job_.first_step = bench_.steps_made();
+    const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
+    const Reply* reply = bench_.ask(CommandKind::Run, program);
+    if (reply == nullptr) { return false; }
+    if (reply->status != ReplyStatus::Accepted) { bench_.object("refusal", "a good program was " + answer_text(*reply)); }
+    moving_since_ = bench_.vm().now();
+    return !bench_.over();
+}
+
+/// To the next thing that happens, by itself or by what was drawn.
+void JobPlayer::go_on() {
+    if (in(MachinePhase::Paused)) { return resume(); }
+    const bool more = next_ < task_.interrupts.size();
+    const double after_s = more ? task_.interrupts[next_].after_s : 0;
+    const Tick due = moving_since_ + Ticks{static_cast<std::int64_t>(after_s * bench_.machine().ticks_per_second())};
+    const double ample = 2 * job_.course.seconds + protocol_seconds(bench_);
+    (void)bench_.await([&] { return ended() || in(MachinePhase::Paused) || (more && bench_.vm().now() >= due); }, ample,
+                       "a motion");
+    if (!bench_.over() && more && in(MachinePhase::Running) && bench_.vm().now() >= due) {
+        interrupt(task_.interrupts[next_++]);
+    }
+}
+
+void JobPlayer::interrupt(const Interrupt& interrupt) {
+    switch (interrupt.kind) {
+        case Interrupt::Kind::HoldAndResume:
+        case Interrupt::Kind::HoldAndStop: return hold(interrupt);
+        case Interrupt::Kind::Stop: return stop();
+        case Interrupt::Kind::WrongCommand: return give(interrupt.wrong);
+    }
+}
+
+/// Comes when the motion is over where it was sent just before that.
+void JobPlayer::hold(const Interrupt& interrupt) {
+    const Reply* reply = bench_.ask(CommandKind::Hold);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) {
+        if (bench_.watch().was_moving_at(reply->sequence)) { bench_.object("hold", answer_text(*reply)); }
+        return;
+    }
+    const auto rests = [this] { return in(MachinePhase::Holding) || in(MachinePhase::Paused) || ended(); };
+    if (!bench_.await(rests, 2 * protocol_seconds(bench_) + job_.course.seconds, "coming to rest")) { return; }
+    const auto before = bench_.steps_made();
+    bench_.wait(interrupt.rest_s);
+    if (bench_.steps_made() != before) { return bench_.object("hold", "steps are made while the machine is held"); }
+    interrupt.kind == Interrupt::Kind::HoldAndStop ? stop() : resume();
+}
+
+void JobPlayer::stop() {
+    const Reply* reply = bench_.ask(CommandKind::Stop);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) {
+        if (bench_.watch().was_moving_at(reply->sequence)) { bench_.object("stop", answer_text(*reply)); }
+        return;
+    }
+    (void)bench_.await([this] { return ended(); }, 2 * protocol_seconds(bench_) + job_.course.seconds, "a stop");
+}
+
+/// Refused while the machine moves. Home would be taken at the job's end: it is given long before that or not at all.
+void JobPlayer::give(const WrongCommand& wrong) {
+    const double long_s = (bench_.lossy() ? 400 : 40) * bench_.slot_s();
+    if (wrong.kind == CommandKind::Home && !(bench_.vm().state()->remaining_s > long_s)) { return; }
+    std::uint64_t program = 0;
+    if (wrong.program) { program = bench_.send_program(*wrong.program); }
+    const Reply* reply = bench_.ask(wrong.kind, program);
+    if (reply == nullptr) { return; }
+    if (bench_.watch().was_moving_at(reply->sequence) && !is_refusal(*reply, wrong.refusal)) {
+        bench_.object("refusal", "expected " + std::string(name_of(wrong.refusal)) + ", " + answer_text(*reply));
+    }
+}
+
+void JobPlayer::resume() {
+    if (ended()) { return; }
+    const Reply* reply = bench_.ask(CommandKind::Resume);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) { return bench_.object("resume", answer_text(*reply)); }
+    moving_since_ = bench_.vm().now();
+}
+
+void JobPlayer::record() {
+    job_.end_step = bench_.steps_made();
+    job_.outcome = bench_.watch().outcome().value_or(JobOutcome::Failed);
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        for (std::size_t n = job_.first_step[i]; n < job_.end_step[i]; ++n) {
+            at_[i] += bench_.recording().axes[i].steps[n].direction;
+        }
+    }
+    bench_.recording().jobs.push_back(std::move(job_));
+}
+
+}  // namespace lockstep::simtest

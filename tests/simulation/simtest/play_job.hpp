@@ -1,0 +1,42 @@
+// One program on a machine at rest: given, run, interrupted, resumed, ended.
+#pragma once
+
+#include "tests/simulation/simtest/bench.hpp"
+
+namespace lockstep::simtest {
+
+class JobPlayer {
+public:
+    /// `at`: where the axes stand, and are left standing.
+    JobPlayer(Bench& bench, const Task& task, Counts& at) : bench_(bench), task_(task), at_(at) {}
+
+    /// Ends with the machine idle, the job recorded.
+    void play();
+
+private:
+    bool start();
+    void go_on();
+    void interrupt(const Interrupt& interrupt);
+    void hold(const Interrupt& interrupt);
+    void stop();
+    void give(const WrongCommand& wrong);
+    void resume();
+    void record();
+    bool ended() const { return bench_.watch().outcome().has_value(); }
+    bool in(MachinePhase phase) const { return bench_.watch().phase() == phase; }
+
+    Bench& bench_;
+    const Task& task_;
+    Counts& at_;
+    JobRecord job_;
+    std::size_t next_ = 0;   // of the interrupts
+    Tick moving_since_;
+};
+
+/// A command that an idle machine must refuse: it stays where it stands.
+void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at);
+
+/// All axes homed together and in their order; `at` is where they stand then. Recorded as a job.
+void play_homing(Bench& bench, Counts& at);
+
+}  // namespace lockstep::simtest

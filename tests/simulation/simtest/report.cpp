@@ -1,0 +1,68 @@
+#include "tests/simulation/simtest/report.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+namespace lockstep::simtest {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) { text += (text.empty() ? "" : ",") + word; }
+    return text;
+}
+
+std::string place(const Violation& v) {
+    std::string text;
+    if (v.axis) { text += " axis " + std::to_string(*v.axis + 1); }
+    if (v.tick) { text += " tick " + std::to_string(*v.tick); }
+    if (v.step) { text += " step " + std::to_string(*v.step); }
+    return text;
+}
+
+}  // namespace
+
+NetworkFaults Options::network() const {
+    const auto has = [this](const char* name) {
+        return std::ranges::any_of(faults, [name](const std::string& f) { return f == name || f == "all"; });
+    };
+    return {has("delay"), has("reorder"), has("duplicate"), has("loss")};
+}
+
+void Tally::add(const Verdict& verdict) {
+    ++runs;
+    failed += verdict.violations.empty() ? 0 : 1;
+    faulted += verdict.faulted ? 1 : 0;
+    steps += verdict.steps;
+    simulated_s += verdict.simulated_s;
+}
+
+void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options) {
+    std::FILE* to = options.json ? stderr : stdout;
+    std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, verdict.steps,
+                 verdict.simulated_s, verdict.hash, verdict.faulted ? ", ended in Fault" : "");
+    for (const Violation& v : verdict.violations) {
+        std::fprintf(to, "  VIOLATED %s:%s: %s\n", v.rule.c_str(), place(v).c_str(), v.text.c_str());
+    }
+    if (verdict.violations.empty()) { return; }
+    const std::string axes = options.axes ? " --axes " + std::to_string(*options.axes) : "";
+    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s --verbose\n", seed,
+                 joined(options.faults).c_str(), axes.c_str());
+}
+
+void print_tally(const Tally& t, const Options& options) {
+    const double hours = t.simulated_s / 3600;
+    if (options.json) {
+        std::printf("{\"runs\": %" PRIu64 ", \"failed\": %" PRIu64 ", \"faulted\": %" PRIu64
+                    ", \"steps\": %" PRIu64 ", \"simulatedHours\": %.6f, \"wallSeconds\": %.3f}\n",
+                    t.runs, t.failed, t.faulted, t.steps, hours, t.wall_s);
+        return;
+    }
+    std::printf("%" PRIu64 " runs, %" PRIu64 " failed, %" PRIu64 " in Fault; %" PRIu64
+                " steps judged; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
+                t.runs, t.failed, t.faulted, t.steps, hours, t.wall_s, hours / t.wall_s,
+                static_cast<double>(t.runs) / t.wall_s);
+}
+
+}  // namespace lockstep::simtest

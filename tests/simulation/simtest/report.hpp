@@ -1,0 +1,39 @@
+// What the program is asked, and what it says.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/simulation/simtest/run.hpp"
+
+namespace lockstep::simtest {
+
+struct Options {
+    std::uint64_t seed = 1;
+    std::uint64_t runs = 100;
+    std::optional<std::size_t> axes;
+    std::vector<std::string> faults{"none"};
+    bool json = false;
+    bool verbose = false;
+
+    NetworkFaults network() const;
+};
+
+struct Tally {
+    std::uint64_t runs = 0;
+    std::uint64_t failed = 0;
+    std::uint64_t faulted = 0;  // ended in Fault, as a network that loses messages may
+    std::uint64_t steps = 0;
+    double simulated_s = 0;
+    double wall_s = 0;
+
+    void add(const Verdict& verdict);
+};
+
+/// What was violated and where, and the command line that replays it.
+void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options);
+void print_tally(const Tally& tally, const Options& options);
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,41 @@
+#include "tests/simulation/simtest/run.hpp"
+
+#include "services/documents/machine_rules.hpp"
+#include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/play.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// A machine that no configuration could describe proves nothing.
+Violations check_configuration(const MachineConfig& machine) {
+    std::vector<Problem> problems = machine_problems(machine);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        for (Problem& problem : axis_problems(machine, i)) { problems.push_back(std::move(problem)); }
+    }
+    Violations violations;
+    for (const Problem& problem : problems) { violations.push_back({"configuration", {}, {}, {}, problem.message}); }
+    return violations;
+}
+
+}  // namespace
+
+Verdict run_seed(std::uint64_t seed, const NetworkFaults& faults, std::optional<std::size_t> axes, bool twice) {
+    const Scenario scenario = draw_scenario(seed, faults, axes);
+    Verdict verdict{.violations = check_configuration(scenario.machine)};
+    if (!verdict.violations.empty()) { return verdict; }
+    Played played = play(scenario);
+    const Recording& recording = played.recording;
+    verdict.violations = std::move(played.violations);
+    verdict.faulted = played.faulted;
+    append(verdict.violations, check_all(recording));
+    verdict.steps = recording.steps();
+    verdict.hash = recording.hash();
+    verdict.simulated_s = static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
+    if (twice && play(scenario).recording.hash() != verdict.hash) {
+        verdict.violations.push_back({"determinism", {}, {}, {}, "a second run of the same seed made other steps"});
+    }
+    return verdict;
+}
+
+}  // namespace lockstep::simtest
