@@ -19,9 +19,9 @@ protected:
         recorded.home();
         recorded.begin(test::program_of(recorded.vm().machine(), "G21 G90 F3000\nG1 X70 Y8\nX62 Y90\nX9 Y70\nG0 X5 Y5\n"));
         recorded.advance_ms(1500);
-        recorded.vm().command(CommandKind::Hold);
+        recorded.command(CommandKind::Hold);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
-        recorded.vm().command(CommandKind::Resume);
+        recorded.command(CommandKind::Resume);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
     }
 

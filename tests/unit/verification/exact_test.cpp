@@ -53,7 +53,7 @@ TEST_F(Exact, APauseBetweenTwoLegs) {
         recorded.home();
         recorded.begin(test::program_of(machine, "G0 X40 Y10\nM0\nG0 X5 Y5\n"));
         ASSERT_TRUE(recorded.reaches(MachinePhase::Paused));
-        recorded.vm().command(CommandKind::Resume);
+        recorded.command(CommandKind::Resume);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
     }
     expect_exact(1);
@@ -68,9 +68,9 @@ TEST_P(HeldAt, AndResumedTwice) {
         recorded.begin(test::program_of(machine, kSquare));
         for (int i = 0; i < 2; ++i) {
             recorded.advance_ms(GetParam());
-            recorded.vm().command(CommandKind::Hold);
+            recorded.command(CommandKind::Hold);
             ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
-            recorded.vm().command(CommandKind::Resume);
+            recorded.command(CommandKind::Resume);
             ASSERT_TRUE(recorded.reaches(MachinePhase::Running));
         }
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
@@ -85,7 +85,7 @@ TEST_F(Exact, StoppedInTheMiddle) {
         recorded.home();
         recorded.begin(test::program_of(machine, kSquare));
         recorded.advance_ms(700);
-        recorded.vm().command(CommandKind::Stop);
+        recorded.command(CommandKind::Stop);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
     }
     expect_exact(1);
@@ -97,9 +97,9 @@ TEST_F(Exact, AnEmergencyStopAndTheHomingAfterIt) {
         recorded.home();
         recorded.begin(test::program_of(machine, kSquare));
         recorded.advance_ms(800);
-        recorded.vm().command(CommandKind::EmergencyStop);
+        recorded.command(CommandKind::EmergencyStop);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Fault));
-        recorded.vm().command(CommandKind::Reset);
+        recorded.command(CommandKind::Reset);
         recorded.home();
     }
     expect_exact(1);

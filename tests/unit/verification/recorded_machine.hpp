@@ -37,8 +37,9 @@ inline Program program_of(const MachineConfig& machine, std::string_view gcode) 
 class RecordedMachine {
 public:
     RecordedMachine(const MachineConfig& machine, const std::filesystem::path& log)
-        : sink_(LogWriter::open(log).value()), vm_({.machine = machine, .config_hash = config_hash(machine)}),
-          recorder_(vm_, sink_) {}
+        : RecordedMachine(VirtualOptions{.machine = machine, .config_hash = config_hash(machine)}, log) {}
+    RecordedMachine(const VirtualOptions& options, const std::filesystem::path& log)
+        : sink_(LogWriter::open(log).value()), vm_(options), recorder_(vm_, sink_) {}
     ~RecordedMachine() {
         recorder_.finish();
         EXPECT_TRUE(sink_.finish());
@@ -49,15 +50,24 @@ public:
         return vm_.advance_until([&] { return vm_.state() && vm_.state()->phase == phase; }, Ticks{200'000'000});
     }
     void advance_ms(std::int64_t ms) { vm_.advance_until([] { return false; }, Ticks{ms * 1000}); }
+    /// Said again until it is answered.
+    void command(CommandKind kind, std::uint64_t program = 0) {
+        bool answered = false;
+        for (int tries = 0; tries < 50 && !answered; ++tries) {
+            const std::uint64_t sequence = vm_.command(kind, 0, program);
+            answered = vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, Ticks{200'000});
+        }
+        ASSERT_TRUE(answered);
+    }
     void home() {
         ASSERT_TRUE(reaches(MachinePhase::Idle));
-        vm_.command(CommandKind::Home);
+        command(CommandKind::Home);
         ASSERT_TRUE(reaches(MachinePhase::Homing));
         ASSERT_TRUE(reaches(MachinePhase::Idle));
     }
     void begin(Program program) {
         vm_.give_program(++programs_, std::move(program));
-        vm_.command(CommandKind::Run, 0, programs_);
+        command(CommandKind::Run, programs_);
         ASSERT_TRUE(reaches(MachinePhase::Running));
     }
 
