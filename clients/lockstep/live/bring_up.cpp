@@ -49,6 +49,7 @@ std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDire
     }
     if (auto made = state.make(); !made) { return std::unexpected(failed(made.error())); }
     if (!state.lock()) { return std::unexpected(failed(name + " is being started by another lockstep up; see: lockstep status")); }
+    state.forget_processes();
     state.remove_logs();
     if (auto written = state.write_machine_file(machine_text(machine.config)); !written) {
         return std::unexpected(failed(written.error()));
@@ -131,11 +132,11 @@ void supervise(const StateDirectory& state, const std::vector<ServiceLine>& line
     Supervisor(state, lines).run();
 }
 
-std::expected<void, Failure> supervise_in_background(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
     const pid_t pid = fork();
     if (pid < 0) { return std::unexpected(failed("cannot start the supervisor: no more processes")); }
     if (pid == 0) { be_supervisor(state, lines); }
-    return {};
+    return ProcessRecord{kSupervisor, pid, start_of(pid).value_or(0)};
 }
 
 std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const StateDirectory& state,

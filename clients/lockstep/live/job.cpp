@@ -123,8 +123,7 @@ ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, V
     report.set_outcome("refused");
     *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
     voice.report(report);
-    voice.say(title(job) + ": refused: " + reply.text);
-    voice.say(fault_text(report.fault()));
+    if (!voice.json()) { voice.warn(title(job) + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
     return kExitFailed;
 }
 
@@ -172,6 +171,8 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, voice); }
     report.set_job(reply->job);
     if (job.detach) { return end(session, job, JobVerdict::InProgress, report, voice); }
+    voice.say(title(job) + ": job " + std::to_string(reply->job) +
+              (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
     const auto verdict = JobWatch(session, job, reply->job, voice, stop).wait();
     if (!verdict) { return voice.fail(verdict.error()); }

@@ -81,8 +81,10 @@ std::string progress_text(const proto::StatusReport& status) {
 std::string homing_text(const proto::StatusReport& status) {
     std::string text;
     for (const proto::AxisStatus& axis : status.axes()) {
-        const std::string state = axis.homed() ? "homed" : axis.present() ? axis.state() : "not heard";
-        text += (text.empty() ? "" : "   ") + axis.name() + " " + fixed(axis.position_mm(), 3) + " " + state;
+        const std::string state = axis.homed() ? "homed at " + fixed(axis.position_mm(), 3)
+                                  : axis.present() ? axis.state()
+                                                   : "not heard";
+        text += (text.empty() ? "" : "   ") + axis.name() + " " + state;
     }
     return text;
 }

@@ -14,7 +14,7 @@ std::string status_text(const proto::StatusReport& status);
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".
 std::string progress_text(const proto::StatusReport& status);
-/// One line: "X 12.000 homed   Y 3.250 Initialize".
+/// One line: "X homed at 12.000   Y Initialize"; before it is homed an axis's position means nothing.
 std::string homing_text(const proto::StatusReport& status);
 /// "X 12.000  Y 3.250", of final positions.
 std::string places_text(const proto::RunReport& report);

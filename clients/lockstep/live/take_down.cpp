@@ -17,7 +17,7 @@ void signal_all(const std::vector<ProcessRecord>& processes, int signal) {
     for (const ProcessRecord& process : processes) { signal_process(process, signal); }
 }
 
-void end(const std::vector<ProcessRecord>& processes) {
+void end_processes(const std::vector<ProcessRecord>& processes) {
     const auto supervisor = std::ranges::find(processes, kSupervisor, &ProcessRecord::name);
     if (supervisor != processes.end()) {
         signal_process(*supervisor, SIGTERM);
@@ -31,12 +31,13 @@ void end(const std::vector<ProcessRecord>& processes) {
 
 }  // namespace
 
-TakenDown take_down(const StateDirectory& state) {
+TakenDown take_down(const StateDirectory& state, const std::optional<ProcessRecord>& also) {
     TakenDown taken;
     for (int round = 0; round < kMaxRounds; ++round) {
-        const std::vector<ProcessRecord> processes = state.running();
+        std::vector<ProcessRecord> processes = state.running();
+        if (also && is_running(*also) && std::ranges::find(processes, *also) == processes.end()) { processes.push_back(*also); }
         if (processes.empty()) { break; }
-        end(processes);
+        end_processes(processes);
         for (const ProcessRecord& process : processes) {
             if (!is_running(process)) { taken.ended.push_back(process.name); }
         }

@@ -53,8 +53,7 @@ ExitCode say_refusal(const Reply& reply, proto::CommandReport& report, Voice& vo
     *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
     report.set_text(reply.text);
     voice.report(report);
-    voice.say("refused: " + reply.text);
-    voice.say(fault_text(report.fault()));
+    if (!voice.json()) { voice.warn("refused: " + reply.text + "\n" + fault_text(report.fault())); }
     return kExitFailed;
 }
 

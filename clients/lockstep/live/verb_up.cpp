@@ -10,7 +10,7 @@ namespace lockstep {
 namespace {
 
 struct UpOptions : LiveOptions {
-    FpgaKind fpga = FpgaKind::Sim;
+    std::string fpga = "sim";
     bool foreground = false;
 };
 
@@ -27,17 +27,18 @@ ExitCode up(const UpOptions& options) {
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
-    const auto lines = prepare(*machine, options.fpga, state, voice);
+    const auto lines = prepare(*machine, options.fpga == "shm" ? FpgaKind::Shared : FpgaKind::Sim, state, voice);
     if (!lines) { return voice.fail(lines.error()); }
     if (options.foreground) {
         supervise(state, *lines);
         return kExitDone;
     }
     const auto since = monotonic_now();
-    if (auto begun = supervise_in_background(state, *lines); !begun) { return voice.fail(begun.error()); }
+    const auto supervisor = supervise_in_background(state, *lines);
+    if (!supervisor) { return voice.fail(supervisor.error()); }
     const auto session = wait_until_up(*machine, state, since);
     if (session) { return say_up(*session, state, voice); }
-    (void)take_down(state);
+    (void)take_down(state, *supervisor);
     Failure failure = session.error();
     failure.errors.front().message += failure.errors.front().message.ends_with('\n') ? "" : "\n";
     failure.errors.front().message += "machine '" + machine->config.name + "' is not up; what was started is ended again";
@@ -49,10 +50,9 @@ ExitCode up(const UpOptions& options) {
 void add_up(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("up", "start a machine's processes on this host, and wait until it is ready");
     const auto options = std::make_shared<UpOptions>();
-    const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
     verb->add_option("--fpga", options->fpga, "the devices: sim, in the axes' processes; shm, in processes of their own")
-        ->transform(CLI::CheckedTransformer(kinds))
-        ->default_str("sim");
+        ->check(CLI::IsMember({"sim", "shm"}))
+        ->capture_default_str();
     verb->add_flag("--foreground", options->foreground, "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_live_options(*verb, *options);
     verb->footer(

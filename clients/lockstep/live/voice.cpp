@@ -29,7 +29,7 @@ proto::ErrorReport error_report(const Failure& failure) {
 
 }  // namespace
 
-Voice::Voice(bool json) : json_(json), is_terminal_(isatty(STDOUT_FILENO) == 1) {}
+Voice::Voice(bool json) : json_(json), is_terminal_(isatty(STDOUT_FILENO) == 1), progress_time_s_(now_s()) {}
 
 void Voice::clear_progress() {
     if (progress_shown_) { std::cout << "\r\x1b[K"; }
@@ -44,7 +44,7 @@ void Voice::progress(const std::string& line) {
         progress_shown_ = true;
         return;
     }
-    if (progress_time_s_ != 0 && now_s() - progress_time_s_ < kProgressPeriod_s) { return; }
+    if (now_s() - progress_time_s_ < kProgressPeriod_s) { return; }
     progress_time_s_ = now_s();
     std::cout << line << std::endl;
 }

@@ -32,7 +32,7 @@ private:
     bool json_;
     bool is_terminal_;
     bool progress_shown_ = false;
-    double progress_time_s_ = 0;
+    double progress_time_s_;  // of the last line; at first, of the start
 };
 
 }  // namespace lockstep
