@@ -15,7 +15,8 @@ constexpr std::array kFaults{
 }  // namespace
 
 const FaultText* find_fault(FaultCode code) {
-    const auto* found = std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultText& f) { return f.code == code; });
+    const auto* found =
+        std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultText& f) { return f.code == code; });
     return found == kFaults.end() ? nullptr : found;
 }
 

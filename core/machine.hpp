@@ -13,7 +13,7 @@ inline constexpr std::size_t kMaxAxes = 32;
 
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
-    int sequence = 0;                 // axes with lower numbers home first; equal ones together
+    int sequence = 0;  // axes with lower numbers home first; equal ones together
     bool toward_min = true;
     double search_velocity_mm_s = 0;  // not above start_velocity: the switch stops the pulses at once
     double latch_velocity_mm_s = 0;   // the slow second approach that sets the zero
@@ -51,7 +51,7 @@ struct ProtocolTiming {
     int send_ahead_slots = 30;  // A >= V + m + 5
     int frame_slots = 23;       // >= m + s + 2
 
-    constexpr int check_slots() const { return 4 + stall_slots; }                          // V
+    constexpr int check_slots() const { return 4 + stall_slots; }                              // V
     constexpr int send_deadline_slots() const { return check_slots() + freshness_slots + 3; }  // V + m + 3
 };
 

@@ -20,7 +20,10 @@ struct Ticks {
     constexpr Ticks operator+(Ticks other) const { return {value + other.value}; }
     constexpr Ticks operator-(Ticks other) const { return {value - other.value}; }
     constexpr Ticks operator*(std::int64_t factor) const { return {value * factor}; }
-    constexpr Ticks& operator+=(Ticks other) { value += other.value; return *this; }
+    constexpr Ticks& operator+=(Ticks other) {
+        value += other.value;
+        return *this;
+    }
 };
 
 /// An instant on the step clock: ticks since the clock's origin.
@@ -30,7 +33,10 @@ struct Tick {
     constexpr Tick operator+(Ticks d) const { return {value + d.value}; }
     constexpr Tick operator-(Ticks d) const { return {value - d.value}; }
     constexpr Ticks operator-(Tick other) const { return {value - other.value}; }
-    constexpr Tick& operator+=(Ticks d) { value += d.value; return *this; }
+    constexpr Tick& operator+=(Ticks d) {
+        value += d.value;
+        return *this;
+    }
 };
 
 /// Fractions of a step in one step.

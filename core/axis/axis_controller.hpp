@@ -41,7 +41,16 @@ struct ExecutedTrack {
 /// What happened, for the log.
 struct AxisNotice {
     enum class Kind : std::uint8_t {
-        CoordinatorAdopted, EpochBegun, EpochEnded, FrameRefused, Vetoed, HomingStage, Homed, Fault, Reset, CommandRefused
+        CoordinatorAdopted,
+        EpochBegun,
+        EpochEnded,
+        FrameRefused,
+        Vetoed,
+        HomingStage,
+        Homed,
+        Fault,
+        Reset,
+        CommandRefused
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
@@ -100,7 +109,9 @@ private:
 
     void happen(AxisEvent event);
     void fail(FaultCode fault, AxisOutputs& out);
-    bool may_follow() const { return homed_ && mode_ == Mode::Rest && phase_ == AxisPhase::Standby && fault_ == FaultCode::None; }
+    bool may_follow() const {
+        return homed_ && mode_ == Mode::Rest && phase_ == AxisPhase::Standby && fault_ == FaultCode::None;
+    }
     Position machine_position(Position device) const { return device - Displacement::steps(zero_count_); }
     AxisState state(Slot slot) const;
 
@@ -121,9 +132,9 @@ private:
     FaultCode fault_ = FaultCode::None;
     bool homed_ = false;
     std::int64_t zero_count_ = 0;
-    std::uint64_t run_ = 0;              // the device run begun last
-    FrameNumber recorded_ = 0;           // bodies of the run recorded so far
-    FrameNumber ran_ = 0;                // bodies of the epoch begun so far
+    std::uint64_t run_ = 0;     // the device run begun last
+    FrameNumber recorded_ = 0;  // bodies of the run recorded so far
+    FrameNumber ran_ = 0;       // bodies of the epoch begun so far
     bool was_in_tail_ = false;
     std::optional<LocalRun> local_;
     double last_speed_ = 0;

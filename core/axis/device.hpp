@@ -13,25 +13,25 @@ namespace lockstep {
 
 /// One consistent look at the device. Counts are the device's own, from its power-up; never reset.
 struct DeviceStatus {
-    Tick now;                          // the device has executed every tick up to and with this one
+    Tick now;  // the device has executed every tick up to and with this one
     Position position;
-    Velocity velocity;                 // 0 at rest
+    Velocity velocity;  // 0 at rest
     bool moving = false;
-    std::uint64_t run = 0;             // the run (see BeginRun) the device is in or has ended
-    FrameNumber frame = 0;             // the highest frame of the run whose body has begun; 0: none
-    bool finished = false;             // the run has ended and the axis is at rest
+    std::uint64_t run = 0;  // the run (see BeginRun) the device is in or has ended
+    FrameNumber frame = 0;  // the highest frame of the run whose body has begun; 0: none
+    bool finished = false;  // the run has ended and the axis is at rest
     bool in_tail = false;
     bool limit_min = false;
     bool limit_max = false;
     bool home = false;
-    bool stopped_by_limit = false;     // this run ended at a limit switch
-    bool stopped_by_trigger = false;   // this run ended by the home input, as asked
-    bool stopped_by_host = false;      // this run ended by StopNow
-    std::int64_t trigger_count = 0;    // the device's count when the home input triggered
-    bool bad_segment = false;          // a segment was late or did not join the one before: refused, run ended
-    bool capture_overflow = false;     // steps were made whose time could not be kept
+    bool stopped_by_limit = false;    // this run ended at a limit switch
+    bool stopped_by_trigger = false;  // this run ended by the home input, as asked
+    bool stopped_by_host = false;     // this run ended by StopNow
+    std::int64_t trigger_count = 0;   // the device's count when the home input triggered
+    bool bad_segment = false;         // a segment was late or did not join the one before: refused, run ended
+    bool capture_overflow = false;    // steps were made whose time could not be kept
     std::int64_t encoder_count = 0;
-    std::uint32_t free_segments = 0;   // room in the segment ring
+    std::uint32_t free_segments = 0;  // room in the segment ring
 };
 
 enum class Trigger : std::uint8_t { None, HomeCloses, HomeOpens };
@@ -40,13 +40,25 @@ namespace device {
 
 /// A run is a sequence of frames from rest to rest. It forgets what was loaded, armed or vetoed before.
 /// `trigger` ends it at the first tick on which the home input has that level.
-struct BeginRun { std::uint64_t run = 0; Trigger trigger = Trigger::None; };
+struct BeginRun {
+    std::uint64_t run = 0;
+    Trigger trigger = Trigger::None;
+};
 /// Loads one frame's body and tail behind those loaded before. Positions are the device's own.
-struct LoadFrame { FrameNumber number = 0; Tick start; bool last = false; AxisTrack track; };
+struct LoadFrame {
+    FrameNumber number = 0;
+    Tick start;
+    bool last = false;
+    AxisTrack track;
+};
 /// Frames up to this one may be run.
-struct Arm { FrameNumber number = 0; };
+struct Arm {
+    FrameNumber number = 0;
+};
 /// This frame and those after it may not be run, if not begun.
-struct Veto { FrameNumber number = 0; };
+struct Veto {
+    FrameNumber number = 0;
+};
 /// Pulses cease at the next tick.
 struct StopNow {};
 

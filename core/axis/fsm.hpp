@@ -18,19 +18,19 @@ inline constexpr std::array kAxisPhases{AxisPhase::Initialize, AxisPhase::Standb
                                         AxisPhase::Fault};
 
 enum class AxisEvent : std::uint8_t {
-    SpeedRises,      // the pulses come faster than before, also out of rest
+    SpeedRises,  // the pulses come faster than before, also out of rest
     SpeedSteady,
     SpeedFalls,
-    MotionEnds,      // at rest, as planned
-    SwitchStops,     // the home switch ended the search or the latch
-    LimitStops,      // a limit switch ended the motion
-    HostStops,       // an emergency stop ended it
-    Zeroed,          // after a stop at the switch: the position is set; homing goes on or parks
-    Released,        // after a limit or emergency stop: back to Initialize, to be homed again
+    MotionEnds,   // at rest, as planned
+    SwitchStops,  // the home switch ended the search or the latch
+    LimitStops,   // a limit switch ended the motion
+    HostStops,    // an emergency stop ended it
+    Zeroed,       // after a stop at the switch: the position is set; homing goes on or parks
+    Released,     // after a limit or emergency stop: back to Initialize, to be homed again
     HomingBegins,
     Fails,
-    ResetHomed,      // out of Fault, position still known
-    ResetUnhomed,    // out of Fault, to be homed again
+    ResetHomed,    // out of Fault, position still known
+    ResetUnhomed,  // out of Fault, to be homed again
 };
 inline constexpr std::size_t kAxisEvents = 13;
 
@@ -93,8 +93,8 @@ constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
 }
 
 constexpr std::string_view name_of(AxisPhase phase) {
-    constexpr std::array<std::string_view, 7> kNames{"Initialize", "Standby",    "Accelerate", "Cruise",
-                                                     "Decelerate", "Stop", "Fault"};
+    constexpr std::array<std::string_view, 7> kNames{"Initialize", "Standby", "Accelerate", "Cruise",
+                                                     "Decelerate", "Stop",    "Fault"};
     return kNames[static_cast<std::size_t>(phase)];
 }
 

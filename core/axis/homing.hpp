@@ -16,7 +16,7 @@ enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park };
 
 /// One move of an axis on its own, in steps from where it stands.
 struct LocalMove {
-    std::int64_t steps = 0;        // signed
+    std::int64_t steps = 0;  // signed
     double speed_steps_per_tick = 0;
     Trigger trigger = Trigger::None;
 };
@@ -25,15 +25,15 @@ struct LocalMove {
 struct LocalEnd {
     bool by_trigger = false;
     bool by_limit = false;
-    bool home_closed = false;      // the switch, now
-    std::int64_t count = 0;        // the device's
+    bool home_closed = false;  // the switch, now
+    std::int64_t count = 0;    // the device's
     std::int64_t trigger_count = 0;
 };
 
 /// What comes next: a move, or the end of homing well or badly.
 struct HomingStep {
     std::optional<LocalMove> move;
-    bool zeroed = false;             // from now on the machine's count is the device's minus zero_count
+    bool zeroed = false;  // from now on the machine's count is the device's minus zero_count
     std::int64_t zero_count = 0;
     bool done = false;
     FaultCode fault = FaultCode::None;

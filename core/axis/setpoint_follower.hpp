@@ -81,7 +81,7 @@ private:
     FrameNumber checked_ = 0;  // every frame up to this one is decided
     std::optional<FrameNumber> veto_;
     std::optional<FrameNumber> device_veto_;  // what the device has been told
-    MotionPoint end_;          // of the last body held
+    MotionPoint end_;                         // of the last body held
     Tick end_tick_;
     bool last_held_ = false;
     std::deque<HeldFrame> frames_;

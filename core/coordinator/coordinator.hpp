@@ -26,12 +26,12 @@ struct JobEvent {
     Kind kind = Kind::Begun;
     std::uint64_t job = 0;
     JobKind job_kind = JobKind::Run;
-    JobOutcome outcome = JobOutcome::Done;        // Ended
-    std::shared_ptr<const Program> program;       // Begun; null for homing
-    Epoch epoch = 0;                              // EpochBegun: its frame 1 starts at `start`
+    JobOutcome outcome = JobOutcome::Done;   // Ended
+    std::shared_ptr<const Program> program;  // Begun; null for homing
+    Epoch epoch = 0;                         // EpochBegun: its frame 1 starts at `start`
     Tick start;
-    PathPlace place;                              // EpochBegun: where on the program it starts
-    std::vector<std::int64_t> start_counts;       // Begun
+    PathPlace place;                         // EpochBegun: where on the program it starts
+    std::vector<std::int64_t> start_counts;  // Begun
 };
 
 struct CoordinatorNotice {
@@ -55,7 +55,7 @@ struct CoordinatorOutputs {
     std::vector<Reply> replies;
     std::vector<JobEvent> jobs;
     std::vector<CoordinatorNotice> notices;
-    bool must_quit = false;             // an older coordinator runs this machine
+    bool must_quit = false;  // an older coordinator runs this machine
 };
 
 class Coordinator {
@@ -78,14 +78,14 @@ private:
         std::shared_ptr<const Program> program;
         std::vector<Leg> legs;
         std::size_t leg = 0;
-        Subticks planned;               // all legs
-        Subticks planned_behind;        // legs done
-        std::uint32_t axes = 0;         // homing: which
-        int sequence = 0;               // homing: the group in progress
-        PathPlace resume;               // held or interrupted: where it goes on
+        Subticks planned;         // all legs
+        Subticks planned_behind;  // legs done
+        std::uint32_t axes = 0;   // homing: which
+        int sequence = 0;         // homing: the group in progress
+        PathPlace resume;         // held or interrupted: where it goes on
         std::vector<PathMove> remaining;
         std::vector<Position> positions;
-        int fruitless = 0;              // epochs in a row that ran no frame
+        int fruitless = 0;  // epochs in a row that ran no frame
     };
     enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
 
@@ -135,7 +135,7 @@ private:
     EpochRunner runner_;
     std::vector<AxisView> views_;
     std::vector<std::optional<AxisCommand>> orders_;  // the newest to each axis, until done
-    std::uint64_t order_sequence_;  // like epochs: above all that earlier coordinators used
+    std::uint64_t order_sequence_;                    // like epochs: above all that earlier coordinators used
 
     MachinePhase phase_ = MachinePhase::Waiting;
     FaultCode fault_ = FaultCode::None;

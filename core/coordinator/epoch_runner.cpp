@@ -51,7 +51,8 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
 Frame EpochRunner::make_frame() {
     const Ticks whole = path_.duration().ceil();
     const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
-    Frame frame{.coordinator = coordinator_, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
+    Frame frame{
+        .coordinator = coordinator_, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
     frame.axes.resize(at_.size());
     for (std::size_t i = 0; i < at_.size(); ++i) { frame.axes[i].from = at_[i]; }
     std::vector<Piece> pieces(at_.size());
@@ -111,7 +112,11 @@ std::optional<EpochEnd> EpochRunner::judge(Slot now, std::span<const AxisView> a
     if (!ran || *ran > sent_ || *ran < oldest) { end.kind = EpochEnd::Kind::FramesDiffer; }
     if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
     const Ending& ending = endings_[*ran - oldest];
-    end = {ending.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, *ran, ending.move, ending.along,
+    end = {ending.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted,
+           0,
+           *ran,
+           ending.move,
+           ending.along,
            ending.positions};
     for (std::size_t i = 0; i < axes.size(); ++i) {
         if (axes[i].present(now, machine_.timing) && axes[i].state->position != ending.positions[i] && *ran > 0) {

@@ -26,13 +26,13 @@ struct AxisView {
 /// Where an epoch came to rest.
 struct EpochEnd {
     enum class Kind : std::uint8_t {
-        Complete,     // the path is done
-        Interrupted,  // all axes ran the same frames and rest on the path, where they should
-        FramesDiffer, // they did not all run the same frames
-        Misplaced,    // one is not where its frames end
+        Complete,      // the path is done
+        Interrupted,   // all axes ran the same frames and rest on the path, where they should
+        FramesDiffer,  // they did not all run the same frames
+        Misplaced,     // one is not where its frames end
     };
     Kind kind = Kind::Complete;
-    std::size_t axis = 0;             // Misplaced, FramesDiffer: which
+    std::size_t axis = 0;  // Misplaced, FramesDiffer: which
     FrameNumber ran = 0;
     std::size_t move = 0;             // Interrupted: the path's move it rests in
     Displacement along;               // and how far along that
@@ -80,14 +80,14 @@ private:
     Epoch epoch_ = 0;
     Path path_;
     Tick start_;
-    Ticks made_;                       // of the path, in frames so far
+    Ticks made_;  // of the path, in frames so far
     std::vector<Position> at_;
     FrameNumber sent_ = 0;
-    bool ended_ = false;               // no more frames will be made
+    bool ended_ = false;  // no more frames will be made
     bool late_ = false;
     std::optional<FrameNumber> veto_;
-    std::deque<Frame> in_flight_;      // not begun yet
-    std::deque<Ending> endings_;       // how the epoch ends if this frame is the last run; the newest is sent_
+    std::deque<Frame> in_flight_;  // not begun yet
+    std::deque<Ending> endings_;   // how the epoch ends if this frame is the last run; the newest is sent_
 };
 
 }  // namespace lockstep

@@ -30,8 +30,8 @@ std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(const
         std::size_t place = 0;
         while (place < machine_.axes.size() && machine_.axes[place].name != name) { ++place; }
         if (place == machine_.axes.size()) {
-            return std::unexpected(PlanError{FaultCode::BadProgram, 0, "the program moves axis " + name +
-                                                                           ", which this machine does not have"});
+            return std::unexpected(PlanError{FaultCode::BadProgram, 0,
+                                             "the program moves axis " + name + ", which this machine does not have"});
         }
         places.push_back(place);
     }
@@ -46,7 +46,8 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
         const AxisConfig& axis = machine_.axes[axes[i]];
         const double mm = move.target_mm[i];
         if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) {
-            return std::unexpected(PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + " mm is too far"});
+            return std::unexpected(
+                PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + " mm is too far"});
         }
         to[axes[i]] = to_steps(axis, mm);
         if (to[axes[i]] < limits_[axes[i]].min_steps || to[axes[i]] > limits_[axes[i]].max_steps) {
@@ -59,17 +60,16 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
     return to;
 }
 
-std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program,
-                                                                    const AxisCounts& start) const {
+std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program, const AxisCounts& start) const {
     const auto axes = axes_of(program);
     if (!axes) { return std::unexpected(axes.error()); }
     for (std::size_t i = 0; i < axes->size(); ++i) {
         const AxisConfig& axis = machine_.axes[(*axes)[i]];
         if (to_steps(axis, program.start_mm[i]) != start[(*axes)[i]]) {
-            return std::unexpected(PlanError{
-                FaultCode::StartMismatch, 0,
-                "the program starts at " + axis.name + " " + number(program.start_mm[i]) + " mm, the axis is at " +
-                    number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + " mm"});
+            return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
+                                             "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
+                                                 " mm, the axis is at " +
+                                                 number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + " mm"});
         }
     }
     std::vector<Leg> legs(1);
@@ -89,8 +89,7 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
             const double seconds = std::min(dwell->seconds, kMaxDwellSeconds);
             const Ticks ticks{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
             if (ticks.value <= 0) { continue; }
-            legs.back().moves.push_back(
-                {.line = block.line, .block = b, .from = at, .to = at, .dwell = ticks});
+            legs.back().moves.push_back({.line = block.line, .block = b, .from = at, .to = at, .dwell = ticks});
         } else {
             legs.back().then_pause = true;
             legs.back().pause_line = block.line;

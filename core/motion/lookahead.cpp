@@ -52,8 +52,8 @@ std::vector<double> joint_speeds(std::span<const PathMove> moves, Displacement a
     }
     for (std::size_t i = 1; i < n; ++i) {
         const std::size_t horizon = std::min(n, i + bounds.stop_moves - 1);
-        speed[i] = std::min({corner_speed(moves[i - 1], moves[i], limits), top_speed(moves[i - 1]),
-                             top_speed(moves[i]), std::sqrt(brakes_before[horizon] - brakes_before[i])});
+        speed[i] = std::min({corner_speed(moves[i - 1], moves[i], limits), top_speed(moves[i - 1]), top_speed(moves[i]),
+                             std::sqrt(brakes_before[horizon] - brakes_before[i])});
     }
     for (std::size_t i = n - 1; i >= 1; --i) {
         speed[i] = std::min(speed[i], std::sqrt(speed[i + 1] * speed[i + 1] + brakes(moves[i], moves[i].length_mm)));
@@ -151,8 +151,8 @@ Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const 
             path.moves[first].profile = plan_dwell({}, path.moves[first].dwell);
             last = first + 1;
         } else {
-            plan_joined(std::span(path.moves).subspan(first, last - first), first == 0 ? along : Displacement{},
-                        limits, bounds);
+            plan_joined(std::span(path.moves).subspan(first, last - first), first == 0 ? along : Displacement{}, limits,
+                        bounds);
         }
         for (; first < last; ++first) {
             path.moves[first].start = clock;

@@ -14,15 +14,15 @@ using AxisCounts = StaticVector<std::int64_t, kMaxAxes>;
 
 /// One straight move of all axes from one whole place to another, or a dwell (nothing moves).
 struct PathMove {
-    std::int32_t line = 0;      // of the program
-    std::uint32_t block = 0;    // of the program
-    AxisCounts from;            // steps
+    std::int32_t line = 0;    // of the program
+    std::uint32_t block = 0;  // of the program
+    AxisCounts from;          // steps
     AxisCounts to;
-    std::int64_t lead = 0;      // steps of the axis that has the most; 0: a dwell
+    std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;
-    PathLimits limits;          // of the lead axis, so that no axis breaks its own; feed included
-    Ticks dwell;                // where lead is 0
-    Subticks start;             // after the path's start
+    PathLimits limits;  // of the lead axis, so that no axis breaks its own; feed included
+    Ticks dwell;        // where lead is 0
+    Subticks start;     // after the path's start
     Profile profile;
 
     Subticks end() const { return start + profile.duration(); }

@@ -58,7 +58,7 @@ struct PathLimits {
 struct ProfileRequest {
     Displacement from;  // on the path; from < to
     Displacement to;
-    double entry = 0;   // steps per tick; the end speeds must be within reach of each other
+    double entry = 0;  // steps per tick; the end speeds must be within reach of each other
     double exit = 0;
     PathLimits limits;
     std::int64_t quantum = kSubticksPerTick;  // phases last whole multiples of it: a tick, or 1 subtick
@@ -80,14 +80,15 @@ Profile plan_dwell(Displacement at, Ticks ticks);
 
 /// Why a move cannot be made in the time asked, and what could be.
 struct Infeasible {
-    Ticks least_ticks;             // for the distance asked
-    Displacement longest;          // in the time asked
+    Ticks least_ticks;     // for the distance asked
+    Displacement longest;  // in the time asked
 };
 
 /// A move of `distance` from rest to rest in exactly `ticks`, as gently as can be: Pramod Ranade, "Linear motor
 /// control without the math", planning of triangular and trapezoidal moves:
 ///   v_avg = N/T;  triangle: v_top = 2 v_avg - v_start, a = 2 (v_top - v_start)/T;
-///   where v_top would pass the limit, a trapezoid at the limit: a = (v_max - v_start)/t1, t1 = (v_max T - N)/(v_max - v_start).
+///   where v_top would pass the limit, a trapezoid at the limit: a = (v_max - v_start)/t1, t1 = (v_max T - N)/(v_max -
+///   v_start).
 /// Below the start velocity the speed is constant. Acceleration and deceleration are equal, within the smaller limit.
 std::expected<Profile, Infeasible> plan_in_time(Displacement distance, Ticks ticks, const PathLimits& limits);
 

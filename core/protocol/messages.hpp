@@ -23,7 +23,7 @@ using Slot = std::int64_t;
 using Identity = std::uint64_t;
 
 inline constexpr std::size_t kMaxBodyPieces = 240;  // per axis and frame; the planner keeps moves long enough
-inline constexpr std::size_t kMaxTailPieces = 32;  // the planner keeps stops short enough
+inline constexpr std::size_t kMaxTailPieces = 32;   // the planner keeps stops short enough
 
 /// One axis's share of a frame. The tail starts where the body ends.
 struct AxisTrack {
@@ -53,22 +53,22 @@ struct AxisState {
     Identity identity = 0;
     std::uint32_t axis = 0;  // its place in the configuration
     Slot stamp = 0;
-    Epoch epoch = 0;                    // the newest epoch it has taken frames of
-    FrameNumber held = 0;               // every frame up to this one is held; 0: none
-    std::optional<FrameNumber> veto;    // the lowest frame of the epoch that may not be run, merged from all heard
-    FrameNumber ran = 0;                // the highest frame of the epoch the device has begun
+    Epoch epoch = 0;                  // the newest epoch it has taken frames of
+    FrameNumber held = 0;             // every frame up to this one is held; 0: none
+    std::optional<FrameNumber> veto;  // the lowest frame of the epoch that may not be run, merged from all heard
+    FrameNumber ran = 0;              // the highest frame of the epoch the device has begun
     bool at_rest = true;
     bool homed = false;
     AxisPhase phase = AxisPhase::Initialize;
-    std::uint16_t fault = 0;            // FaultCode; 0: none
-    Position position;                  // machine coordinates, as the pulses have it
+    std::uint16_t fault = 0;  // FaultCode; 0: none
+    Position position;        // machine coordinates, as the pulses have it
     Velocity velocity;
-    Tick tick;                          // when position and velocity were read
+    Tick tick;                               // when position and velocity were read
     std::int64_t following_error_steps = 0;  // encoder minus count
-    std::uint64_t command_done = 0;     // the newest AxisCommand carried out or refused
-    std::uint16_t command_fault = 0;    // why it was refused; 0: it was carried out
-    std::uint64_t config_hash = 0;      // of the configuration it runs with
-    std::uint64_t refused_frames = 0;   // since start
+    std::uint64_t command_done = 0;          // the newest AxisCommand carried out or refused
+    std::uint16_t command_fault = 0;         // why it was refused; 0: it was carried out
+    std::uint64_t config_hash = 0;           // of the configuration it runs with
+    std::uint64_t refused_frames = 0;        // since start
     bool operator==(const AxisState&) const = default;
 };
 
@@ -94,16 +94,16 @@ struct MachineState {
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
     std::uint16_t fault = 0;
-    std::uint32_t fault_axis = 0;        // meaningful where fault is not 0 and names an axis
+    std::uint32_t fault_axis = 0;  // meaningful where fault is not 0 and names an axis
     Epoch epoch = 0;
-    FrameNumber sent = 0;                // the highest frame sent
-    std::optional<FrameNumber> veto;     // the coordinator's own, of this epoch
-    std::uint64_t job = 0;               // counts the jobs done or begun since start
-    std::optional<JobOutcome> outcome;   // of that job; nothing while it is in progress
-    std::int32_t line = 0;               // of the G-code now in motion
-    double progress = 0;                 // 0 ... 1 of the job's planned time
+    FrameNumber sent = 0;               // the highest frame sent
+    std::optional<FrameNumber> veto;    // the coordinator's own, of this epoch
+    std::uint64_t job = 0;              // counts the jobs done or begun since start
+    std::optional<JobOutcome> outcome;  // of that job; nothing while it is in progress
+    std::int32_t line = 0;              // of the G-code now in motion
+    double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
-    std::uint32_t axes_present = 0;      // bit i: axis i is heard
+    std::uint32_t axes_present = 0;  // bit i: axis i is heard
     std::uint64_t config_hash = 0;
     bool operator==(const MachineState&) const = default;
 };
@@ -115,8 +115,8 @@ struct Command {
     Identity client = 0;
     std::uint64_t sequence = 0;
     CommandKind kind = CommandKind::Stop;
-    std::uint32_t axes = 0;              // Home: bit i for axis i; 0 means all
-    std::uint64_t program = 0;           // Move, Run: the program sent before in chunks
+    std::uint32_t axes = 0;     // Home: bit i for axis i; 0 means all
+    std::uint64_t program = 0;  // Move, Run: the program sent before in chunks
     bool operator==(const Command&) const = default;
 };
 
@@ -137,9 +137,9 @@ struct Reply {
     Identity client = 0;
     std::uint64_t sequence = 0;
     ReplyStatus status = ReplyStatus::Accepted;
-    std::uint16_t fault = 0;   // FaultCode of a refusal
-    std::uint64_t job = 0;     // the job a command began
-    std::string text;          // what, where, the limit and the remedy, for a person
+    std::uint16_t fault = 0;  // FaultCode of a refusal
+    std::uint64_t job = 0;    // the job a command began
+    std::string text;         // what, where, the limit and the remedy, for a person
     bool operator==(const Reply&) const = default;
 };
 

@@ -4,7 +4,8 @@
 // Every slot every axis says which frames it holds and which it vetoes. At the check instant Y(k) = start(k) - V an
 // axis arms its device for frame k if it holds k, knows no veto of k or before, and has from every other axis a state
 // stamped in [Y-1-m, Y-1] that holds k; else it vetoes k. The device runs k at start(k) if it is armed, k-1 was run
-// and no veto came since; else it runs the tail of k-1 by itself. Nobody has to notice anything for the machine to stop.
+// and no veto came since; else it runs the tail of k-1 by itself. Nobody has to notice anything for the machine to
+// stop.
 #pragma once
 
 #include <optional>
@@ -42,9 +43,9 @@ constexpr bool is_evidence(Slot stamp, Slot start, const ProtocolTiming& t) {
 
 /// Whether frame k may be armed for all this axis knows: the check itself.
 struct Evidence {
-    FrameNumber held = 0;                // by this axis
-    std::optional<FrameNumber> veto;     // the lowest known
-    bool every_other_holds = false;      // evidence from every other axis that it holds k
+    FrameNumber held = 0;             // by this axis
+    std::optional<FrameNumber> veto;  // the lowest known
+    bool every_other_holds = false;   // evidence from every other axis that it holds k
 };
 constexpr bool may_arm(FrameNumber k, const Evidence& e) {
     return e.held >= k && !(e.veto && *e.veto <= k) && e.every_other_holds;
@@ -58,11 +59,15 @@ constexpr FrameNumber veto_when_too_late(FrameNumber k) { return k + 1; }
 /// Whether an axis may still veto a frame that starts at `start` for reasons of its own (a switch, a fault).
 constexpr bool axis_may_veto(Slot now, Slot start) { return now <= start - kLastCheckSlots; }
 /// Whether the coordinator may veto it (a stop, a hold): before any axis has decided.
-constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) { return now < check_slot(start, t); }
+constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) {
+    return now < check_slot(start, t);
+}
 
 /// When a frame is first sent, and the last slot in which it is sent at all.
 constexpr Slot first_send_slot(Slot start, const ProtocolTiming& t) { return start - t.send_ahead_slots; }
-constexpr bool may_send(Slot now, Slot start, const ProtocolTiming& t) { return now <= start - t.send_deadline_slots(); }
+constexpr bool may_send(Slot now, Slot start, const ProtocolTiming& t) {
+    return now <= start - t.send_deadline_slots();
+}
 
 /// How long an axis or a coordinator may be unheard before it counts as gone for a machine at rest. A machine in
 /// motion never judges by this.

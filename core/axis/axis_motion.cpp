@@ -1,0 +1,183 @@
+// What the device has done since the last look, and the moves an axis makes on its own.
+#include "core/axis/axis_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/interpolate.hpp"
+#include "core/motion/profile.hpp"
+
+namespace lockstep {
+
+void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
+    device_ = device;
+    if (mode_ == Mode::Rest) { run_ = std::max(run_, device.run); }  // a device may have outlived another process
+    if (mode_ != Mode::Rest && device.run == run_) {
+        record_progress(device, out);
+        follow_speed(device);
+        if (device.finished) { end_run(device, out); }
+    }
+    if (phase_ == AxisPhase::Stop && mode_ == Mode::Rest) { happen(AxisEvent::Released); }
+    if (std::abs(device.encoder_count - device.position.count()) > kMaxFollowingError && homed_ &&
+        fault_ == FaultCode::None) {
+        homed_ = false;
+        fail(FaultCode::FollowingError, out);
+    }
+}
+
+/// Records each body when the next has begun, and the last with its tail when the run has ended.
+void AxisController::record_progress(const DeviceStatus& device, AxisOutputs& out) {
+    const bool local = mode_ == Mode::Local;
+    if (!local) { ran_ = device.frame; }
+    for (; recorded_ < device.frame; ++recorded_) {
+        const FrameNumber k = recorded_ + 1;
+        const HeldFrame* frame = local ? &local_->frame : follower_.find(k);
+        if (k < device.frame) {
+            record(*frame, false, {}, out);
+        } else if (device.finished) {
+            record_end(*frame, device, out);
+        } else {
+            break;
+        }
+    }
+    was_in_tail_ = device.in_tail;
+    if (!local) { follower_.forget_before(recorded_ + 1); }
+}
+
+void AxisController::record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out) {
+    const bool stopped = device.stopped_by_limit || device.stopped_by_trigger || device.stopped_by_host;
+    const std::int64_t here = device.position.count() - zero_count_;
+    const std::int64_t body_end = frame.body_end().count();
+    const bool beyond = here != body_end && (here > body_end) == (body_end > frame.track.from.count());
+    const bool in_tail = !frame.last && (!stopped || was_in_tail_ || beyond);
+    record(frame, false, stopped && !in_tail ? std::optional(here) : std::nullopt, out);
+    if (in_tail && !frame.track.tail.empty()) {
+        record(frame, true, stopped ? std::optional(here) : std::nullopt, out);
+    }
+}
+
+void AxisController::record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, AxisOutputs& out) {
+    ExecutedTrack r{.epoch = mode_ == Mode::Local ? 0 : follower_.epoch(), .frame = frame.number, .tail = tail};
+    r.start = tail ? frame.end() : frame.start;
+    r.from = tail ? frame.body_end() : frame.track.from;
+    const auto take = [&r](const auto& pieces) { r.pieces.assign(pieces.begin(), pieces.end()); };
+    tail ? take(frame.track.tail) : take(frame.track.body);
+    Position end = r.from;
+    for (const Piece& piece : r.pieces) { end = end + piece.covered(); }
+    r.cut = cut_at.has_value();
+    r.stop_count = cut_at.value_or(end.count());
+    r.zero_count = zero_count_;
+    out.tracks.push_back(std::move(r));
+}
+
+/// The three moving states follow the speed of the pulses themselves.
+void AxisController::follow_speed(const DeviceStatus& device) {
+    constexpr double kSteady = 0x1p-40;  // steps per tick: what rounding makes of a constant speed
+    const double speed = std::abs(device.velocity.steps_per_tick());
+    const double change = speed - last_speed_;
+    last_speed_ = speed;
+    if (phase_ == AxisPhase::Initialize || device.finished || speed == 0) { return; }
+    if (std::abs(change) <= kSteady) {
+        happen(AxisEvent::SpeedSteady);
+    } else {
+        happen(change > 0 ? AxisEvent::SpeedRises : AxisEvent::SpeedFalls);
+    }
+}
+
+void AxisController::end_run(const DeviceStatus& device, AxisOutputs& out) {
+    last_speed_ = 0;
+    const bool was_local = mode_ == Mode::Local;
+    if (!was_local && !device.stopped_by_limit && !device.stopped_by_host) { happen(AxisEvent::MotionEnds); }
+    if (device.stopped_by_host) {
+        homed_ = false;
+        homing_.abandon();
+        mode_ = Mode::Rest;
+        happen(AxisEvent::HostStops);
+        fail(FaultCode::EmergencyStopped, out);
+    } else if (device.capture_overflow || (device.bad_segment && !(was_local && device.frame == 0))) {
+        homing_.abandon();
+        mode_ = Mode::Rest;
+        fail(FaultCode::DeviceFault, out);
+    } else if (was_local) {
+        end_local(device, out);
+    } else if (device.stopped_by_limit) {
+        homed_ = false;
+        follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
+        happen(AxisEvent::LimitStops);
+        fail(FaultCode::LimitHit, out);
+    }
+    if (!was_local) { end_following(out); }
+}
+
+void AxisController::end_following(AxisOutputs& out) {
+    mode_ = Mode::Rest;
+    follower_.close();
+    out.notices.push_back({AxisNotice::Kind::EpochEnded, FaultCode::None, follower_.epoch()});
+}
+
+void AxisController::end_local(const DeviceStatus& device, AxisOutputs& out) {
+    const LocalRun ended = *local_;
+    local_.reset();
+    mode_ = Mode::Rest;
+    if (device.bad_segment) {  // this process stalled and the start was missed: nothing has moved
+        if (ended.tries >= kMaxTries) { return fail(FaultCode::DeviceFault, out); }
+        return start_local(ended.move, ended.tries + 1, out);
+    }
+    if (device.stopped_by_trigger) { happen(AxisEvent::SwitchStops); }
+    if (device.stopped_by_limit) { happen(AxisEvent::LimitStops); }
+    if (homing_.stage() == HomingStage::Park) { happen(AxisEvent::MotionEnds); }
+    take_homing_step(homing_.next({.by_trigger = device.stopped_by_trigger,
+                                   .by_limit = device.stopped_by_limit,
+                                   .home_closed = device.home,
+                                   .count = device.position.count(),
+                                   .trigger_count = device.trigger_count}),
+                     out);
+}
+
+void AxisController::take_homing_step(const HomingStep& step, AxisOutputs& out) {
+    out.notices.push_back({AxisNotice::Kind::HomingStage, step.fault, static_cast<std::uint64_t>(homing_.stage())});
+    if (step.zeroed) {
+        zero_count_ = step.zero_count;
+        homed_ = true;
+        happen(AxisEvent::Zeroed);
+    } else if (phase_ == AxisPhase::Stop && step.fault == FaultCode::None) {
+        happen(AxisEvent::HomingBegins);
+    }
+    if (step.fault != FaultCode::None) {
+        homed_ = false;
+        fail(step.fault, out);
+        return done(step.fault);
+    }
+    if (step.move && step.move->steps != 0) { return start_local(*step.move, 0, out); }
+    if (step.move) { return take_homing_step(homing_.next({.count = device_.position.count()}), out); }
+    if (step.done) {
+        out.notices.push_back({AxisNotice::Kind::Homed, FaultCode::None, 0});
+        done(FaultCode::None);
+    }
+}
+
+void AxisController::start_local(const LocalMove& move, int tries, AxisOutputs& out) {
+    PathLimits limits{std::min(limits_.start_velocity, move.speed_steps_per_tick), move.speed_steps_per_tick,
+                      limits_.max_acceleration, limits_.max_deceleration};
+    const int direction = move.steps < 0 ? -1 : 1;
+    const Profile profile = plan_fastest(
+        {{}, Displacement::steps(move.steps * direction), limits.start_velocity, limits.start_velocity, limits});
+    LocalRun run{.move = move, .tries = tries};
+    run.frame.number = 1;
+    run.frame.start = now_ + slot_ * (2 + tries);
+    run.frame.ticks = profile.duration().ceil();
+    run.frame.last = true;
+    run.frame.track.from = rest_position(device_.position.count() - zero_count_, direction < 0);
+    for (const Piece& piece : pieces_of(profile, run.frame.track.from, direction)) {
+        (void)run.frame.track.body.push_back(piece);  // three phases at most
+    }
+    mode_ = Mode::Local;
+    recorded_ = 0;
+    was_in_tail_ = false;
+    out.orders.emplace_back(device::BeginRun{++run_, move.trigger});
+    load(run.frame, out);
+    out.orders.emplace_back(device::Arm{1});
+    local_ = std::move(run);
+}
+
+}  // namespace lockstep

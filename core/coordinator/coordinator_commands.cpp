@@ -1,0 +1,141 @@
+// What clients ask for: done, or refused with the reason and the remedy.
+#include "core/coordinator/coordinator.hpp"
+
+#include <limits>
+
+namespace lockstep {
+
+void Coordinator::take_command(const Command& command, CoordinatorOutputs& out) {
+    const auto last = replies_.find(command.client);
+    if (last != replies_.end() && command.sequence <= last->second.sequence) {
+        if (command.sequence == last->second.sequence) { out.replies.push_back(last->second); }
+        return;
+    }
+    const Reply reply = answer(command, out);
+    if (replies_.size() >= kClientsRemembered) { replies_.erase(replies_.begin()); }
+    replies_[command.client] = reply;
+    out.replies.push_back(reply);
+}
+
+Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {
+    switch (command.kind) {
+        case CommandKind::Home: return home(command, out);
+        case CommandKind::Move:
+        case CommandKind::Run: return run(command, out);
+        case CommandKind::Hold: return interrupt(command, Intent::Hold, out);
+        case CommandKind::Stop: return interrupt(command, Intent::Stop, out);
+        case CommandKind::Resume: return resume(command, out);
+        case CommandKind::Reset: return reset(command, out);
+        case CommandKind::EmergencyStop: return emergency(command, out);
+    }
+    return refused(command, FaultCode::NothingToDo, "unknown command");
+}
+
+Reply Coordinator::accepted(const Command& command) const {
+    return {command.client, command.sequence, ReplyStatus::Accepted, 0, job_ ? job_->number : jobs_, {}};
+}
+
+Reply Coordinator::refused(const Command& command, FaultCode why, std::string text) {
+    return {command.client, command.sequence, ReplyStatus::Refused, static_cast<std::uint16_t>(why), 0,
+            std::move(text)};
+}
+
+std::optional<Reply> Coordinator::refuse_unless_ready(const Command& command) const {
+    if (const auto missing = missing_axis()) {
+        return refused(command, FaultCode::AxisMissing, "axis " + machine_.axes[*missing].name + " is not heard");
+    }
+    if (phase_ == MachinePhase::Fault) {
+        return refused(command, FaultCode::InFault, "the machine is in Fault: " + std::string(name_of(fault_)));
+    }
+    if (phase_ != MachinePhase::Idle) { return refused(command, FaultCode::Busy, "the machine is not idle"); }
+    return std::nullopt;
+}
+
+Reply Coordinator::home(const Command& command, CoordinatorOutputs& out) {
+    if (auto refusal = refuse_unless_ready(command)) { return *refusal; }
+    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << views_.size()) - 1);
+    if ((command.axes & ~all) != 0) { return refused(command, FaultCode::BadProgram, "no such axis"); }
+    job_ = Job{.number = ++jobs_, .kind = JobKind::Home, .axes = command.axes == 0 ? all : command.axes};
+    job_->sequence = std::numeric_limits<int>::min();
+    out.jobs.push_back({.kind = JobEvent::Kind::Begun, .job = job_->number, .job_kind = JobKind::Home});
+    enter(MachinePhase::Homing, out);
+    send_homing_group(out);
+    return accepted(command);
+}
+
+Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
+    if (auto refusal = refuse_unless_ready(command)) { return *refusal; }
+    const auto program = programs_.find(command.program);
+    if (program == programs_.end()) {
+        return refused(command, FaultCode::UnknownProgram, "the program has not arrived whole");
+    }
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        if (!views_[i].state->homed) {
+            return refused(command, FaultCode::NotHomed, "axis " + machine_.axes[i].name + " is not homed");
+        }
+    }
+    auto plan = planner_.plan(*program->second, counts());
+    if (!plan) {
+        const std::string line = plan.error().line > 0 ? "line " + std::to_string(plan.error().line) + ": " : "";
+        return refused(command, plan.error().fault, line + plan.error().text);
+    }
+    job_ = Job{.number = ++jobs_,
+               .kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run,
+               .program = program->second,
+               .legs = std::move(*plan)};
+    for (const Leg& leg : job_->legs) {
+        if (!leg.moves.empty()) { job_->planned = job_->planned + planner_.path(leg.moves, {}).duration(); }
+    }
+    const AxisCounts start = counts();
+    out.jobs.push_back({.kind = JobEvent::Kind::Begun,
+                        .job = job_->number,
+                        .job_kind = job_->kind,
+                        .program = job_->program,
+                        .start_counts = {start.begin(), start.end()}});
+    const Reply reply = accepted(command);
+    begin_leg(out);
+    return reply;
+}
+
+Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorOutputs& out) {
+    const bool resting = phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused;
+    if (intent == Intent::Stop && resting && !moving_) {
+        const Reply reply = accepted(command);
+        end_job(JobOutcome::Stopped, out);
+        return reply;
+    }
+    if (!moving_) { return refused(command, FaultCode::NothingToDo, "nothing is in motion that could be interrupted"); }
+    intent_ = std::max(intent_, intent);
+    runner_.stop(now_slot_);
+    enter(MachinePhase::Stopping, out);
+    return accepted(command);
+}
+
+Reply Coordinator::resume(const Command& command, CoordinatorOutputs& out) {
+    const bool resting = phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused;
+    if (!resting || moving_) { return refused(command, FaultCode::NothingToDo, "nothing is held or paused"); }
+    if (const auto missing = missing_axis()) {
+        return refused(command, FaultCode::AxisMissing, "axis " + machine_.axes[*missing].name + " is not heard");
+    }
+    phase_ == MachinePhase::Paused ? begin_leg(out) : go_on(out);
+    return accepted(command);
+}
+
+Reply Coordinator::reset(const Command& command, CoordinatorOutputs& out) {
+    if (moving_ || phase_ == MachinePhase::Homing) {
+        return refused(command, FaultCode::Busy, "the machine is in motion");
+    }
+    if (job_) { end_job(JobOutcome::Stopped, out); }
+    for (std::size_t i = 0; i < views_.size(); ++i) { order(i, AxisCommandKind::Reset); }
+    fault_ = FaultCode::None;
+    enter(MachinePhase::Waiting, out);
+    return accepted(command);
+}
+
+Reply Coordinator::emergency(const Command& command, CoordinatorOutputs& out) {
+    for (std::size_t i = 0; i < views_.size(); ++i) { order(i, AxisCommandKind::StopNow); }
+    fail(FaultCode::EmergencyStopped, 0, out);
+    return accepted(command);
+}
+
+}  // namespace lockstep

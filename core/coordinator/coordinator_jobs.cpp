@@ -1,0 +1,143 @@
+// Homing and motion: what happens while a job is in progress, and when its axes have come to rest.
+#include "core/coordinator/coordinator.hpp"
+
+#include <optional>
+
+#include "core/motion/interpolate.hpp"
+
+namespace lockstep {
+
+void Coordinator::send_homing_group(CoordinatorOutputs& out) {
+    std::optional<int> group;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        const int sequence = machine_.axes[i].homing.sequence;
+        const bool later = (job_->axes >> i & 1) != 0 && sequence > job_->sequence;
+        if (later && (!group || sequence < *group)) { group = sequence; }
+    }
+    if (!group) { return end_job(JobOutcome::Done, out); }
+    job_->sequence = *group;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        if ((job_->axes >> i & 1) != 0 && machine_.axes[i].homing.sequence == *group) {
+            order(i, AxisCommandKind::Home);
+        }
+    }
+}
+
+void Coordinator::advance_homing(CoordinatorOutputs& out) {
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        if (!order_done(i)) { return; }
+        const bool refused = orders_[i] && views_[i].state && views_[i].state->command_fault != 0;
+        if (refused && orders_[i]->kind == AxisCommandKind::Home) {
+            return fail(static_cast<FaultCode>(views_[i].state->command_fault), i, out);
+        }
+    }
+    send_homing_group(out);
+}
+
+void Coordinator::advance(CoordinatorOutputs& out) {
+    if (moving_) {
+        out.frames = runner_.send(now_slot_, views_);
+        if (const auto end = runner_.judge(now_slot_, views_)) { settle(*end, out); }
+        return;
+    }
+    if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
+    const bool listened = now_slot_ - *first_slot_ > rules::silence_slots(machine_.timing);
+    bool orders_open = false;
+    for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
+    if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open) {
+        enter(MachinePhase::Idle, out);
+    }
+}
+
+void Coordinator::begin_leg(CoordinatorOutputs& out) {
+    while (job_->leg < job_->legs.size() && job_->legs[job_->leg].moves.empty() && !job_->legs[job_->leg].then_pause) {
+        ++job_->leg;
+    }
+    if (job_->leg == job_->legs.size()) { return end_job(JobOutcome::Done, out); }
+    Leg& leg = job_->legs[job_->leg];
+    if (leg.moves.empty()) {
+        ++job_->leg;
+        return enter(MachinePhase::Paused, out);
+    }
+    begin_epoch(leg.moves, {}, {}, {leg.moves.front().block, {}}, out);
+}
+
+/// `at` empty: from rest on whole steps, where the axes stand.
+void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at,
+                              PathPlace place, CoordinatorOutputs& out) {
+    Path path = planner_.path(std::move(moves), along);
+    if (at.empty()) {
+        for (std::size_t i = 0; i < views_.size(); ++i) {
+            at.push_back(start_of(path, i, views_[i].state->position.count()));
+        }
+    }
+    const Epoch epoch = (identity_ << 8) + ++epochs_;
+    runner_.begin(epoch, std::move(path), std::move(at), now_slot_);
+    moving_ = true;
+    intent_ = Intent::GoOn;
+    enter(MachinePhase::Running, out);
+    out.notices.push_back({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, epoch});
+    out.jobs.push_back({.kind = JobEvent::Kind::EpochBegun,
+                        .job = job_->number,
+                        .job_kind = job_->kind,
+                        .epoch = epoch,
+                        .start = runner_.start(),
+                        .place = place});
+}
+
+/// Everyone is at rest: what now?
+void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
+    moving_ = false;
+    if (intent_ == Intent::Abort) {
+        end_job(JobOutcome::Failed, out);
+        return enter(MachinePhase::Fault, out);
+    }
+    switch (end.kind) {
+        case EpochEnd::Kind::FramesDiffer: return fail(FaultCode::FramesDiffer, end.axis, out);
+        case EpochEnd::Kind::Misplaced: return fail(FaultCode::PositionMismatch, end.axis, out);
+        case EpochEnd::Kind::Interrupted: return interrupted(end, out);
+        case EpochEnd::Kind::Complete: break;
+    }
+    job_->planned_behind = job_->planned_behind + runner_.path().duration();
+    const bool pause = job_->legs[job_->leg].then_pause;
+    ++job_->leg;
+    if (intent_ == Intent::Stop) { return end_job(JobOutcome::Stopped, out); }
+    if (pause || intent_ == Intent::Hold) { return enter(MachinePhase::Paused, out); }
+    begin_leg(out);
+}
+
+/// The axes rest together on the path, proved by their counts: what is left can be run from there.
+void Coordinator::interrupted(const EpochEnd& end, CoordinatorOutputs& out) {
+    const auto& moves = runner_.path().moves;
+    const bool move_done = end.along >= Displacement::steps(moves[end.move].lead) && moves[end.move].lead != 0;
+    const std::size_t first = move_done ? end.move + 1 : end.move;
+    job_->remaining.assign(moves.begin() + static_cast<std::ptrdiff_t>(first), moves.end());
+    job_->positions = end.positions;
+    job_->resume = {move_done ? 0 : moves[end.move].block, move_done ? Displacement{} : end.along};
+    if (move_done && !job_->remaining.empty()) { job_->resume.block = job_->remaining.front().block; }
+    job_->fruitless = end.ran == 0 ? job_->fruitless + 1 : 0;
+    if (intent_ == Intent::Stop) { return end_job(JobOutcome::Stopped, out); }
+    if (intent_ == Intent::Hold) { return enter(MachinePhase::Holding, out); }
+    out.notices.push_back({CoordinatorNotice::Kind::Interrupted, FaultCode::FrameLate, end.ran});
+    if (job_->fruitless >= kMaxFruitless) { return fail(FaultCode::FrameLate, 0, out); }
+    go_on(out);
+}
+
+void Coordinator::go_on(CoordinatorOutputs& out) {
+    if (job_->remaining.empty()) {
+        ++job_->leg;
+        return begin_leg(out);
+    }
+    begin_epoch(std::move(job_->remaining), job_->resume.along, std::move(job_->positions), job_->resume, out);
+}
+
+void Coordinator::end_job(JobOutcome outcome, CoordinatorOutputs& out) {
+    if (!job_) { return; }
+    out.jobs.push_back(
+        {.kind = JobEvent::Kind::Ended, .job = job_->number, .job_kind = job_->kind, .outcome = outcome});
+    job_.reset();
+    outcome_ = outcome;
+    enter(MachinePhase::Idle, out);
+}
+
+}  // namespace lockstep
