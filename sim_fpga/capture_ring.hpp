@@ -19,9 +19,7 @@ public:
 
     /// False where there is no room. The host sees it once head() is published.
     bool keep(StepEdge step) {
-        if (head_ - tail_ >= registers::kCaptureRingEntries) {
-            tail_ = window_.load(registers::kCaptureTail);
-        }
+        if (head_ - tail_ >= registers::kCaptureRingEntries) { tail_ = window_.load(registers::kCaptureTail); }
         if (head_ - tail_ >= registers::kCaptureRingEntries) {
             ++lost_;
             return false;

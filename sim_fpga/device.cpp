@@ -32,9 +32,7 @@ void SimulatedDevice::reset(std::int64_t tick_ns) {
 void SimulatedDevice::advance(Tick until) {
     inputs_ = plant_.inputs();
     take_run();
-    if (phase_ != Phase::AtRest && stop_asked()) {
-        finish(kStatusStoppedByHost);
-    }
+    if (phase_ != Phase::AtRest && stop_asked()) { finish(kStatusStoppedByHost); }
     for (Tick next = decide(until); engine_.now() < until; next = decide(until)) {
         if (engine_.idle()) {
             engine_.wait(next);
@@ -48,9 +46,7 @@ void SimulatedDevice::advance(Tick until) {
 void SimulatedDevice::take_run() {
     const std::uint64_t asked = window_.load(kRunRequest);
     const bool at_rest = phase_ == Phase::AtRest || phase_ == Phase::Waiting;
-    if (!at_rest || asked == 0 || asked == run_) {
-        return;
-    }
+    if (!at_rest || asked == 0 || asked == run_) { return; }
     run_ = asked;
     trigger_ = window_.load(kTrigger);
     run_bits_ = 0;
@@ -60,31 +56,21 @@ void SimulatedDevice::take_run() {
 
 /// Does what is to be done at this tick. Returns the next tick at which something may have to be decided.
 Tick SimulatedDevice::decide(Tick until) {
-    if (phase_ == Phase::AtRest) {
-        take_run();
-    }
+    if (phase_ == Phase::AtRest) { take_run(); }
     if (phase_ == Phase::AtRest) {
         segments_.drop_run(run_);
         return until;
     }
-    if (phase_ == Phase::Waiting) {
-        return decide_first_frame(until);
-    }
-    if (engine_.idle()) {
-        next_piece();
-    }
+    if (phase_ == Phase::Waiting) { return decide_first_frame(until); }
+    if (engine_.idle()) { next_piece(); }
     return until;
 }
 
 Tick SimulatedDevice::decide_first_frame(Tick until) {
     segments_.drop_other_runs(run_);
     const auto first = segments_.front();
-    if (!first) {
-        return until;
-    }
-    if (first->segment.start > engine_.now()) {
-        return std::min(until, first->segment.start);
-    }
+    if (!first) { return until; }
+    if (first->segment.start > engine_.now()) { return std::min(until, first->segment.start); }
     if (vetoed(1)) {
         finish(0);
     } else if (may_run(1)) {
@@ -169,9 +155,7 @@ bool SimulatedDevice::stop_asked() const {
 bool SimulatedDevice::rebase_to(Position from) {
     const bool same_place =
         from == engine_.position() || from == rest_position(count_, false) || from == rest_position(count_, true);
-    if (same_place) {
-        engine_.rebase(from);
-    }
+    if (same_place) { engine_.rebase(from); }
     return same_place;
 }
 
@@ -201,16 +185,12 @@ bool SimulatedDevice::on_step(StepEdge step) {
     count_ += step.direction;
     plant_.step(step);
     inputs_ = plant_.inputs();
-    if (!capture_.keep(step)) {
-        run_bits_ |= kStatusCaptureOverflow;
-    }
+    if (!capture_.keep(step)) { run_bits_ |= kStatusCaptureOverflow; }
     if (triggered()) {
         trigger_count_ = count_;
         cease_ = kStatusStoppedByTrigger;
     }
-    if (runs_into_limit(step.direction)) {
-        cease_ |= kStatusStoppedByLimit;
-    }
+    if (runs_into_limit(step.direction)) { cease_ |= kStatusStoppedByLimit; }
     return cease_ == 0;
 }
 

@@ -7,9 +7,9 @@
 // the two then differ by more than max_jump_mm_s + sqrt(A), and what rounding of pulses to ticks can feign, the rotor
 // slips: every pulse is a step lost. sqrt(A), in steps and ticks, is the speed gained in the first half step from rest,
 // which pulses cannot tell from a jump. So jumps of up to max_jump, accelerations of up to A, and both together lose
-// nothing; slow enough to stop by a jump it stops or turns by one, as often as it is told to; a greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(A)) * a /
-// (a - A) on, where the rotor has fallen back by that much. A dead stop loses nothing: no pulse follows it that could
-// be lost.
+// nothing; slow enough to stop by a jump it stops or turns by one, as often as it is told to; a greater jump loses at
+// once; a greater acceleration a loses from about the speed (max_jump + sqrt(A)) * a / (a - A) on, where the rotor has
+// fallen back by that much. A dead stop loses nothing: no pulse follows it that could be lost.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,7 @@ public:
     /// One pulse. Ticks rise from call to call.
     void step(StepEdge edge) {
         pulses_ += edge.direction;
-        if (edge.tick - judged_ >= kWindow) {
-            judge(edge);
-        }
+        if (edge.tick - judged_ >= kWindow) { judge(edge); }
         slide_ += slips_ ? 0 : edge.direction;
     }
     /// A hand on the slide: moves it without pulses.

@@ -24,9 +24,7 @@ struct Unmap {
     std::string unlink_name;  // empty: not made here
     void operator()(std::uint64_t* words) const {
         ::munmap(words, registers::kWindowBytes);
-        if (!unlink_name.empty()) {
-            ::shm_unlink(unlink_name.c_str());
-        }
+        if (!unlink_name.empty()) { ::shm_unlink(unlink_name.c_str()); }
         ::close(file);
     }
 };
@@ -43,13 +41,9 @@ bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
 /// Removes what a dead process left. False where a living one holds it.
 bool remove_stale(const std::string& name) {
     const int file = ::shm_open(name.c_str(), O_RDWR, 0);
-    if (file < 0) {
-        return errno == ENOENT;
-    }
+    if (file < 0) { return errno == ENOENT; }
     const bool stale = lock(file);
-    if (stale) {
-        ::shm_unlink(name.c_str());
-    }
+    if (stale) { ::shm_unlink(name.c_str()); }
     ::close(file);
     return stale;
 }
@@ -66,17 +60,13 @@ RegisterWindow RegisterWindow::in_process() { return RegisterWindow(std::make_sh
 
 std::expected<RegisterWindow, std::string> RegisterWindow::create_shared(const std::string& name) {
     const auto path = shm_name(name);
-    if (!path) {
-        return std::unexpected(path.error());
-    }
+    if (!path) { return std::unexpected(path.error()); }
     const std::string what = "shared memory \"" + name + "\"";
     if (!remove_stale(*path)) {
         return std::unexpected(what + ": in use by another device; end that one or choose another name");
     }
     const int file = ::shm_open(path->c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0660);
-    if (file < 0) {
-        return system_error(what, "create it");
-    }
+    if (file < 0) { return system_error(what, "create it"); }
     if (!lock(file) || ::ftruncate(file, static_cast<off_t>(registers::kWindowBytes)) != 0) {
         const auto error = system_error(what, "lock and size it");
         ::shm_unlink(path->c_str());
@@ -88,9 +78,7 @@ std::expected<RegisterWindow, std::string> RegisterWindow::create_shared(const s
 
 std::expected<RegisterWindow, std::string> RegisterWindow::open_shared(const std::string& name) {
     const auto path = shm_name(name);
-    if (!path) {
-        return std::unexpected(path.error());
-    }
+    if (!path) { return std::unexpected(path.error()); }
     const std::string what = "shared memory \"" + name + "\"";
     const int file = ::shm_open(path->c_str(), O_RDWR | O_CLOEXEC, 0);
     return file < 0 ? system_error(what, "open it (is its device running?)") : map(file, what, {});

@@ -8,9 +8,7 @@ using namespace registers;
 
 std::optional<SegmentEntry> SegmentRing::front() const {
     const std::uint64_t loaded = window_.load(kSegmentHead) - tail_;
-    if (loaded == 0 || loaded > kSegmentRingEntries) {
-        return std::nullopt;
-    }
+    if (loaded == 0 || loaded > kSegmentRingEntries) { return std::nullopt; }
     return entry(tail_);
 }
 
@@ -24,9 +22,7 @@ void SegmentRing::drop_other_runs(std::uint64_t run) {
 
 bool SegmentRing::take_frame(LoadedFrame& frame) {
     const auto first = front();
-    if (!first || !first->first() || first->tail()) {
-        return false;
-    }
+    if (!first || !first->first() || first->tail()) { return false; }
     frame = {.number = first->frame, .last = first->last_frame()};
     Segment expected = first->segment;
     for (auto next = first; next && next->run == first->run && next->frame == first->frame; next = front()) {

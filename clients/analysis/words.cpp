@@ -103,15 +103,13 @@ std::string break_sentence(const std::string& axis, const Break& what) {
     const std::string moved = plural(std::abs(what.position_change), "step");
     const std::string batches = plural(what.missing_batches, "message");
     switch (what.kind) {
-        case Break::Kind::Restart:
-            return axis + ": its process started anew between " + between + "\n";
+        case Break::Kind::Restart: return axis + ": its process started anew between " + between + "\n";
         case Break::Kind::Jump:
             if (what.missing_batches == 0) {
                 return axis + ": its position was set anew, by " + moved + ", between " + between + "\n";
             }
             break;
-        case Break::Kind::Missing:
-            break;
+        case Break::Kind::Missing: break;
     }
     if (!what.from) {
         return axis + ": " + batches + " are not in the log, before " + tick_text(what.to, "its end") + "\n";

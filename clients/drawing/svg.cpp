@@ -19,12 +19,9 @@ void append_number(std::string& out, double value) {
 
 std::string_view name_of(Anchor anchor) {
     switch (anchor) {
-        case Anchor::Start:
-            return "start";
-        case Anchor::Middle:
-            return "middle";
-        case Anchor::End:
-            break;
+        case Anchor::Start: return "start";
+        case Anchor::Middle: return "middle";
+        case Anchor::End: break;
     }
     return "end";
 }
@@ -39,20 +36,11 @@ std::string escape_xml(std::string_view text) {
     std::string out;
     for (const char c : text) {
         switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += is_forbidden(c) ? '?' : c;
+            case '&': out += "&amp;"; break;
+            case '<': out += "&lt;"; break;
+            case '>': out += "&gt;"; break;
+            case '"': out += "&quot;"; break;
+            default: out += is_forbidden(c) ? '?' : c;
         }
     }
     return out;

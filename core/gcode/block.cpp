@@ -27,13 +27,20 @@ struct Code {
 };
 
 constexpr std::array kCodes{
-    Code{'G', 0, Motion::Rapid},          Code{'G', 10, Motion::Feed},
-    Code{'G', 40, Immediate::Dwell},      Code{'G', 280, Immediate::Park},
-    Code{'G', 920, Immediate::SetOffset}, Code{'G', 921, Immediate::ClearOffset},
-    Code{'G', 200, Units::Inches},        Code{'G', 210, Units::Millimetres},
-    Code{'G', 900, Distance::Absolute},   Code{'G', 910, Distance::Relative},
-    Code{'M', 0, Stop::Pause},            Code{'M', 10, Stop::OptionalPause},
-    Code{'M', 20, Stop::End},             Code{'M', 300, Stop::End},
+    Code{'G', 0, Motion::Rapid},
+    Code{'G', 10, Motion::Feed},
+    Code{'G', 40, Immediate::Dwell},
+    Code{'G', 280, Immediate::Park},
+    Code{'G', 920, Immediate::SetOffset},
+    Code{'G', 921, Immediate::ClearOffset},
+    Code{'G', 200, Units::Inches},
+    Code{'G', 210, Units::Millimetres},
+    Code{'G', 900, Distance::Absolute},
+    Code{'G', 910, Distance::Relative},
+    Code{'M', 0, Stop::Pause},
+    Code{'M', 10, Stop::OptionalPause},
+    Code{'M', 20, Stop::End},
+    Code{'M', 300, Stop::End},
 };
 constexpr std::string_view kCodesText = "G0 G1 G4 G20 G21 G28 G90 G91 G92 G92.1 M0 M1 M2 M30";
 

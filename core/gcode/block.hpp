@@ -15,11 +15,11 @@ namespace lockstep {
 namespace gcode {
 
 // The modal groups: at most one word of each in a block.
-enum class Motion : std::uint8_t { Rapid, Feed };                               // G0 G1
-enum class Immediate : std::uint8_t { Dwell, Park, SetOffset, ClearOffset };    // G4 G28 G92 G92.1: this block only
-enum class Units : std::uint8_t { Inches, Millimetres };                        // G20 G21
-enum class Distance : std::uint8_t { Absolute, Relative };                      // G90 G91
-enum class Stop : std::uint8_t { Pause, OptionalPause, End };                   // M0 M1 M2 M30
+enum class Motion : std::uint8_t { Rapid, Feed };                             // G0 G1
+enum class Immediate : std::uint8_t { Dwell, Park, SetOffset, ClearOffset };  // G4 G28 G92 G92.1: this block only
+enum class Units : std::uint8_t { Inches, Millimetres };                      // G20 G21
+enum class Distance : std::uint8_t { Absolute, Relative };                    // G90 G91
+enum class Stop : std::uint8_t { Pause, OptionalPause, End };                 // M0 M1 M2 M30
 
 }  // namespace gcode
 

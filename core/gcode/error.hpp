@@ -6,8 +6,8 @@
 namespace lockstep {
 
 struct GcodeError {
-    int line = 0;    // from 1
-    int column = 0;  // from 1, in bytes
+    int line = 0;         // from 1
+    int column = 0;       // from 1, in bytes
     std::string message;  // the value, the limit and the remedy
     bool operator==(const GcodeError&) const = default;
 };

@@ -18,8 +18,7 @@ std::string_view take_line(std::string_view& text) {
 
 class GcodeReader {
 public:
-    explicit GcodeReader(const GcodeSetup& setup)
-        : setup_(setup), letters_(axis_letters(setup)), interpreter_(setup) {}
+    explicit GcodeReader(const GcodeSetup& setup) : setup_(setup), letters_(axis_letters(setup)), interpreter_(setup) {}
 
     std::expected<Program, std::vector<GcodeError>> read(std::string_view text) {
         for (int number = 1; !text.empty() && !ended_ && interpreter_.errors().size() < kMaxGcodeErrors; ++number) {

@@ -55,8 +55,8 @@ void GcodeInterpreter::execute(const GcodeBlock& block, int line) {
 void GcodeInterpreter::set_feed(const GcodeWord& word, int line) {
     const double scale = units_ == gcode::Units::Inches ? kMillimetresPerInch : 1;
     if (word.value < kMinFeedPerMinute) {
-        report({line, word.column,
-                word.text + " is too slow; F is per minute, from " + number_text(kMinFeedPerMinute)});
+        report(
+            {line, word.column, word.text + " is too slow; F is per minute, from " + number_text(kMinFeedPerMinute)});
     }
     feed_ = Feed{.linear_mm_s = word.value * scale / kSecondsPerMinute, .rotary_deg_s = word.value / kSecondsPerMinute};
 }
@@ -91,8 +91,8 @@ void GcodeInterpreter::set_offsets(const GcodeBlock& block) {
 void GcodeInterpreter::motion(const GcodeBlock& block, int line) {
     if (!motion_) {
         const GcodeWord& word = block.axes.front();
-        return report({line, word.column,
-                       word.text + " but no motion mode; write G0 or G1 before the first axis word"});
+        return report(
+            {line, word.column, word.text + " but no motion mode; write G0 or G1 before the first axis word"});
     }
     const bool rapid = *motion_ == gcode::Motion::Rapid;
     if (!rapid && !feed_ && !missing_feed_reported_) {

@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxGcodeLineLength = 256;
 inline constexpr double kMaxGcodeNumber = 1e6;
 
 struct GcodeWord {
-    char letter = 0;   // capital
+    char letter = 0;  // capital
     double value = 0;
     int column = 0;    // of the letter
     std::string text;  // as written, without spaces, the letter capital

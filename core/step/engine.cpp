@@ -9,9 +9,7 @@ namespace {
 
 /// Going on with a broken promise could move an axis: the process ends instead, and with it the pulses.
 void require(bool promise) {
-    if (!promise) {
-        std::abort();
-    }
+    if (!promise) { std::abort(); }
 }
 
 }  // namespace

@@ -14,9 +14,7 @@ inline constexpr Ticks kMaxPieceTicks{std::int64_t{1} << 42};
 /// True where 0 <= ticks <= kMaxPieceTicks and the velocity register never leaves 64 bits, which is half a step per
 /// tick either way. Velocity is linear in time, so its two ends decide.
 constexpr bool executable(const Piece& piece) {
-    if (piece.ticks < Ticks{0} || piece.ticks > kMaxPieceTicks) {
-        return false;
-    }
+    if (piece.ticks < Ticks{0} || piece.ticks > kMaxPieceTicks) { return false; }
     const Int128 last = piece.velocity_after(piece.ticks);
     return last >= std::numeric_limits<std::int64_t>::min() && last <= std::numeric_limits<std::int64_t>::max();
 }

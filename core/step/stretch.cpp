@@ -8,9 +8,7 @@ namespace {
 /// How many ticks from the first one keep their speed within [lower, upper], the first one being so.
 std::int64_t ticks_within(const Stretch& stretch, Int128 lower, Int128 upper) {
     const Int128 last = Int128{stretch.speed} + Int128{stretch.ticks - 1} * stretch.acceleration;
-    if (last >= lower && last <= upper) {
-        return stretch.ticks;
-    }
+    if (last >= lower && last <= upper) { return stretch.ticks; }
     const bool rising = stretch.acceleration > 0;
     const auto room = static_cast<std::uint64_t>(rising ? upper - stretch.speed : stretch.speed - lower);
     const auto a = static_cast<std::uint64_t>(stretch.acceleration);

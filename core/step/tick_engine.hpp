@@ -29,9 +29,7 @@ struct Accumulator {
         const std::uint64_t before = phase;
         phase += velocity;
         const bool backward = static_cast<std::int64_t>(velocity) < 0;
-        if (backward) {
-            return phase > before ? -1 : 0;
-        }
+        if (backward) { return phase > before ? -1 : 0; }
         return phase < before ? 1 : 0;
     }
 };
@@ -42,9 +40,7 @@ void tick_by_tick(const Segment& segment, OnStep&& on_step) {
     Accumulator axis(segment.from, segment.piece);
     for (Tick now = segment.start; now < segment.end();) {
         now += Ticks{1};
-        if (const std::int8_t direction = axis.tick(); direction != 0) {
-            on_step(StepEdge{now, direction});
-        }
+        if (const std::int8_t direction = axis.tick(); direction != 0) { on_step(StepEdge{now, direction}); }
     }
 }
 

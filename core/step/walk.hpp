@@ -18,9 +18,7 @@ inline constexpr std::uint64_t kNeverFast = ~std::uint64_t{0};
 /// Calls step(n) for the tick n of every step in order, until it returns false. The ticks done: n then, else all.
 template <typename Step>
 std::int64_t walk(const Stretch& stretch, Step&& step) {
-    if (stretch.acceleration == 0) {
-        return walk_cruise(stretch, step);
-    }
+    if (stretch.acceleration == 0) { return walk_cruise(stretch, step); }
     return stretch.fast ? walk_ticks(stretch, step) : walk_roots(stretch, step);
 }
 

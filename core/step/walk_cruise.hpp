@@ -13,21 +13,15 @@ namespace lockstep {
 template <typename Step>
 std::int64_t walk_cruise(const Stretch& stretch, Step&& step) {
     std::int64_t steps = stretch.steps_in(stretch.ticks);
-    if (steps == 0) {
-        return stretch.ticks;
-    }
+    if (steps == 0) { return stretch.ticks; }
     const std::uint64_t u = stretch.speed;
     const std::uint64_t q = ~std::uint64_t{0} / u + (~std::uint64_t{0} % u == u - 1 ? 1 : 0);
     const std::uint64_t r = 0 - q * u;
     std::uint64_t n = ~stretch.phase / u + 1;  // the first carry
     std::uint64_t phase = stretch.phase + n * u;
     for (;;) {
-        if (!step(static_cast<std::int64_t>(n))) {
-            return static_cast<std::int64_t>(n);
-        }
-        if (--steps == 0) {
-            return stretch.ticks;
-        }
+        if (!step(static_cast<std::int64_t>(n))) { return static_cast<std::int64_t>(n); }
+        if (--steps == 0) { return stretch.ticks; }
         n += q + (phase < r ? 1 : 0);
         phase = std::min(phase - r, phase + (u - r));  // phase - r, unless that wraps: a choice without a branch
     }

@@ -24,9 +24,7 @@ namespace lockstep {
 /// The tick of step k from a seed for it, exactly.
 inline std::int64_t settle_step(const Stretch& stretch, std::int64_t k, std::int64_t seed) {
     const std::uint64_t phase = stretch.phase_after(seed);
-    if (phase < stretch.speed_at(seed)) [[likely]] {
-        return seed;
-    }
+    if (phase < stretch.speed_at(seed)) [[likely]] { return seed; }
     const bool early = phase >= std::uint64_t{3} << 62;  // 3/4
     const std::int64_t beside = seed + (early ? 1 : -1);
     return beside >= 1 && beside <= stretch.ticks && stretch.carries_at(beside) ? beside : search_step(stretch, k);
@@ -42,9 +40,7 @@ std::int64_t walk_roots(const Stretch& stretch, Step&& step) {
         const std::int64_t in_batch = std::min(kSeedBatch, steps - first + 1);
         for (std::int64_t i = 0; i < in_batch; ++i) {
             const std::int64_t n = settle_step(stretch, first + i, seeds[static_cast<std::size_t>(i)]);
-            if (!step(n)) {
-                return n;
-            }
+            if (!step(n)) { return n; }
         }
     }
     return stretch.ticks;

@@ -32,15 +32,11 @@ std::int64_t walk_ticks(const Stretch& stretch, Step&& step) {
     std::uint64_t speed = stretch.speed;
     for (std::int64_t done = 0; done < stretch.ticks; done += 64) {
         std::uint64_t carries = tick_64_times(phase, speed, static_cast<std::uint64_t>(stretch.acceleration));
-        if (const std::int64_t left = stretch.ticks - done; left < 64) {
-            carries &= ~(~std::uint64_t{0} >> left);
-        }
+        if (const std::int64_t left = stretch.ticks - done; left < 64) { carries &= ~(~std::uint64_t{0} >> left); }
         while (carries != 0) {
             const int i = std::countl_zero(carries);
             carries ^= (std::uint64_t{1} << 63) >> i;
-            if (!step(done + i + 1)) {
-                return done + i + 1;
-            }
+            if (!step(done + i + 1)) { return done + i + 1; }
         }
     }
     return stretch.ticks;

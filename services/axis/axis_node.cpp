@@ -39,9 +39,7 @@ AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step
 
 void AxisNode::look(Tick now) {
     const auto status = driver_.read();
-    if (!status) {
-        return note(status.error());
-    }
+    if (!status) { return note(status.error()); }
     if (status->now != status_.now || clock_moved_ == Tick{}) { clock_moved_ = now; }
     if (now - clock_moved_ > longest_standstill_) {
         note("the device's clock stands still at tick " + std::to_string(status->now.value) +

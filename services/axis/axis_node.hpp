@@ -66,7 +66,7 @@ private:
     Tick clock_moved_;          // when the device's clock was last seen to go on
     Ticks longest_standstill_;  // of it: a device that is late looks the same for a while
     std::string trouble_;
-    bool failed_ = false;       // since the controller was last told
+    bool failed_ = false;  // since the controller was last told
 };
 
 }  // namespace lockstep

@@ -20,8 +20,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis, std::int64_t tick_ns,
-                                                   Tick now) {
+std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis,
+                                                   std::int64_t tick_ns, Tick now) {
     constexpr std::string_view kShared = "shm:";
     if (fpga == "sim") { return simulated_device(axis, tick_ns, now); }
     if (!fpga.starts_with(kShared)) {
@@ -47,8 +47,8 @@ public:
     bool loop() {
         hear();
         const Tick now = clock_.now();
-        const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_},
-                                           [this](StepEdge step) { recorder_.step(step); });
+        const AxisOutputs out =
+            node_.step(now, {frames_, states_, machine_, commands_}, [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
         recorder_.loop(now, out, node_.controller().zero_count());
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }

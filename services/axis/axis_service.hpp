@@ -8,7 +8,7 @@
 namespace lockstep {
 
 struct AxisServiceOptions : ServiceOptions {
-    std::string axis;        // its name in the file
+    std::string axis;          // its name in the file
     std::string fpga = "sim";  // "sim": simulated in this process; "shm:NAME": of lockstep-fpga
 };
 

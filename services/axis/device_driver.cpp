@@ -35,9 +35,7 @@ struct Identification {
 /// How many entries a ring holds, where that can be.
 std::expected<std::uint64_t, std::string> entries_in(const char* ring, std::uint64_t head, std::uint64_t tail,
                                                      std::uint64_t capacity) {
-    if (head - tail <= capacity) {
-        return head - tail;
-    }
+    if (head - tail <= capacity) { return head - tail; }
     return std::unexpected(std::string("device: ") + ring + " head " + hex(head) + " and tail " + hex(tail) +
                            " cannot be: it holds " + std::to_string(capacity) + "; restart the device");
 }
@@ -103,12 +101,8 @@ std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow win
                                    hex(expected) + "; " + remedy);
         }
     }
-    if (const auto segments = segments_in(window); !segments) {
-        return std::unexpected(segments.error());
-    }
-    if (const auto captures = captures_in(window); !captures) {
-        return std::unexpected(captures.error());
-    }
+    if (const auto segments = segments_in(window); !segments) { return std::unexpected(segments.error()); }
+    if (const auto captures = captures_in(window); !captures) { return std::unexpected(captures.error()); }
     return DeviceDriver(std::move(window));
 }
 
@@ -117,12 +111,8 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
         const std::uint64_t before = window_.load(kSequence);
         DeviceStatus status = read_words();
         const auto loaded = segments_in(window_);
-        if (before % 2 != 0 || window_.load(kSequence) != before) {
-            continue;
-        }
-        if (!loaded) {
-            return std::unexpected(loaded.error());
-        }
+        if (before % 2 != 0 || window_.load(kSequence) != before) { continue; }
+        if (!loaded) { return std::unexpected(loaded.error()); }
         status.free_segments = static_cast<std::uint32_t>(kSegmentRingEntries - *loaded);
         stale_reads_ = 0;
         last_look_ = status;
@@ -132,9 +122,7 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
 }
 
 std::expected<DeviceStatus, std::string> DeviceDriver::stale_look() {
-    if (last_look_ && ++stale_reads_ <= kMaxStaleReads) {
-        return *last_look_;
-    }
+    if (last_look_ && ++stale_reads_ <= kMaxStaleReads) { return *last_look_; }
     return std::unexpected("device: SEQUENCE reads " + hex(window_.load(kSequence)) +
                            ": it stopped in the middle of an update; restart it");
 }
@@ -186,20 +174,14 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
         return std::unexpected("device: frame " + std::to_string(order.number) + " not loaded: " + why);
     };
     const auto loaded = segments_in(window_);
-    if (!loaded) {
-        return std::unexpected(loaded.error());
-    }
+    if (!loaded) { return std::unexpected(loaded.error()); }
     const std::size_t needed = order.track.body.size() + order.track.tail.size();
     const std::size_t room = kSegmentRingEntries - *loaded;
     if (needed > room) {
         return refuse("it has " + std::to_string(needed) + " segments, the ring has room for " + std::to_string(room));
     }
-    if (order.track.body.empty()) {
-        return refuse("it has no body");
-    }
-    if (window_.load(kRunRequest) == 0) {
-        return refuse("no run has been begun");
-    }
+    if (order.track.body.empty()) { return refuse("it has no body"); }
+    if (window_.load(kRunRequest) == 0) { return refuse("no run has been begun"); }
     FrameWriter writer(window_, order);
     for (const Piece& piece : order.track.body) {
         writer.write(piece, &piece == order.track.body.begin() ? kSegmentRingFlagsFirst : 0);
@@ -226,9 +208,7 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::StopNow&) {
 
 std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std::function<void(StepEdge)>& on_step) {
     const auto captured = captures_in(window_);
-    if (!captured) {
-        return captured;
-    }
+    if (!captured) { return captured; }
     const std::uint64_t tail = window_.load(kCaptureTail);
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
         const std::size_t slot = index % kCaptureRingEntries;

@@ -4,8 +4,9 @@
 #include "services/axis/axis_service.hpp"
 
 int main(int argc, char** argv) {
-    CLI::App app{"Runs one axis of a machine: takes frames from the coordinator, drives the axis's device, publishes its "
-                 "state and the record of its steps, until SIGTERM or SIGINT."};
+    CLI::App app{
+        "Runs one axis of a machine: takes frames from the coordinator, drives the axis's device, publishes its "
+        "state and the record of its steps, until SIGTERM or SIGINT."};
     lockstep::AxisServiceOptions options;
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();

@@ -80,7 +80,8 @@ private:
             case Kind::Phase: return log_info("machine is " + std::string(phase_name(notice.number)));
             case Kind::AxisSeen: return log_info("axis " + axis_name(notice.number) + " is heard");
             case Kind::AxisGone:
-                return log_event(spdlog::level::warn, notice.fault, "axis " + axis_name(notice.number) + " fell silent");
+                return log_event(spdlog::level::warn, notice.fault,
+                                 "axis " + axis_name(notice.number) + " fell silent");
             case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -88,9 +89,10 @@ private:
                                      ", on the path; goes on from there");
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
-                return log_event(spdlog::level::err, notice.fault,
-                                 "axis " + axis_name(notice.number) + ": " +
-                                     (text == nullptr ? "" : std::string(text->cause) + "; " + std::string(text->remedy)));
+                return log_event(
+                    spdlog::level::err, notice.fault,
+                    "axis " + axis_name(notice.number) + ": " +
+                        (text == nullptr ? "" : std::string(text->cause) + "; " + std::string(text->remedy)));
             }
         }
     }
@@ -104,7 +106,8 @@ private:
             if ((heard_ >> i & 1) == 0) { log_info("waits for axis " + machine_.axes[i].name); }
         }
         heard_ = 0;
-        const std::uint64_t refused = bus_.states.refusals().count + bus_.commands.refusals().count + bus_.chunks.refusals().count;
+        const std::uint64_t refused =
+            bus_.states.refusals().count + bus_.commands.refusals().count + bus_.chunks.refusals().count;
         if (refused != refused_) {
             refused_ = refused;
             log_warning(std::to_string(refused) + " messages refused so far: " + bus_.states.refusals().last + " " +
@@ -150,7 +153,8 @@ int run(const ServiceOptions& options, const MachineConfig& machine) {
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
              std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
     if (alone) { return kServiceDone; }
-    log_event(spdlog::level::err, FaultCode::SecondCoordinator, "another coordinator runs machine " + machine.name + "; stop one of them");
+    log_event(spdlog::level::err, FaultCode::SecondCoordinator,
+              "another coordinator runs machine " + machine.name + "; stop one of them");
     return kServiceFailed;
 }
 

@@ -4,8 +4,9 @@
 #include "services/coordinator/coordinator_service.hpp"
 
 int main(int argc, char** argv) {
-    CLI::App app{"Runs a machine's coordinator: takes commands and programs from clients, plans them, and sends frames to "
-                 "the axes, until SIGTERM or SIGINT. One per machine."};
+    CLI::App app{
+        "Runs a machine's coordinator: takes commands and programs from clients, plans them, and sends frames to "
+        "the axes, until SIGTERM or SIGINT. One per machine."};
     lockstep::ServiceOptions options;
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();

@@ -22,7 +22,8 @@ ProgramInbox::Taken ProgramInbox::take(const ProgramChunk& chunk) {
     Reply reply{.client = chunk.client, .sequence = chunk.sequence};
     if (chunk.count == 0 || chunk.count > kMaxChunks || chunk.index >= chunk.count) {
         return {refuse(reply, "chunk " + std::to_string(chunk.index) + " of " + std::to_string(chunk.count) +
-                                  ": a program has 1 to " + std::to_string(kMaxChunks) + " chunks"), {}};
+                                  ": a program has 1 to " + std::to_string(kMaxChunks) + " chunks"),
+                {}};
     }
     Parcel& parcel = parcel_of(chunk);
     if (chunk.count != parcel.chunks.size()) {
@@ -36,7 +37,9 @@ ProgramInbox::Taken ProgramInbox::take(const ProgramChunk& chunk) {
     if (place) { return {reply, {}}; }
     parcel.bytes += chunk.bytes.size();
     if (parcel.bytes > kMaxProgramBytes) {
-        return {refuse(reply, "the program is larger than " + std::to_string(kMaxProgramBytes) + " bytes; cut it in two"), {}};
+        return {
+            refuse(reply, "the program is larger than " + std::to_string(kMaxProgramBytes) + " bytes; cut it in two"),
+            {}};
     }
     place = chunk.bytes;
     return --parcel.missing == 0 ? complete(parcel, reply) : Taken{reply, {}};
@@ -49,9 +52,8 @@ ProgramInbox::Parcel& ProgramInbox::parcel_of(const ProgramChunk& chunk) {
     found->second.missing = chunk.count;
     found->second.chunks.resize(chunk.count);
     if (parcels_.size() > kMaxParcels) {
-        parcels_.erase(std::min_element(parcels_.begin(), parcels_.end(), [](const auto& a, const auto& b) {
-            return a.second.order < b.second.order;
-        }));
+        parcels_.erase(std::min_element(parcels_.begin(), parcels_.end(),
+                                        [](const auto& a, const auto& b) { return a.second.order < b.second.order; }));
     }
     return parcels_.at({chunk.client, chunk.program});
 }

@@ -20,8 +20,7 @@ constexpr double kMaxSteps = 0x1p40;     // far inside what plans in double are 
 class AxisRules {
 public:
     AxisRules(const MachineConfig& machine, std::size_t index)
-        : machine_(machine), axis_(machine.axes[index]), index_(index),
-          problems_(index, "axis " + axis_.name + ": ") {}
+        : machine_(machine), axis_(machine.axes[index]), index_(index), problems_(index, "axis " + axis_.name + ": ") {}
 
     std::vector<Problem> check() {
         check_name();
@@ -82,11 +81,10 @@ private:
     }
 
     void check_speeds() {
-        problems_.require_between({"max_velocity_mm_s", "start_velocity_mm_s"},
-                                  axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
-                                  "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
-                                      ", below start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) +
-                                      "; raise it");
+        problems_.require_between(
+            {"max_velocity_mm_s", "start_velocity_mm_s"}, axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
+            "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) + ", below start_velocity_mm_s " +
+                number_text(axis_.start_velocity_mm_s) + "; raise it");
         const double fastest = kMaxStepsPerTick / (tick_s() * axis_.steps_per_mm);
         problems_.require_between({"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= fastest,
                                   "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
@@ -106,8 +104,7 @@ private:
     }
 
     void check_travel() {
-        problems_.require_between({"position_max_mm", "position_min_mm"},
-                                  axis_.position_max_mm > axis_.position_min_mm,
+        problems_.require_between({"position_max_mm", "position_min_mm"}, axis_.position_max_mm > axis_.position_min_mm,
                                   "position_max_mm is " + number_text(axis_.position_max_mm) +
                                       ", not above position_min_mm " + number_text(axis_.position_min_mm) +
                                       "; raise it");
@@ -125,11 +122,10 @@ private:
         problems_.require_range("homing.sequence", axis_.homing.sequence, 0, 99);
         const double search = axis_.homing.search_velocity_mm_s;
         const double latch = axis_.homing.latch_velocity_mm_s;
-        problems_.require_between({"homing.search_velocity_mm_s", "start_velocity_mm_s"},
-                                  search <= axis_.start_velocity_mm_s,
-                                  "homing.search_velocity_mm_s is " + number_text(search) +
-                                      ", above start_velocity_mm_s " + number_text(axis_.start_velocity_mm_s) +
-                                      ": the switch stops the pulses at once; lower it");
+        problems_.require_between(
+            {"homing.search_velocity_mm_s", "start_velocity_mm_s"}, search <= axis_.start_velocity_mm_s,
+            "homing.search_velocity_mm_s is " + number_text(search) + ", above start_velocity_mm_s " +
+                number_text(axis_.start_velocity_mm_s) + ": the switch stops the pulses at once; lower it");
         problems_.require_between({"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
                                   "homing.latch_velocity_mm_s is " + number_text(latch) +
                                       ", above homing.search_velocity_mm_s " + number_text(search) + "; lower it");

@@ -5,11 +5,11 @@
 namespace lockstep {
 namespace {
 
-constexpr double kDefaultLatchShare = 0.2;      // of the search velocity
+constexpr double kDefaultLatchShare = 0.2;  // of the search velocity
 constexpr double kDefaultPulloff_mm = 2;
-constexpr double kDefaultPulloffShare = 0.1;    // of the travel, where that is less
+constexpr double kDefaultPulloffShare = 0.1;  // of the travel, where that is less
 constexpr double kDefaultTravelMargin_mm = 2;
-constexpr double kDefaultPlantReserve = 1.5;    // what the motor can do over what the axis is asked
+constexpr double kDefaultPlantReserve = 1.5;  // what the motor can do over what the axis is asked
 
 /// Reads keys into their places; notes what must be there and is not.
 class Reader {
@@ -79,8 +79,8 @@ PlantConfig read_plant(const proto::Plant& message, const AxisConfig& axis) {
         .max_torque_accel_mm_s2 = message.has_max_torque_accel_mm_s2()
                                       ? message.max_torque_accel_mm_s2()
                                       : kDefaultPlantReserve * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2),
-        .max_jump_mm_s = message.has_max_jump_mm_s() ? message.max_jump_mm_s()
-                                                     : kDefaultPlantReserve * axis.start_velocity_mm_s,
+        .max_jump_mm_s =
+            message.has_max_jump_mm_s() ? message.max_jump_mm_s() : kDefaultPlantReserve * axis.start_velocity_mm_s,
     };
 }
 

@@ -39,8 +39,7 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     require("timing.send_ahead_slots", t.send_ahead_slots, 4 + s + m + 5, "4 + stall_slots + freshness_slots + 5");
     require("timing.frame_slots", t.frame_slots, m + s + 2, "freshness_slots + stall_slots + 2");
     // Three frames of the longest kind are what a device's segment ring holds ahead of the one in progress.
-    problems.require_between({"timing.send_ahead_slots", "timing.frame_slots"},
-                             t.send_ahead_slots < 3 * t.frame_slots,
+    problems.require_between({"timing.send_ahead_slots", "timing.frame_slots"}, t.send_ahead_slots < 3 * t.frame_slots,
                              "timing.send_ahead_slots is " + std::to_string(t.send_ahead_slots) +
                                  "; below 3 x frame_slots, " + std::to_string(3 * t.frame_slots));
 }

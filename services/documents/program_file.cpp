@@ -11,7 +11,8 @@ namespace {
 
 /// Names travel in Protobuf strings, which are UTF-8; a file's name may be any bytes.
 std::string printable(std::string name) {
-    std::ranges::replace_if(name, [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::ranges::replace_if(
+        name, [](char c) { return c < ' ' || c > '~'; }, '?');
     return name.substr(0, kMaxProgramName);
 }
 

@@ -25,17 +25,13 @@ struct Hardware {
 
 std::expected<Hardware, std::string> set_up(const FpgaOptions& options) {
     const auto machine = load_machine_file(options.machine_file);
-    if (!machine) {
-        return std::unexpected(to_text(options.machine_file, machine.error()));
-    }
+    if (!machine) { return std::unexpected(to_text(options.machine_file, machine.error())); }
     const auto axis = std::ranges::find(machine->axes, options.axis, &AxisConfig::name);
     if (axis == machine->axes.end()) {
         return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\"");
     }
     auto window = RegisterWindow::create_shared(options.name);
-    if (!window) {
-        return std::unexpected(window.error());
-    }
+    if (!window) { return std::unexpected(window.error()); }
     return Hardware{*axis, machine->tick_ns, std::move(*window)};
 }
 

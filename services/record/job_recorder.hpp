@@ -1,4 +1,5 @@
-// The coordinator's part of the record: each job with the machine and the program whole, so that a log speaks for itself.
+// The coordinator's part of the record: each job with the machine and the program whole, so that a log speaks for
+// itself.
 #pragma once
 
 #include <string>

@@ -33,19 +33,13 @@ std::string_view cut(std::string_view& text, std::string_view separator) {
 
 std::expected<void, std::string> read_place(std::string_view place, LcmUrl& url) {
     const std::string_view address = cut(place, ":");
-    if (!address.empty()) {
-        url.address = address;
-    }
+    if (!address.empty()) { url.address = address; }
     if (!is_multicast_address(url.address)) {
         return std::unexpected("the LCM URL's address '" + url.address + "' is not an IPv4 multicast address");
     }
-    if (place.empty()) {
-        return {};
-    }
+    if (place.empty()) { return {}; }
     const auto port = number<int>(place, "port", 65535);
-    if (!port) {
-        return std::unexpected(port.error());
-    }
+    if (!port) { return std::unexpected(port.error()); }
     url.port = static_cast<std::uint16_t>(*port);
     return {};
 }
@@ -54,25 +48,15 @@ std::expected<void, std::string> read_place(std::string_view place, LcmUrl& url)
 
 std::expected<LcmUrl, std::string> parse_lcm_url(std::string_view text) {
     LcmUrl url;
-    if (text.empty()) {
-        return url;
-    }
+    if (text.empty()) { return url; }
     url.provider = cut(text, "://");
-    if (!url.is_multicast()) {
-        return url;
-    }
-    if (const auto read = read_place(cut(text, "?"), url); !read) {
-        return std::unexpected(read.error());
-    }
+    if (!url.is_multicast()) { return url; }
+    if (const auto read = read_place(cut(text, "?"), url); !read) { return std::unexpected(read.error()); }
     while (!text.empty()) {
         std::string_view option = cut(text, "&");
-        if (cut(option, "=") != "ttl") {
-            continue;
-        }
+        if (cut(option, "=") != "ttl") { continue; }
         const auto ttl = number<int>(option, "ttl", 255);
-        if (!ttl) {
-            return std::unexpected(ttl.error());
-        }
+        if (!ttl) { return std::unexpected(ttl.error()); }
         url.ttl = *ttl;
     }
     return url;

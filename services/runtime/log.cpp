@@ -20,9 +20,7 @@ std::string word(std::string_view text) {
 }
 
 std::expected<spdlog::sink_ptr, std::string> sink_for(const LogTarget& target) {
-    if (!target.file) {
-        return std::make_shared<spdlog::sinks::stderr_sink_mt>();
-    }
+    if (!target.file) { return std::make_shared<spdlog::sinks::stderr_sink_mt>(); }
     if (!std::ofstream(*target.file, std::ios::app)) {  // spdlog would throw
         return std::unexpected("cannot write the log " + target.file->string() + ": " + std::strerror(errno));
     }
@@ -33,9 +31,7 @@ std::expected<spdlog::sink_ptr, std::string> sink_for(const LogTarget& target) {
 
 std::expected<void, std::string> open_log(const LogTarget& target) {
     const auto sink = sink_for(target);
-    if (!sink) {
-        return std::unexpected(sink.error());
-    }
+    if (!sink) { return std::unexpected(sink.error()); }
     auto logger = std::make_shared<spdlog::logger>(target.service, *sink);
     logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l " + word(target.service) + " " + word(target.axis) + " %v",
                         spdlog::pattern_time_type::utc);

@@ -30,9 +30,7 @@ bool PeriodicLoop::wait_for_next(const StopSignal& stop) {
     next_ += period_ * (missed + 1);
     const timespec wake = to_timespec(next_);
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
-        if (stop.requested()) {
-            return false;
-        }
+        if (stop.requested()) { return false; }
     }
     worst_lateness_ = std::max(worst_lateness_, monotonic_now() - next_);
     return !stop.requested();

@@ -44,13 +44,9 @@ RouteRequest request_for(in_addr destination) {
 /// Sends the request and receives the one answer. Returns its length, or minus errno.
 int ask_kernel(const RouteRequest& request, Answer& answer) {
     const int netlink = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE);
-    if (netlink < 0) {
-        return -errno;
-    }
+    if (netlink < 0) { return -errno; }
     auto length = send(netlink, &request, sizeof request, 0);
-    if (length >= 0) {
-        length = recv(netlink, answer.data(), answer.size(), 0);
-    }
+    if (length >= 0) { length = recv(netlink, answer.data(), answer.size(), 0); }
     const int error = errno;
     close(netlink);
     return length < 0 ? -error : static_cast<int>(length);
@@ -61,9 +57,7 @@ unsigned outgoing_interface(const nlmsghdr* header) {
     auto* route = static_cast<rtmsg*>(NLMSG_DATA(header));
     auto length = static_cast<unsigned>(RTM_PAYLOAD(header));
     for (rtattr* item = RTM_RTA(route); RTA_OK(item, length); item = RTA_NEXT(item, length)) {
-        if (item->rta_type != RTA_OIF) {
-            continue;
-        }
+        if (item->rta_type != RTA_OIF) { continue; }
         unsigned index = 0;
         std::memcpy(&index, RTA_DATA(item), sizeof index);
         return index;
@@ -80,13 +74,9 @@ std::expected<std::string, std::string> route_interface(const std::string& addre
     }
     alignas(nlmsghdr) Answer answer{};
     const int length = ask_kernel(request_for(destination), answer);
-    if (length < 0) {
-        return std::unexpected(failure(address, -length));
-    }
+    if (length < 0) { return std::unexpected(failure(address, -length)); }
     const auto* header = reinterpret_cast<const nlmsghdr*>(answer.data());
-    if (!NLMSG_OK(header, static_cast<unsigned>(length))) {
-        return std::unexpected(failure(address, EPROTO));
-    }
+    if (!NLMSG_OK(header, static_cast<unsigned>(length))) { return std::unexpected(failure(address, EPROTO)); }
     if (header->nlmsg_type == NLMSG_ERROR) {
         return std::unexpected(failure(address, -static_cast<const nlmsgerr*>(NLMSG_DATA(header))->error));
     }

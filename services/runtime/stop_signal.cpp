@@ -14,7 +14,7 @@ extern "C" void on_stop_signal(int) { stop_requested.store(true, std::memory_ord
 
 StopSignal::StopSignal() {
     stop_requested = false;
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = on_stop_signal;  // without SA_RESTART: a sleeping loop wakes at once
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &interrupt_before_);

@@ -18,8 +18,8 @@ public:
     void request();
 
 private:
-    struct sigaction interrupt_before_{};
-    struct sigaction terminate_before_{};
+    struct sigaction interrupt_before_ {};
+    struct sigaction terminate_before_ {};
 };
 
 }  // namespace lockstep

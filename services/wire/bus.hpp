@@ -60,13 +60,9 @@ struct ClientBus {
 template <typename Bus>
 std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine) {
     auto participant = Participant::open(network, machine);
-    if (!participant) {
-        return std::unexpected(participant.error());
-    }
+    if (!participant) { return std::unexpected(participant.error()); }
     Bus bus{std::move(*participant)};
-    if (const auto& failure = bus.participant.failure()) {
-        return std::unexpected(*failure);
-    }
+    if (const auto& failure = bus.participant.failure()) { return std::unexpected(*failure); }
     return bus;
 }
 

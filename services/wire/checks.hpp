@@ -25,9 +25,7 @@ public:
 
     template <typename Number>
     void within(const char* field, Number value, Number least, Number most) {
-        if (!(value >= least && value <= most)) {
-            refuse(field, std::to_string(value));
-        }
+        if (!(value >= least && value <= most)) { refuse(field, std::to_string(value)); }
     }
     /// An instant, a slot or a count of steps.
     void far(const char* field, std::int64_t value) { within(field, value, -kFarthest, kFarthest); }
@@ -35,9 +33,7 @@ public:
     void rate(const char* field, std::int64_t value) { within(field, value, -kFastest, kFastest); }
     void same(const char* field, std::size_t count, std::size_t expected) { within(field, count, expected, expected); }
     void finite(const char* field, double value) {
-        if (!std::isfinite(value)) {
-            refuse(field, "not finite");
-        }
+        if (!std::isfinite(value)) { refuse(field, "not finite"); }
     }
 
     /// Core's enumerator for a value on the wire, which has core's order: 0 ... last.
@@ -55,9 +51,7 @@ private:
     static constexpr std::int64_t kFastest = std::numeric_limits<std::int64_t>::max();
 
     void refuse(const char* field, const std::string& value) {
-        if (!refusal_) {
-            refusal_ = std::string(message_) + ": " + field + " is " + value + ", out of range";
-        }
+        if (!refusal_) { refusal_ = std::string(message_) + ": " + field + " is " + value + ", out of range"; }
     }
 
     const char* message_;

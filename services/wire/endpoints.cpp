@@ -35,9 +35,7 @@ void on_data_available(dds_entity_t, void* on_data) { (*static_cast<const OnData
 
 Listener listener_for(const OnData* on_data) {
     Listener listener{dds_create_listener(const_cast<OnData*>(on_data)), &dds_delete_listener};
-    if (on_data != nullptr) {
-        dds_lset_data_available(listener.get(), on_data_available);
-    }
+    if (on_data != nullptr) { dds_lset_data_available(listener.get(), on_data_available); }
     return listener;
 }
 
@@ -45,17 +43,13 @@ Listener listener_for(const OnData* on_data) {
 
 Entity make_writer(Participant& participant, const TopicSpec& spec) {
     const dds_entity_t topic = make_topic(participant, spec);
-    if (topic < 0) {
-        return checked(participant, spec, topic);
-    }
+    if (topic < 0) { return checked(participant, spec, topic); }
     return checked(participant, spec, dds_create_writer(participant.publisher(), topic, qos_for(spec).get(), nullptr));
 }
 
 Entity make_reader(Participant& participant, const TopicSpec& spec, const OnData* on_data) {
     const dds_entity_t topic = make_topic(participant, spec);
-    if (topic < 0) {
-        return checked(participant, spec, topic);
-    }
+    if (topic < 0) { return checked(participant, spec, topic); }
     const Listener listener = listener_for(on_data);
     return checked(participant, spec,
                    dds_create_reader(participant.subscriber(), topic, qos_for(spec).get(), listener.get()));

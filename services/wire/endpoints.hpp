@@ -65,9 +65,7 @@ public:
         std::size_t used = 0;
         for (std::size_t batch = 0; batch < kMaxBatches; ++batch) {
             const std::size_t taken = take_batch(use, used);
-            if (taken < kBatch) {
-                break;
-            }
+            if (taken < kBatch) { break; }
         }
         return used;
     }
@@ -91,9 +89,7 @@ private:
         Loan(const Loan&) = delete;
         Loan& operator=(const Loan&) = delete;
         ~Loan() {
-            if (count > 0) {
-                dds_return_loan(reader, samples.data(), count);
-            }
+            if (count > 0) { dds_return_loan(reader, samples.data(), count); }
         }
     };
 
@@ -102,9 +98,7 @@ private:
         const Loan loan(entity_.handle());
         const auto count = static_cast<std::size_t>(std::max(0, loan.count));
         for (std::size_t i = 0; i < count; ++i) {
-            if (!loan.infos[i].valid_data) {
-                continue;
-            }  // a sender left
+            if (!loan.infos[i].valid_data) { continue; }  // a sender left
             auto believed = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]), value_);
             if (believed) {
                 use(std::move(value_));

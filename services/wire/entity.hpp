@@ -18,9 +18,7 @@ public:
         return *this;
     }
     ~Entity() {
-        if (good()) {
-            dds_delete(handle_);
-        }
+        if (good()) { dds_delete(handle_); }
     }
 
     bool good() const { return handle_ > 0; }

@@ -9,27 +9,17 @@ namespace lockstep {
 std::expected<FileWindow, std::string> FileWindow::open(const std::filesystem::path& path) {
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path, error);
-    if (error) {
-        return std::unexpected("cannot read " + path.string() + ": " + error.message());
-    }
+    if (error) { return std::unexpected("cannot read " + path.string() + ": " + error.message()); }
     std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        return std::unexpected("cannot read " + path.string() + ": " + std::strerror(errno));
-    }
+    if (!file) { return std::unexpected("cannot read " + path.string() + ": " + std::strerror(errno)); }
     return FileWindow(std::move(file), size);
 }
 
 std::span<const std::uint8_t> FileWindow::view(std::uint64_t offset, std::size_t count) {
-    if (offset >= size_) {
-        return {};
-    }
+    if (offset >= size_) { return {}; }
     count = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset));
-    if (offset < start_ || offset + count > start_ + window_.size()) {
-        load(offset, std::max(count, kWindowBytes));
-    }
-    if (failed_) {
-        return {};
-    }
+    if (offset < start_ || offset + count > start_ + window_.size()) { load(offset, std::max(count, kWindowBytes)); }
+    if (failed_) { return {}; }
     return std::span<const std::uint8_t>(window_).subspan(offset - start_, count);
 }
 

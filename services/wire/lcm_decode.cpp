@@ -12,9 +12,7 @@ public:
 
     bool skip(std::uint64_t count) {
         fits_ = fits_ && count <= rest_.size();
-        if (fits_) {
-            rest_ = rest_.subspan(count);
-        }
+        if (fits_) { rest_ = rest_.subspan(count); }
         return fits_;
     }
     /// A number of elements: as a signed one, it is not negative.

@@ -41,9 +41,7 @@ std::expected<Message, std::string> decode_lcm(std::span<const std::uint8_t> byt
     if (bytes.size() < 8 || detail::big_endian(bytes.first(8)) != static_cast<std::uint64_t>(Message::getHash())) {
         return std::unexpected("not a " + name + " of this version");
     }
-    if (!detail::has_layout(bytes.subspan(8), kLcmLayout<Message>)) {
-        return std::unexpected("a damaged " + name);
-    }
+    if (!detail::has_layout(bytes.subspan(8), kLcmLayout<Message>)) { return std::unexpected("a damaged " + name); }
     Message message{};
     if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size())) {
         return std::unexpected("a damaged " + name);

@@ -35,41 +35,29 @@ std::uint64_t LogReader::Header::event_bytes() const {
 
 std::expected<LogReader, std::string> LogReader::open(const std::filesystem::path& path) {
     auto file = FileWindow::open(path);
-    if (!file) {
-        return std::unexpected(file.error());
-    }
+    if (!file) { return std::unexpected(file.error()); }
     return LogReader(std::move(*file));
 }
 
 /// The header of an event that may begin here, by its sync word, its lengths and its channel's name.
 std::optional<LogReader::Header> LogReader::header_at(std::uint64_t offset) {
     const auto bytes = file_.view(offset, kHeaderBytes + kMaxChannelBytes);
-    if (bytes.size() < kHeaderBytes || !starts_with_sync(bytes)) {
-        return std::nullopt;
-    }
+    if (bytes.size() < kHeaderBytes || !starts_with_sync(bytes)) { return std::nullopt; }
     const Header header{.number = static_cast<std::int64_t>(detail::big_endian(bytes.subspan(4, 8))),
                         .utime = static_cast<std::int64_t>(detail::big_endian(bytes.subspan(12, 8))),
                         .channel_bytes = static_cast<std::uint32_t>(detail::big_endian(bytes.subspan(20, 4))),
                         .data_bytes = static_cast<std::uint32_t>(detail::big_endian(bytes.subspan(24, 4)))};
     const std::size_t channel_most = std::min<std::size_t>(kMaxChannelBytes, bytes.size() - kHeaderBytes);
-    if (header.channel_bytes < 1 || header.channel_bytes > channel_most) {
-        return std::nullopt;
-    }
-    if (header.data_bytes > kMaxDataBytes) {
-        return std::nullopt;
-    }
-    if (!std::ranges::all_of(bytes.subspan(kHeaderBytes, header.channel_bytes), is_printable)) {
-        return std::nullopt;
-    }
+    if (header.channel_bytes < 1 || header.channel_bytes > channel_most) { return std::nullopt; }
+    if (header.data_bytes > kMaxDataBytes) { return std::nullopt; }
+    if (!std::ranges::all_of(bytes.subspan(kHeaderBytes, header.channel_bytes), is_printable)) { return std::nullopt; }
     return header;
 }
 
 /// That a whole event begins here and another, or the end of the file, follows it.
 bool LogReader::begins_event(std::uint64_t offset) {
     const auto header = header_at(offset);
-    if (!header) {
-        return false;
-    }
+    if (!header) { return false; }
     const std::uint64_t end = offset + header->event_bytes();
     return end == file_.size() || (end < file_.size() && starts_with_sync(file_.view(end, kSync.size())));
 }
@@ -79,13 +67,9 @@ std::optional<std::uint64_t> LogReader::find_sync(std::uint64_t from, std::uint6
     while (from + kSync.size() <= to) {
         const auto bytes =
             file_.view(from, static_cast<std::size_t>(std::min<std::uint64_t>(FileWindow::kWindowBytes, to - from)));
-        if (bytes.size() < kSync.size()) {
-            break;
-        }
+        if (bytes.size() < kSync.size()) { break; }
         const auto found = std::ranges::search(bytes, kSync);
-        if (!found.empty()) {
-            return from + static_cast<std::uint64_t>(found.begin() - bytes.begin());
-        }
+        if (!found.empty()) { return from + static_cast<std::uint64_t>(found.begin() - bytes.begin()); }
         from += bytes.size() - (kSync.size() - 1);  // a sync word may lie across two windows
     }
     return std::nullopt;
@@ -95,12 +79,8 @@ std::optional<std::uint64_t> LogReader::find_sync(std::uint64_t from, std::uint6
 bool LogReader::hides_another(std::uint64_t offset, std::uint64_t end) {
     for (int i = 0; i < kMaxCandidates; ++i) {
         const auto candidate = find_sync(offset + 1, end);
-        if (!candidate) {
-            return false;
-        }
-        if (begins_event(*candidate)) {
-            return true;
-        }
+        if (!candidate) { return false; }
+        if (begins_event(*candidate)) { return true; }
         offset = *candidate;
     }
     return false;
@@ -110,9 +90,7 @@ bool LogReader::hides_another(std::uint64_t offset, std::uint64_t end) {
 void LogReader::skip_damage() {
     std::uint64_t to = at_;
     do { to = find_sync(to + 1, file_.size()).value_or(file_.size()); } while (to < file_.size() && !header_at(to));
-    if (damages_.size() < kMaxDamages) {
-        damages_.push_back({at_, to - at_});
-    }
+    if (damages_.size() < kMaxDamages) { damages_.push_back({at_, to - at_}); }
     ++damaged_stretches_;
     damaged_bytes_ += to - at_;
     at_ = to;
@@ -120,9 +98,7 @@ void LogReader::skip_damage() {
 
 LogEvent LogReader::event_at(std::uint64_t offset, const Header& header) {
     const auto bytes = file_.view(offset, static_cast<std::size_t>(header.event_bytes()));
-    if (bytes.size() < header.event_bytes()) {
-        return {};
-    }  // reading failed: next() says so
+    if (bytes.size() < header.event_bytes()) { return {}; }  // reading failed: next() says so
     const auto channel = bytes.subspan(kHeaderBytes, header.channel_bytes);
     return {.offset = offset,
             .number = header.number,
@@ -142,21 +118,15 @@ std::expected<std::optional<LogEvent>, std::string> LogReader::next() {
         }
         const LogEvent event = event_at(at_, *header);
         at_ = end;
-        if (!file_.failed()) {
-            return event;
-        }
+        if (!file_.failed()) { return event; }
     }
-    if (file_.failed()) {
-        return std::unexpected("reading the log failed near byte " + std::to_string(at_));
-    }
+    if (file_.failed()) { return std::unexpected("reading the log failed near byte " + std::to_string(at_)); }
     return std::nullopt;
 }
 
 std::expected<LogWriter, std::string> LogWriter::open(const std::filesystem::path& path) {
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    if (!file) {
-        return std::unexpected("cannot write " + path.string() + ": " + std::strerror(errno));
-    }
+    if (!file) { return std::unexpected("cannot write " + path.string() + ": " + std::strerror(errno)); }
     return LogWriter(std::move(file));
 }
 

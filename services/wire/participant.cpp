@@ -39,13 +39,9 @@ std::string cannot_open(const NetworkConfig& network, const char* why) {
 
 std::expected<void, std::string> create_domain(const NetworkConfig& network) {
     const auto profile = dds_profile(network);
-    if (!profile) {
-        return std::unexpected(profile.error());
-    }
+    if (!profile) { return std::unexpected(profile.error()); }
     const dds_entity_t domain = dds_create_domain(network.domain, profile->c_str());
-    if (domain < 0) {
-        return std::unexpected(cannot_open(network, dds_strretcode(domain)));
-    }
+    if (domain < 0) { return std::unexpected(cannot_open(network, dds_strretcode(domain))); }
     return {};
 }
 
@@ -57,14 +53,10 @@ std::expected<void, std::string> ensure_domain(const NetworkConfig& network) {
     const auto known = interface_of.find(network.domain);
     if (known == interface_of.end()) {
         auto created = create_domain(network);
-        if (created) {
-            interface_of[network.domain] = network.interface;
-        }
+        if (created) { interface_of[network.domain] = network.interface; }
         return created;
     }
-    if (known->second == network.interface) {
-        return {};
-    }
+    if (known->second == network.interface) { return {}; }
     return std::unexpected("cannot open " + place(network) + ": this process has that domain on interface " +
                            known->second + "; use another domain");
 }
@@ -94,30 +86,20 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     if (machine.empty() || machine.find_first_of("*?[]") != machine.npos) {  // DDS would match them as patterns
         return std::unexpected("'" + machine + "' cannot name a machine: it is empty or has one of * ? [ ]");
     }
-    if (auto domain = ensure_domain(network); !domain) {
-        return std::unexpected(domain.error());
-    }
+    if (auto domain = ensure_domain(network); !domain) { return std::unexpected(domain.error()); }
     const Qos partition = partition_qos(machine);
     Participant made;
     made.participant_ = Entity(dds_create_participant(network.domain, nullptr, nullptr));
-    if (!made.participant_.good()) {
-        return std::unexpected(cannot_open(network, made.participant_.why_not()));
-    }
+    if (!made.participant_.good()) { return std::unexpected(cannot_open(network, made.participant_.why_not())); }
     made.publisher_ = Entity(dds_create_publisher(made.handle(), partition.get(), nullptr));
     made.subscriber_ = Entity(dds_create_subscriber(made.handle(), partition.get(), nullptr));
-    if (!made.publisher_.good()) {
-        return std::unexpected(cannot_open(network, made.publisher_.why_not()));
-    }
-    if (!made.subscriber_.good()) {
-        return std::unexpected(cannot_open(network, made.subscriber_.why_not()));
-    }
+    if (!made.publisher_.good()) { return std::unexpected(cannot_open(network, made.publisher_.why_not())); }
+    if (!made.subscriber_.good()) { return std::unexpected(cannot_open(network, made.subscriber_.why_not())); }
     return made;
 }
 
 void Participant::note_failure(std::string text) {
-    if (!failure_) {
-        failure_ = std::move(text);
-    }
+    if (!failure_) { failure_ = std::move(text); }
 }
 
 }  // namespace lockstep

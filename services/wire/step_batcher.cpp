@@ -38,9 +38,7 @@ bool StepBatcher::joins(Tick tick) const {
 }
 
 void StepBatcher::add(StepEdge step) {
-    if (batch_.count > 0 && !joins(step.tick)) {
-        flush();
-    }
+    if (batch_.count > 0 && !joins(step.tick)) { flush(); }
     if (batch_.count == 0) {
         batch_.first_tick = step.tick.value;
         last_step_ = step.tick;
@@ -54,21 +52,15 @@ void StepBatcher::add(StepEdge step) {
 }
 
 void StepBatcher::poll(Tick now) {
-    if (now < due_) {
-        return;
-    }
+    if (now < due_) { return; }
     const std::int64_t turns = (now - due_).value / period_.value + 1;  // turns missed are not made up for
     due_ += period_ * turns;
-    if (batch_.count > 0) {
-        batch_.utime = now.value * tick_ns_ / 1000;
-    }
+    if (batch_.count > 0) { batch_.utime = now.value * tick_ns_ / 1000; }
     flush();
 }
 
 void StepBatcher::flush() {
-    if (batch_.count == 0) {
-        return;
-    }
+    if (batch_.count == 0) { return; }
     publish_(batch_);
     ++batch_.sequence;
     batch_.position_before += moved_;

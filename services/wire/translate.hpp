@@ -59,12 +59,9 @@ FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
 
 /// The same into a value that was used before; it keeps its content where the sample is refused.
 template <typename Wire, typename T>
-    requires(!std::same_as<T, Frame>)
-std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
+requires(!std::same_as<T, Frame>) std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
     auto value = from_wire(wire);
-    if (!value) {
-        return std::unexpected(std::move(value.error()));
-    }
+    if (!value) { return std::unexpected(std::move(value.error())); }
     into = std::move(*value);
     return {};
 }

@@ -40,9 +40,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.far("tick", wire.tick);
     check.far("following_error_steps", wire.following_error_steps);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     return AxisState{.identity = wire.identity,
                      .axis = wire.axis,
                      .stamp = wire.stamp,
@@ -75,9 +73,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
     const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::StopNow);
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     return AxisCommand{
         .coordinator = wire.coordinator, .sequence = wire.sequence_number, .axis = wire.axis, .kind = kind};
 }

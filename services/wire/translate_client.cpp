@@ -11,9 +11,7 @@ static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refus
 
 /// The longest beginning of at most `most` bytes that does not end within a UTF-8 character.
 std::string_view cut_utf8(std::string_view text, std::size_t most) {
-    if (text.size() <= most) {
-        return text;
-    }
+    if (text.size() <= most) { return text; }
     while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) { --most; }
     return text.substr(0, most);
 }
@@ -31,9 +29,7 @@ lockstep_wire_Command to_wire(const Command& command) {
 FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     Checks check("command");
     const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Reset);
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Command{.client = wire.client,
                    .sequence = wire.sequence_number,
                    .kind = kind,
@@ -59,9 +55,7 @@ FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire) {
     check.within<std::uint32_t>("count", wire.count, 1, kMaxChunks);
     check.within<std::int64_t>("index", wire.index, 0, std::int64_t{wire.count} - 1);
     check.within<std::size_t>("the number of bytes", wire.bytes._length, 0, kMaxChunkBytes);
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     return ProgramChunk{.client = wire.client,
                         .sequence = wire.sequence_number,
                         .program = wire.program,
@@ -87,9 +81,7 @@ FromWire<Reply> from_wire(const lockstep_wire_Reply& wire) {
     const ReplyStatus status = check.choice("status", wire.status, ReplyStatus::Refused);
     const std::size_t length = strnlen(wire.text, sizeof wire.text);
     check.within<std::size_t>("the text's length", length, 0, lockstep_wire_MAX_REPLY_BYTES);
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Reply{.client = wire.client,
                  .sequence = wire.sequence_number,
                  .status = status,

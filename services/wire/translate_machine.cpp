@@ -36,9 +36,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.finite("remaining_s", wire.remaining_s);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Fault);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     return MachineState{.coordinator = wire.coordinator,
                         .stamp = wire.stamp,
                         .tick = {wire.tick},

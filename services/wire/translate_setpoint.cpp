@@ -54,9 +54,7 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.same("the number of phases", wire.from_phase._length, axes);
     check.same("the number of body counts", wire.body_count._length, axes);
     check.same("the number of tail counts", wire.tail_count._length, axes);
-    if (!check.passed()) {
-        return;
-    }
+    if (!check.passed()) { return; }
     for (const auto count : elements(wire.body_count)) {
         check.within<std::size_t>("a body count", count, 0, kMaxBodyPieces);
     }
@@ -114,21 +112,15 @@ SetpointMessage to_wire(const Frame& frame) {
 
 FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire) {
     Frame frame;
-    if (auto read = from_wire(wire, frame); !read) {
-        return std::unexpected(std::move(read.error()));
-    }
+    if (auto read = from_wire(wire, frame); !read) { return std::unexpected(std::move(read.error())); }
     return frame;
 }
 
 std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into) {
     Checks check("setpoint");
     check_shape(wire, check);
-    if (check.passed()) {
-        check_values(wire, check);
-    }
-    if (!check.passed()) {
-        return std::unexpected(check.refusal());
-    }
+    if (check.passed()) { check_values(wire, check); }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
     into.coordinator = wire.coordinator;
     into.epoch = wire.epoch;
     into.number = wire.number;

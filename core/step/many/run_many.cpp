@@ -29,12 +29,8 @@ void run_into(StepEngine& axis, Tick until, EdgeBuffer& edges) {
     axis.run_stretches(until, kNeverFast, [&](const Stretch& stretch, Tick start) {
         const std::span<std::int64_t> room = edges.free();
         const auto steps = static_cast<std::size_t>(stretch.steps_in(stretch.ticks));
-        if (steps > room.size()) {
-            return Walked{0, false};
-        }
-        if (steps > 0) {
-            write_steps(stretch, steps, start, room.data());
-        }
+        if (steps > room.size()) { return Walked{0, false}; }
+        if (steps > 0) { write_steps(stretch, steps, start, room.data()); }
         edges.filled(steps);
         return Walked{stretch.ticks, true};
     });

@@ -35,9 +35,7 @@ struct Machine {
         bool moving = false;
         for (std::size_t i = 0; i < engines.size(); ++i) {
             while (engines[i].now() < until && !(engines[i].idle() && next[i] == moves[i].size())) {
-                if (engines[i].idle()) {
-                    engines[i].begin(moves[i][next[i]++]);
-                }
+                if (engines[i].idle()) { engines[i].begin(moves[i][next[i]++]); }
                 run(i);
                 moving = true;
             }

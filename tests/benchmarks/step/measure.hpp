@@ -13,9 +13,7 @@ class Times {
 public:
     void operator()(std::int64_t time) {
         *next_++ = time;
-        if (next_ == ring_.end()) {
-            next_ = ring_.begin();
-        }
+        if (next_ == ring_.end()) { next_ = ring_.begin(); }
     }
 
 private:

@@ -17,9 +17,7 @@ double Trapezoid::time_of(double s) const {
     const double a = (top_velocity - start_velocity) / rise;
     const double ramp = (start_velocity + top_velocity) / 2 * rise;
     const double end = 2 * ramp + top_velocity * cruise;
-    if (s <= ramp) {
-        return time_to_cover(s, start_velocity, a);
-    }
+    if (s <= ramp) { return time_to_cover(s, start_velocity, a); }
     return s <= end - ramp ? rise + (s - ramp) / top_velocity : duration() - time_to_cover(end - s, start_velocity, a);
 }
 
@@ -45,9 +43,7 @@ std::vector<Piece> pieces_of(const Trapezoid& plan) {
     const double a = (plan.top_velocity - plan.start_velocity) / plan.rise;
     const auto ticks = [](double t) { return Ticks{std::llround(t)}; };
     std::vector<Piece> pieces{{ticks(plan.rise), {raw(plan.start_velocity - a / 2)}, {raw(a)}}};
-    if (plan.cruise > 0) {
-        pieces.push_back({ticks(plan.cruise), {raw(plan.top_velocity)}, {0}});
-    }
+    if (plan.cruise > 0) { pieces.push_back({ticks(plan.cruise), {raw(plan.top_velocity)}, {0}}); }
     pieces.push_back({ticks(plan.rise), {raw(plan.top_velocity + a / 2)}, {-raw(a)}});
     return pieces;
 }

@@ -21,9 +21,7 @@ using namespace std::chrono_literals;
 /// Answers on a thread of DDS, as soon as a frame comes.
 int pong(const NetworkConfig& network) {
     auto participant = Participant::open(network, "benchmark");
-    if (!participant) {
-        return 1;
-    }
+    if (!participant) { return 1; }
     Writer<Frame> answers(*participant);
     Reader<Frame>* self = nullptr;
     Reader<Frame> frames(*participant, [&] {
@@ -58,9 +56,7 @@ private:
     }
     /// On a thread of DDS: the next frame leaves from here.
     void answered() {
-        if (wanted_ == 0 || reader_.take([](Frame&&) {}) == 0) {
-            return;
-        }
+        if (wanted_ == 0 || reader_.take([](Frame&&) {}) == 0) { return; }
         halves_.push_back(std::chrono::duration<double, std::micro>(monotonic_now() - sent_).count() / 2);
         if (halves_.size() < wanted_) {
             send();
@@ -80,13 +76,9 @@ private:
 
 int ping(const NetworkConfig& network, bool many_axes, std::size_t count) {
     auto participant = Participant::open(network, "benchmark");
-    if (!participant) {
-        return 1;
-    }
+    if (!participant) { return 1; }
     auto halves = Ping(*participant, many_axes ? frame_of_32_axes() : frame_of_3_axes()).measure(count);
-    if (halves.empty()) {
-        return 1;
-    }
+    if (halves.empty()) { return 1; }
     const auto middle = halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2);
     std::nth_element(halves.begin(), middle, halves.end());
     std::printf("%.2f\n", *middle);
@@ -99,15 +91,9 @@ int ping(const NetworkConfig& network, bool many_axes, std::size_t count) {
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     lockstep::NetworkConfig network;
-    if (words == std::vector<std::string>{"profile"}) {
-        return std::puts(lockstep::dds_profile(network)->c_str()) < 0;
-    }
-    if (words.size() < 2) {
-        return 2;
-    }
+    if (words == std::vector<std::string>{"profile"}) { return std::puts(lockstep::dds_profile(network)->c_str()) < 0; }
+    if (words.size() < 2) { return 2; }
     network.domain = static_cast<std::uint32_t>(std::stoul(words[1]));
-    if (words[0] == "pong") {
-        return lockstep::pong(network);
-    }
+    if (words[0] == "pong") { return lockstep::pong(network); }
     return words.size() == 4 ? lockstep::ping(network, words[2] == "32", std::stoul(words[3])) : 2;
 }

@@ -100,8 +100,7 @@ RC_GTEST_PROP(GcodeOfAnyBytes, SoupsOfItsOwnCharactersAreReadOrRefused, ()) {
 
 /// Absolute and relative tell of the same place.
 RC_GTEST_PROP(GcodeOfAnyBytes, RelativeMovesReachWhatAbsoluteOnesDo, ()) {
-    const auto places = *rc::gen::nonEmpty(
-        rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 200)));
+    const auto places = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 200)));
     std::string absolute = "G0\n";
     std::string relative = "G91 G0\n";
     for (int at = 0; const int place : places) {

@@ -143,7 +143,8 @@ void expect_within_limits(const Path& path, const Machine& m, std::vector<Positi
             ASSERT_LE(std::max(std::abs(v0), std::abs(v1)), l.max_velocity * (1 + 1e-6) + one_tick);
             const bool speeding = std::abs(v1) > std::abs(v0);
             ASSERT_LE(std::abs(a), (speeding ? l.max_acceleration : l.max_deceleration) * (1 + 1e-6))
-                << "tick " << clock.value << " of " << path.duration().ceil().value << " n " << n << " v0 " << v0 << " v1 " << v1;
+                << "tick " << clock.value << " of " << path.duration().ceil().value << " n " << n << " v0 " << v0
+                << " v1 " << v1;
             last[i] = v1;
             at[i] = at[i] + pieces[i].covered();
         }
@@ -198,7 +199,8 @@ TEST(JoinedMoves, EveryStopOnThePathKeepsTheLimitsAndFitsATail) {
                 }
             }
             for (std::size_t i = 0; i < speed.size(); ++i) {
-                ASSERT_LE(std::abs(speed[i]), m.limits[i].start_velocity * (1 + 1e-6) + 2 * m.limits[i].max_deceleration)
+                ASSERT_LE(std::abs(speed[i]),
+                          m.limits[i].start_velocity * (1 + 1e-6) + 2 * m.limits[i].max_deceleration)
                     << "run " << run;
             }
         }

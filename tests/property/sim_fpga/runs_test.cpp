@@ -68,9 +68,7 @@ std::vector<StepEdge> expected_steps(const Run& run) {
     Tick tick = run.frames.front().start;
     Position at = run.frames.front().track.from;
     for (FrameNumber k = 0; k < ran; ++k) { execute(run.frames[k].track.body, tick, at, steps); }
-    if (ran > 0 && !run.frames[ran - 1].last) {
-        execute(run.frames[ran - 1].track.tail, tick, at, steps);
-    }
+    if (ran > 0 && !run.frames[ran - 1].last) { execute(run.frames[ran - 1].track.tail, tick, at, steps); }
     return steps;
 }
 

@@ -120,9 +120,7 @@ TEST(StepForms, StoppedAtAStepTheEngineStandsWhereThatTickEnds) {
         const Ticks done = (stopped ? last : segment.end()) - segment.start;
         ASSERT_EQ(engine.now(), segment.start + done) << segment;
         ASSERT_EQ(engine.position(), segment.from + segment.piece.covered(done)) << segment;
-        if (!engine.idle()) {
-            ASSERT_EQ(engine.velocity().raw, segment.piece.velocity_after(done)) << segment;
-        }
+        if (!engine.idle()) { ASSERT_EQ(engine.velocity().raw, segment.piece.velocity_after(done)) << segment; }
     }
 }
 

@@ -21,12 +21,8 @@ public:
         shape(segment.piece);
         while (!executable(segment.piece)) { segment.piece.ticks.value /= 2; }
         segment.piece.ticks = std::max(segment.piece.ticks, Ticks{1});
-        if (!executable(segment.piece)) {
-            segment.piece.acceleration.raw = 0;
-        }
-        if (one_in(8)) {
-            aim_at_a_tie(segment);
-        }
+        if (!executable(segment.piece)) { segment.piece.acceleration.raw = 0; }
+        if (one_in(8)) { aim_at_a_tie(segment); }
         return segment;
     }
 
@@ -51,24 +47,17 @@ private:
     /// down, as a person would choose.
     std::int64_t speed() {
         switch (below(4)) {
-            case 0:
-                return any_size(64);
-            case 1:
-                return std::numeric_limits<std::int64_t>::max() / (1 + below(1000));
-            default:
-                return (one_in(2) ? 1 : -1) * static_cast<std::int64_t>(random_() >> 1 >> below(11));
+            case 0: return any_size(64);
+            case 1: return std::numeric_limits<std::int64_t>::max() / (1 + below(1000));
+            default: return (one_in(2) ? 1 : -1) * static_cast<std::int64_t>(random_() >> 1 >> below(11));
         }
     }
     void shape(Piece& piece) {
         const std::int64_t first = speed();
         piece.velocity.raw = one_in(2) ? first : -first;
         switch (below(8)) {
-            case 0:
-                piece.acceleration.raw = 0;
-                break;
-            case 1:
-                piece.acceleration.raw = any_size(64);
-                break;
+            case 0: piece.acceleration.raw = 0; break;
+            case 1: piece.acceleration.raw = any_size(64); break;
             default:  // from one speed to another, through rest or not
                 const Int128 change = Int128{one_in(4) ? -first : speed()} - piece.velocity.raw;
                 piece.acceleration.raw = static_cast<std::int64_t>(change / piece.ticks.value);

@@ -6,8 +6,8 @@
 namespace lockstep {
 namespace {
 
-constexpr ProtocolTiming kTiming{.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12,
-                                 .frame_slots = 5};
+constexpr ProtocolTiming kTiming{
+    .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
 constexpr Slot kStart = 100;  // of frame k; Y(k) = 95
 
 TEST(Rules, TheCheckInstantLiesVSlotsBeforeTheStart) {

@@ -11,22 +11,33 @@ constexpr Slot kStart = 100;
 constexpr Epoch kEpoch = 7;
 
 MachineConfig machine() {
-    MachineConfig m{.name = "pair", .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2,
-                                               .send_ahead_slots = 12, .frame_slots = 5}};
-    const AxisConfig axis{.name = "X", .steps_per_mm = 100, .start_velocity_mm_s = 10, .max_velocity_mm_s = 100,
-                          .max_accel_mm_s2 = 1000, .max_decel_mm_s2 = 1000, .position_min_mm = -100, .position_max_mm = 100};
+    MachineConfig m{
+        .name = "pair",
+        .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5}};
+    const AxisConfig axis{.name = "X",
+                          .steps_per_mm = 100,
+                          .start_velocity_mm_s = 10,
+                          .max_velocity_mm_s = 100,
+                          .max_accel_mm_s2 = 1000,
+                          .max_decel_mm_s2 = 1000,
+                          .position_min_mm = -100,
+                          .position_max_mm = 100};
     m.axes = {axis, axis};
     m.axes[1].name = "Y";
     return m;
 }
 
-constexpr Velocity kSlow{static_cast<std::int64_t>(0x1p64 * 500e-6)};    // 500 steps/s, below the start velocity
-constexpr Velocity kTooFast{static_cast<std::int64_t>(0x1p64 * 2e-2)};   // 20,000 steps/s, above the limit
+constexpr Velocity kSlow{static_cast<std::int64_t>(0x1p64 * 500e-6)};   // 500 steps/s, below the start velocity
+constexpr Velocity kTooFast{static_cast<std::int64_t>(0x1p64 * 2e-2)};  // 20,000 steps/s, above the limit
 
 /// Frame k at constant speed from `from`, ending its axis's motion by stopping dead, as the start velocity allows.
 Frame frame(FrameNumber k, Position from, Velocity v = kSlow, bool last = false) {
-    Frame f{.coordinator = 1, .epoch = kEpoch, .number = k, .start = {(kStart + 5 * static_cast<Slot>(k - 1)) * kSlot},
-            .ticks = {5 * kSlot}, .last = last};
+    Frame f{.coordinator = 1,
+            .epoch = kEpoch,
+            .number = k,
+            .start = {(kStart + 5 * static_cast<Slot>(k - 1)) * kSlot},
+            .ticks = {5 * kSlot},
+            .last = last};
     f.axes.resize(2);
     for (AxisTrack& track : f.axes) {
         track.from = from;

@@ -13,7 +13,11 @@ std::vector<std::uint8_t> some_program() {
 }
 
 ProgramChunk chunk(std::uint32_t index, std::uint32_t count, std::vector<std::uint8_t> bytes, Identity client = 1) {
-    return {.client = client, .sequence = 100 + index, .program = 7, .index = index, .count = count,
+    return {.client = client,
+            .sequence = 100 + index,
+            .program = 7,
+            .index = index,
+            .count = count,
             .bytes = std::move(bytes)};
 }
 
@@ -71,7 +75,8 @@ TEST(ProgramInbox, BytesThatAreNoProgramAreRefusedWhenWhole) {
     const auto taken = inbox.take(chunk(0, 1, {0xff, 0xff, 0xff}));
     EXPECT_EQ(taken.reply.status, ReplyStatus::Refused);
     EXPECT_FALSE(taken.program);
-    EXPECT_EQ(inbox.take(chunk(0, 1, {0xff, 0xff, 0xff})).reply.status, ReplyStatus::Refused) << "also when it comes again";
+    EXPECT_EQ(inbox.take(chunk(0, 1, {0xff, 0xff, 0xff})).reply.status, ReplyStatus::Refused)
+        << "also when it comes again";
 }
 
 TEST(ProgramInbox, TheOldestUnfinishedProgramGivesWay) {

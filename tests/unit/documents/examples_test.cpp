@@ -87,8 +87,8 @@ TEST(Examples, ThePlateTakesAboutHalfAMinute) {
 
 TEST(Examples, ThePlatePausesOnlyWhereAskedTo) {
     const MachineConfig mill = machine("three-axis.textproto");
-    const auto asked = load_gcode_file(kExamples / "plate.gcode", mill, parked(mill),
-                                       {.pause_at_m1 = true, .skip_deletable = false});
+    const auto asked =
+        load_gcode_file(kExamples / "plate.gcode", mill, parked(mill), {.pause_at_m1 = true, .skip_deletable = false});
     EXPECT_EQ(asked.value().blocks.size(), plate().blocks.size() + 1);
 }
 

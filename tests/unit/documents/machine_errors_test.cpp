@@ -34,72 +34,82 @@ TEST_P(MachineRefused, WithPlaceValueAndRemedy) {
     EXPECT_THAT(found[0].message, HasSubstr(refusal.says));
 }
 
-INSTANTIATE_TEST_SUITE_P(Syntax, MachineRefused, testing::Values(
-    Refusal{machine_with("tick_nanos: 5"), 11, 11, "tick_nanos"},
-    Refusal{axis_with("max_velocty_mm_s: 5"), 10, 19, "max_velocty_mm_s"},
-    Refusal{axis_with("homing { dir: 1 }"), 10, 15, "dir"},
-    Refusal{machine_with("name: \"other\""), 11, 5, "multiple times"},
-    Refusal{axis_with("steps_per_mm: 5"), 10, 15, "multiple times"},
-    Refusal{axis_with("homing { toward_min: flase }"), 10, 30, "flase"},
-    Refusal{machine_with("tick_ns: 1.5"), 11, 10, "1.5"},
-    Refusal{machine_with("tick_ns: \"1\""), 11, 10, "integer"},
-    Refusal{with("80", "eighty"), 4, 17, "eighty"},
-    Refusal{"axis {\n", 2, 1, "Expected"},
-    Refusal{"\x7f" "ELF\x02\x01", 1, 1, "Expected identifier"}));
+INSTANTIATE_TEST_SUITE_P(Syntax, MachineRefused,
+                         testing::Values(Refusal{machine_with("tick_nanos: 5"), 11, 11, "tick_nanos"},
+                                         Refusal{axis_with("max_velocty_mm_s: 5"), 10, 19, "max_velocty_mm_s"},
+                                         Refusal{axis_with("homing { dir: 1 }"), 10, 15, "dir"},
+                                         Refusal{machine_with("name: \"other\""), 11, 5, "multiple times"},
+                                         Refusal{axis_with("steps_per_mm: 5"), 10, 15, "multiple times"},
+                                         Refusal{axis_with("homing { toward_min: flase }"), 10, 30, "flase"},
+                                         Refusal{machine_with("tick_ns: 1.5"), 11, 10, "1.5"},
+                                         Refusal{machine_with("tick_ns: \"1\""), 11, 10, "integer"},
+                                         Refusal{with("80", "eighty"), 4, 17, "eighty"},
+                                         Refusal{"axis {\n", 2, 1, "Expected"},
+                                         Refusal{"\x7f"
+                                                 "ELF\x02\x01",
+                                                 1, 1, "Expected identifier"}));
 
-INSTANTIATE_TEST_SUITE_P(Missing, MachineRefused, testing::Values(
-    Refusal{with("name: \"m\"", ""), 1, 1, "name is missing"},
-    Refusal{"name: \"m\"", 1, 1, "0 axes; write"},
-    Refusal{with("  steps_per_mm: 80\n", ""), 2, 1, "steps_per_mm is missing"},
-    Refusal{with("  position_max_mm: 200\n", ""), 2, 1, "position_max_mm is missing"}));
+INSTANTIATE_TEST_SUITE_P(Missing, MachineRefused,
+                         testing::Values(Refusal{with("name: \"m\"", ""), 1, 1, "name is missing"},
+                                         Refusal{"name: \"m\"", 1, 1, "0 axes; write"},
+                                         Refusal{with("  steps_per_mm: 80\n", ""), 2, 1, "steps_per_mm is missing"},
+                                         Refusal{with("  position_max_mm: 200\n", ""), 2, 1,
+                                                 "position_max_mm is missing"}));
 
-INSTANTIATE_TEST_SUITE_P(Machine, MachineRefused, testing::Values(
-    Refusal{with("\"m\"", "\"\""), 1, 1, "a letter, then"},
-    Refusal{with("\"m\"", "\"my machine\""), 1, 1, "my machine"},
-    Refusal{with("\"m\"", "\"m234567890123456789012345\""), 1, 1, "at most 24"},
-    Refusal{machine_with("tick_ns: 99"), 11, 1, "100 to 1000000"},
-    Refusal{machine_with("timing { slot_us: 10001 }\ntick_ns: 3000"), 11, 10, "whole number of ticks"},
-    Refusal{machine_with("timing { slot_us: 499 }"), 11, 10, "500 to 1000000"},
-    Refusal{machine_with("timing { stall_slots: 0 }"), 11, 10, "1 to 200"},
-    Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
-    Refusal{machine_with("timing { send_ahead_slots: 29 }"), 11, 10, "at least 30"},
-    Refusal{machine_with("timing { frame_slots: 22 }"), 11, 10, "at least 23"},
-    Refusal{machine_with("network { interface: \"\" }"), 11, 11, "name an interface"},
-    Refusal{machine_with("network { interface: \"<lo>\" }"), 11, 11, "<lo>"},
-    Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
-    Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"}));
+INSTANTIATE_TEST_SUITE_P(
+    Machine, MachineRefused,
+    testing::Values(Refusal{with("\"m\"", "\"\""), 1, 1, "a letter, then"},
+                    Refusal{with("\"m\"", "\"my machine\""), 1, 1, "my machine"},
+                    Refusal{with("\"m\"", "\"m234567890123456789012345\""), 1, 1, "at most 24"},
+                    Refusal{machine_with("tick_ns: 99"), 11, 1, "100 to 1000000"},
+                    Refusal{machine_with("timing { slot_us: 10001 }\ntick_ns: 3000"), 11, 10, "whole number of ticks"},
+                    Refusal{machine_with("timing { slot_us: 499 }"), 11, 10, "500 to 1000000"},
+                    Refusal{machine_with("timing { stall_slots: 0 }"), 11, 10, "1 to 200"},
+                    Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
+                    Refusal{machine_with("timing { send_ahead_slots: 29 }"), 11, 10, "at least 30"},
+                    Refusal{machine_with("timing { frame_slots: 22 }"), 11, 10, "at least 23"},
+                    Refusal{machine_with("network { interface: \"\" }"), 11, 11, "name an interface"},
+                    Refusal{machine_with("network { interface: \"<lo>\" }"), 11, 11, "<lo>"},
+                    Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
+                    Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"}));
 
-INSTANTIATE_TEST_SUITE_P(Axis, MachineRefused, testing::Values(
-    Refusal{with("\"X\"", "\"1st\""), 3, 3, "a letter, then"},
-    Refusal{with("\"X\"", "\"X23456789012345678\""), 3, 3, "at most 16"},
-    Refusal{with("80", "0"), 4, 3, "steps_per_mm is 0"}, Refusal{with("80", "nan"), 4, 3, "steps_per_mm is nan"},
-    Refusal{with("150", "inf"), 6, 3, "max_velocity_mm_s is inf"},
-    Refusal{with("10\n", "-10\n"), 5, 3, "start_velocity_mm_s is -10"},
-    Refusal{with("150", "9"), 6, 3, "below start_velocity_mm_s 10"},
-    Refusal{with("150", "6251"), 6, 3, "half a step per tick; at most 6250"},
-    Refusal{with("1500", "0"), 7, 3, "max_accel_mm_s2 is 0"}, Refusal{with("1500", "-1"), 7, 3, "is -1"},
-    Refusal{with("1500", ".01"), 7, 3, "more than 600 s"}, Refusal{axis_with("max_decel_mm_s2: 0"), 10, 3, "is 0"},
-    Refusal{with("200", "0"), 9, 3, "not above position_min_mm 0"},
-    Refusal{with("200", "-5"), 9, 3, "position_max_mm is -5"},
-    Refusal{with("200", "2e6"), 9, 3, "-1000000 to 1000000"}));
+INSTANTIATE_TEST_SUITE_P(Axis, MachineRefused,
+                         testing::Values(Refusal{with("\"X\"", "\"1st\""), 3, 3, "a letter, then"},
+                                         Refusal{with("\"X\"", "\"X23456789012345678\""), 3, 3, "at most 16"},
+                                         Refusal{with("80", "0"), 4, 3, "steps_per_mm is 0"},
+                                         Refusal{with("80", "nan"), 4, 3, "steps_per_mm is nan"},
+                                         Refusal{with("150", "inf"), 6, 3, "max_velocity_mm_s is inf"},
+                                         Refusal{with("10\n", "-10\n"), 5, 3, "start_velocity_mm_s is -10"},
+                                         Refusal{with("150", "9"), 6, 3, "below start_velocity_mm_s 10"},
+                                         Refusal{with("150", "6251"), 6, 3, "half a step per tick; at most 6250"},
+                                         Refusal{with("1500", "0"), 7, 3, "max_accel_mm_s2 is 0"},
+                                         Refusal{with("1500", "-1"), 7, 3, "is -1"},
+                                         Refusal{with("1500", ".01"), 7, 3, "more than 600 s"},
+                                         Refusal{axis_with("max_decel_mm_s2: 0"), 10, 3, "is 0"},
+                                         Refusal{with("200", "0"), 9, 3, "not above position_min_mm 0"},
+                                         Refusal{with("200", "-5"), 9, 3, "position_max_mm is -5"},
+                                         Refusal{with("200", "2e6"), 9, 3, "-1000000 to 1000000"}));
 
-INSTANTIATE_TEST_SUITE_P(Homing, MachineRefused, testing::Values(
-    Refusal{axis_with("homing { search_velocity_mm_s: 11 }"), 10, 12, "the switch stops the pulses at once"},
-    Refusal{axis_with("homing { search_velocity_mm_s: 0 }"), 10, 12, "is 0"},
-    Refusal{axis_with("homing { latch_velocity_mm_s: 10.5 }"), 10, 12, "above homing.search_velocity_mm_s 10"},
-    Refusal{axis_with("homing { pulloff_mm: 0 }"), 10, 12, "above 0"},
-    Refusal{axis_with("homing { pulloff_mm: .01 }"), 10, 12, "less than a step"},
-    Refusal{axis_with("homing { pulloff_mm: 200 }"), 10, 12, "the travel from the switch"},
-    Refusal{axis_with("homing { switch_position_mm: 101 }"), 10, 12, "-2 to 100"},
-    Refusal{axis_with("homing { switch_position_mm: -2 }"), 10, 12, "not on the limit switch"},
-    Refusal{axis_with("homing { toward_min: false switch_position_mm: 0 }"), 10, 30, "100 to 202"},
-    Refusal{axis_with("homing { park_mm: 201 }"), 10, 12, "outside travel; it goes from 0 to 200"},
-    Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11, "limit switches at -2 and 202"},
-    Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "above 0"},
-    Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));
+INSTANTIATE_TEST_SUITE_P(
+    Homing, MachineRefused,
+    testing::Values(
+        Refusal{axis_with("homing { search_velocity_mm_s: 11 }"), 10, 12, "the switch stops the pulses at once"},
+        Refusal{axis_with("homing { search_velocity_mm_s: 0 }"), 10, 12, "is 0"},
+        Refusal{axis_with("homing { latch_velocity_mm_s: 10.5 }"), 10, 12, "above homing.search_velocity_mm_s 10"},
+        Refusal{axis_with("homing { pulloff_mm: 0 }"), 10, 12, "above 0"},
+        Refusal{axis_with("homing { pulloff_mm: .01 }"), 10, 12, "less than a step"},
+        Refusal{axis_with("homing { pulloff_mm: 200 }"), 10, 12, "the travel from the switch"},
+        Refusal{axis_with("homing { switch_position_mm: 101 }"), 10, 12, "-2 to 100"},
+        Refusal{axis_with("homing { switch_position_mm: -2 }"), 10, 12, "not on the limit switch"},
+        Refusal{axis_with("homing { toward_min: false switch_position_mm: 0 }"), 10, 30, "100 to 202"},
+        Refusal{axis_with("homing { park_mm: 201 }"), 10, 12, "outside travel; it goes from 0 to 200"},
+        Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11, "limit switches at -2 and 202"},
+        Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "above 0"},
+        Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));
 
 TEST(MachineErrors, EverythingThatIsWrongIsSaidInTheOrderOfTheText) {
-    const Diagnostics found = errors(machine_with("tick_ns: 5") + "axis {\n  name: \"x\"\n}\naxis { name: \"Y\"\n"
+    const Diagnostics found = errors(machine_with("tick_ns: 5") +
+                                     "axis {\n  name: \"x\"\n}\naxis { name: \"Y\"\n"
                                      "steps_per_mm: -1 start_velocity_mm_s: 10 max_velocity_mm_s: 5\n"
                                      "max_accel_mm_s2: 100 position_min_mm: 5 position_max_mm: 4 }\n");
     ASSERT_EQ(found.size(), 10U) << to_text("machine", found);

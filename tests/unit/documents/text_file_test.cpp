@@ -27,8 +27,8 @@ protected:
         return text ? "none" : text.error().message;
     }
 
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-                                    testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::path folder_ =
+        std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(TextFile, IsReadWhole) { EXPECT_EQ(read_text_file(write("one\r\ntwo")).value(), "one\r\ntwo"); }

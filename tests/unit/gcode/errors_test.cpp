@@ -34,56 +34,57 @@ TEST_P(GcodeRefused, WithPlaceValueAndRemedy) {
     EXPECT_THAT(found[0].message, HasSubstr(refusal.says));
 }
 
-INSTANTIATE_TEST_SUITE_P(Characters, GcodeRefused, testing::Values(
-    Refusal{"G0 X1\nG0 X\xc3\xa9", 2, 5, "0xC3"},
-    Refusal{std::string("G0\0X1", 5), 1, 3, "0x00"},
-    Refusal{"\xef\xbb\xbfG0 X1", 1, 1, "0xEF"},
-    Refusal{"G0 X1\rG0 X2", 1, 6, "0x0D"},
-    Refusal{"G0 (across X1", 1, 4, "not closed"},
-    Refusal{"G0 (a (b) ) X1", 1, 7, "inside a comment"},
-    Refusal{"G0 X1 )", 1, 7, "')'"},
-    Refusal{"G0 X1 / Y1", 1, 7, "'/'"},
-    Refusal{"% G0", 1, 3, "alone"},
-    Refusal{"G0 X1" + std::string(252, ' '), 1, 257, "257 characters, more than 256"}));
+INSTANTIATE_TEST_SUITE_P(
+    Characters, GcodeRefused,
+    testing::Values(Refusal{"G0 X1\nG0 X\xc3\xa9", 2, 5, "0xC3"}, Refusal{std::string("G0\0X1", 5), 1, 3, "0x00"},
+                    Refusal{"\xef\xbb\xbfG0 X1", 1, 1, "0xEF"}, Refusal{"G0 X1\rG0 X2", 1, 6, "0x0D"},
+                    Refusal{"G0 (across X1", 1, 4, "not closed"}, Refusal{"G0 (a (b) ) X1", 1, 7, "inside a comment"},
+                    Refusal{"G0 X1 )", 1, 7, "')'"}, Refusal{"G0 X1 / Y1", 1, 7, "'/'"}, Refusal{"% G0", 1, 3, "alone"},
+                    Refusal{"G0 X1" + std::string(252, ' '), 1, 257, "257 characters, more than 256"}));
 
-INSTANTIATE_TEST_SUITE_P(Numbers, GcodeRefused, testing::Values(
-    Refusal{"G0 X", 1, 4, "no number"}, Refusal{"G0 X Y1", 1, 4, "no number"},
-    Refusal{"G0 X1.2.3", 1, 4, "'1.2.3'"}, Refusal{"G0 X--1", 1, 4, "'--1'"},
-    Refusal{"G0 X+-1", 1, 4, "'+-1'"}, Refusal{"G0 X.", 1, 4, "'.'"},
-    Refusal{"G0 X1-", 1, 4, "'1-'"}, Refusal{"G0 X1(c)0", 1, 9, "'0'"},
-    Refusal{"G0 X#1", 1, 4, "no number"}, Refusal{"G0 X1e2", 1, 6, "E2"},
-    Refusal{"G0 X2000000", 1, 4, "1000000"},
-    Refusal{"G0 X1" + std::string(240, '0'), 1, 4, "out of range"}));
+INSTANTIATE_TEST_SUITE_P(Numbers, GcodeRefused,
+                         testing::Values(Refusal{"G0 X", 1, 4, "no number"}, Refusal{"G0 X Y1", 1, 4, "no number"},
+                                         Refusal{"G0 X1.2.3", 1, 4, "'1.2.3'"}, Refusal{"G0 X--1", 1, 4, "'--1'"},
+                                         Refusal{"G0 X+-1", 1, 4, "'+-1'"}, Refusal{"G0 X.", 1, 4, "'.'"},
+                                         Refusal{"G0 X1-", 1, 4, "'1-'"}, Refusal{"G0 X1(c)0", 1, 9, "'0'"},
+                                         Refusal{"G0 X#1", 1, 4, "no number"}, Refusal{"G0 X1e2", 1, 6, "E2"},
+                                         Refusal{"G0 X2000000", 1, 4, "1000000"},
+                                         Refusal{"G0 X1" + std::string(240, '0'), 1, 4, "out of range"}));
 
-INSTANTIATE_TEST_SUITE_P(Words, GcodeRefused, testing::Values(
-    Refusal{"G2 X1 Y1", 1, 1, "G2 is not a code known here"}, Refusal{"G0 X1\nM3", 2, 1, "M3"},
-    Refusal{"G1.05 X1 F1", 1, 1, "G1.05"}, Refusal{"G-1", 1, 1, "G-1"},
-    Refusal{"S1000", 1, 1, "S1000 is not a word known here"},
-    Refusal{"G0 X1 A5", 1, 7, "no axis A; its axes are X Y Z"},
-    Refusal{"G0 X1 X2", 1, 7, "X2 repeats X1"}, Refusal{"F1 F1", 1, 4, "repeats"},
-    Refusal{"G0 N5 X1", 1, 4, "first"}, Refusal{"N1.5 G0 X1", 1, 1, "whole number"},
-    Refusal{"N-1 G0 X1", 1, 1, "whole number"}));
+INSTANTIATE_TEST_SUITE_P(Words, GcodeRefused,
+                         testing::Values(Refusal{"G2 X1 Y1", 1, 1, "G2 is not a code known here"},
+                                         Refusal{"G0 X1\nM3", 2, 1, "M3"}, Refusal{"G1.05 X1 F1", 1, 1, "G1.05"},
+                                         Refusal{"G-1", 1, 1, "G-1"},
+                                         Refusal{"S1000", 1, 1, "S1000 is not a word known here"},
+                                         Refusal{"G0 X1 A5", 1, 7, "no axis A; its axes are X Y Z"},
+                                         Refusal{"G0 X1 X2", 1, 7, "X2 repeats X1"}, Refusal{"F1 F1", 1, 4, "repeats"},
+                                         Refusal{"G0 N5 X1", 1, 4, "first"},
+                                         Refusal{"N1.5 G0 X1", 1, 1, "whole number"},
+                                         Refusal{"N-1 G0 X1", 1, 1, "whole number"}));
 
-INSTANTIATE_TEST_SUITE_P(Groups, GcodeRefused, testing::Values(
-    Refusal{"G0 G1 X1 F5", 1, 4, "G1 after G0"}, Refusal{"G90 G91", 1, 5, "distance mode"},
-    Refusal{"G20 G21", 1, 5, "units"}, Refusal{"G4 P1 G28", 1, 7, "non-modal"},
-    Refusal{"M0 M2", 1, 4, "stop"}, Refusal{"G0 G28 X1", 1, 1, "both use"},
-    Refusal{"G1 G92 X1", 1, 1, "both use"}));
+INSTANTIATE_TEST_SUITE_P(Groups, GcodeRefused,
+                         testing::Values(Refusal{"G0 G1 X1 F5", 1, 4, "G1 after G0"},
+                                         Refusal{"G90 G91", 1, 5, "distance mode"}, Refusal{"G20 G21", 1, 5, "units"},
+                                         Refusal{"G4 P1 G28", 1, 7, "non-modal"}, Refusal{"M0 M2", 1, 4, "stop"},
+                                         Refusal{"G0 G28 X1", 1, 1, "both use"},
+                                         Refusal{"G1 G92 X1", 1, 1, "both use"}));
 
-INSTANTIATE_TEST_SUITE_P(Values, GcodeRefused, testing::Values(
-    Refusal{"G1 X1", 1, 4, "F, per minute"}, Refusal{"G1 X1\nX2\nX3", 1, 4, "F, per minute"},
-    Refusal{"G1 X1 F0", 1, 7, "above 0"}, Refusal{"G1 X1 F-5", 1, 7, "F-5"},
-    Refusal{"G1 X1 F.001", 1, 7, "too slow"}, Refusal{"X1", 1, 1, "G0 or G1"},
-    Refusal{"G4", 1, 1, "write P"}, Refusal{"G4 P-1", 1, 4, "0 to 86400 s"},
-    Refusal{"G4 P90000", 1, 4, "86400"}, Refusal{"G0 P1", 1, 4, "G4 alone"},
-    Refusal{"G92", 1, 1, "sets no axis"}));
+INSTANTIATE_TEST_SUITE_P(Values, GcodeRefused,
+                         testing::Values(Refusal{"G1 X1", 1, 4, "F, per minute"},
+                                         Refusal{"G1 X1\nX2\nX3", 1, 4, "F, per minute"},
+                                         Refusal{"G1 X1 F0", 1, 7, "above 0"}, Refusal{"G1 X1 F-5", 1, 7, "F-5"},
+                                         Refusal{"G1 X1 F.001", 1, 7, "too slow"}, Refusal{"X1", 1, 1, "G0 or G1"},
+                                         Refusal{"G4", 1, 1, "write P"}, Refusal{"G4 P-1", 1, 4, "0 to 86400 s"},
+                                         Refusal{"G4 P90000", 1, 4, "86400"}, Refusal{"G0 P1", 1, 4, "G4 alone"},
+                                         Refusal{"G92", 1, 1, "sets no axis"}));
 
-INSTANTIATE_TEST_SUITE_P(Travel, GcodeRefused, testing::Values(
-    Refusal{"G0 X10 Y200.5", 1, 8, "to 200.5 mm, outside its travel of 0 to 200 mm"},
-    Refusal{"G0 Z-.1", 1, 4, "position_min_mm"}, Refusal{"G0 Z61", 1, 4, "position_max_mm"},
-    Refusal{"G20 G0 X8", 1, 8, "203.2 mm"}, Refusal{"G0 X150\nG91 X60", 2, 5, "210 mm"},
-    Refusal{"G0 X50\nG92 X0\nG0 X160", 3, 4, "X160 takes X to 210 mm"},
-    Refusal{"G28 X300", 1, 5, "300 mm"}));
+INSTANTIATE_TEST_SUITE_P(
+    Travel, GcodeRefused,
+    testing::Values(Refusal{"G0 X10 Y200.5", 1, 8, "to 200.5 mm, outside its travel of 0 to 200 mm"},
+                    Refusal{"G0 Z-.1", 1, 4, "position_min_mm"}, Refusal{"G0 Z61", 1, 4, "position_max_mm"},
+                    Refusal{"G20 G0 X8", 1, 8, "203.2 mm"}, Refusal{"G0 X150\nG91 X60", 2, 5, "210 mm"},
+                    Refusal{"G0 X50\nG92 X0\nG0 X160", 3, 4, "X160 takes X to 210 mm"},
+                    Refusal{"G28 X300", 1, 5, "300 mm"}));
 
 TEST(GcodeErrors, EveryLineThatIsWrongIsSaidUpToALimit) {
     const auto some = errors("G0 X300\nG7\nG0 X10\nG0 Y-1 Z99\n");
@@ -95,9 +96,7 @@ TEST(GcodeErrors, EveryLineThatIsWrongIsSaidUpToALimit) {
     EXPECT_EQ(errors(text).size(), kMaxGcodeErrors);
 }
 
-TEST(GcodeErrors, AnEndInAWrongBlockStillLetsTheRestBeSaid) {
-    EXPECT_EQ(errors("G7 M2\nG8\n").size(), 2U);
-}
+TEST(GcodeErrors, AnEndInAWrongBlockStillLetsTheRestBeSaid) { EXPECT_EQ(errors("G7 M2\nG8\n").size(), 2U); }
 
 }  // namespace
 }  // namespace lockstep

@@ -21,7 +21,8 @@ std::string bytes_of(const std::filesystem::path& path) {
     return text.str();
 }
 
-SimulationResult simulate_into(const std::filesystem::path& path, const MachineConfig& machine, const Program& program) {
+SimulationResult simulate_into(const std::filesystem::path& path, const MachineConfig& machine,
+                               const Program& program) {
     auto log = NewLogFile::begin(path, false).value();
     const auto result = simulate(machine, program, log.sink());
     EXPECT_TRUE(log.keep().has_value());

@@ -17,7 +17,8 @@ protected:
         original = std::filesystem::path(testing::TempDir()) / "lockstep_offline_original.lcm";
         test::RecordedMachine recorded(test::example("two-axis"), original);
         recorded.home();
-        recorded.begin(test::program_of(recorded.vm().machine(), "G21 G90 F3000\nG1 X70 Y8\nX62 Y90\nX9 Y70\nG0 X5 Y5\n"));
+        recorded.begin(
+            test::program_of(recorded.vm().machine(), "G21 G90 F3000\nG1 X70 Y8\nX62 Y90\nX9 Y70\nG0 X5 Y5\n"));
         recorded.advance_ms(1500);
         recorded.command(CommandKind::Hold);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
@@ -33,7 +34,9 @@ protected:
     }
 
     /// In the tenth message with steps of axis X while the program runs: where the changes are made.
-    bool is_the_one(const step_batch_t& batch) { return batch.axis == "X" && batch.position_before > 800 && ++seen == 10; }
+    bool is_the_one(const step_batch_t& batch) {
+        return batch.axis == "X" && batch.position_before > 800 && ++seen == 10;
+    }
     bool is_the_one(const run_t& run) { return run.axis == "Y" && run.epoch != 0 && !run.tail && ++seen == 2; }
 
     static inline std::filesystem::path original;
@@ -51,13 +54,15 @@ TEST_F(Altered, NothingWasChanged) {
 
 TEST_F(Altered, OneStepATickLater) {
     std::int64_t tick = 0;
-    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
-        if (!is_the_one(batch)) { return false; }
-        tick = batch.first_tick + batch.delta_ticks[1] + 1;
-        batch.delta_ticks[1] += 1;
-        batch.delta_ticks[2] -= 1;
-        return true;
-    }), 1);
+    ASSERT_EQ(log.change<step_batch_t>("_STEPS",
+                                       [&](step_batch_t& batch) {
+                                           if (!is_the_one(batch)) { return false; }
+                                           tick = batch.first_tick + batch.delta_ticks[1] + 1;
+                                           batch.delta_ticks[1] += 1;
+                                           batch.delta_ticks[2] -= 1;
+                                           return true;
+                                       }),
+              1);
     const Difference found = difference();
     EXPECT_EQ(found.axis, "X");
     EXPECT_EQ(found.tick_expected, Tick{tick - 1});
@@ -66,23 +71,27 @@ TEST_F(Altered, OneStepATickLater) {
 }
 
 TEST_F(Altered, OneStepTheOtherWay) {
-    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
-        if (!is_the_one(batch)) { return false; }
-        batch.direction[3] = static_cast<std::int8_t>(-batch.direction[3]);
-        return true;
-    }), 1);
+    ASSERT_EQ(log.change<step_batch_t>("_STEPS",
+                                       [&](step_batch_t& batch) {
+                                           if (!is_the_one(batch)) { return false; }
+                                           batch.direction[3] = static_cast<std::int8_t>(-batch.direction[3]);
+                                           return true;
+                                       }),
+              1);
     EXPECT_NE(difference().text.find("the other way"), std::string::npos);
 }
 
 TEST_F(Altered, OneStepRemoved) {
-    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
-        if (!is_the_one(batch)) { return false; }
-        batch.delta_ticks[3] += batch.delta_ticks[2];
-        batch.delta_ticks.erase(batch.delta_ticks.begin() + 2);
-        batch.direction.erase(batch.direction.begin() + 2);
-        --batch.count;
-        return true;
-    }), 1);
+    ASSERT_EQ(log.change<step_batch_t>("_STEPS",
+                                       [&](step_batch_t& batch) {
+                                           if (!is_the_one(batch)) { return false; }
+                                           batch.delta_ticks[3] += batch.delta_ticks[2];
+                                           batch.delta_ticks.erase(batch.delta_ticks.begin() + 2);
+                                           batch.direction.erase(batch.direction.begin() + 2);
+                                           --batch.count;
+                                           return true;
+                                       }),
+              1);
     const Difference found = difference();
     EXPECT_EQ(found.axis, "X");
     EXPECT_LT(*found.tick_expected, *found.tick_seen);
@@ -94,13 +103,15 @@ TEST_F(Altered, TheVeryLastStepRemoved) {
         if (batch.axis == "Y") { last = batch.sequence; }
         return false;
     });
-    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
-        if (batch.axis != "Y" || batch.sequence != last) { return false; }
-        batch.delta_ticks.pop_back();
-        batch.direction.pop_back();
-        --batch.count;
-        return true;
-    }), 1);
+    ASSERT_EQ(log.change<step_batch_t>("_STEPS",
+                                       [&](step_batch_t& batch) {
+                                           if (batch.axis != "Y" || batch.sequence != last) { return false; }
+                                           batch.delta_ticks.pop_back();
+                                           batch.direction.pop_back();
+                                           --batch.count;
+                                           return true;
+                                       }),
+              1);
     const Difference found = difference();
     EXPECT_EQ(found.axis, "Y");
     EXPECT_TRUE(found.tick_expected.has_value());
@@ -108,19 +119,21 @@ TEST_F(Altered, TheVeryLastStepRemoved) {
 }
 
 TEST_F(Altered, OnePositionAnother) {
-    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
-        return is_the_one(batch) && ++batch.position_before != 0;
-    }), 1);
+    ASSERT_EQ(log.change<step_batch_t>(
+                  "_STEPS", [&](step_batch_t& batch) { return is_the_one(batch) && ++batch.position_before != 0; }),
+              1);
     EXPECT_EQ(difference().axis, "X");
 }
 
 TEST_F(Altered, OneMessageOfStepsLost) {
     std::int64_t steps = 0;
-    ASSERT_EQ(log.leave_out<step_batch_t>("_STEPS", [&](const step_batch_t& batch) {
-        if (!is_the_one(batch)) { return false; }
-        steps = batch.count;
-        return true;
-    }), 1U);
+    ASSERT_EQ(log.leave_out<step_batch_t>("_STEPS",
+                                          [&](const step_batch_t& batch) {
+                                              if (!is_the_one(batch)) { return false; }
+                                              steps = batch.count;
+                                              return true;
+                                          }),
+              1U);
     const Difference found = difference();
     EXPECT_NE(found.text.find("at least " + std::to_string(steps) + " steps missing between tick "), std::string::npos)
         << found.text;
@@ -140,60 +153,74 @@ TEST_F(Altered, TheLastRunsLost) {
 
 TEST_F(Altered, AnyFieldOfARun) {
     const std::vector<std::function<void(run_t&)>> changes{
-        [](run_t& run) { ++run.velocity.front(); },     [](run_t& run) { --run.acceleration.back(); },
-        [](run_t& run) { ++run.ticks.front(); },        [](run_t& run) { ++run.start_tick; },
-        [](run_t& run) { ++run.start_phase; },          [](run_t& run) { ++run.start_count; },
-        [](run_t& run) { ++run.stop_count; },           [](run_t& run) { ++run.zero_count; },
-        [](run_t& run) { ++run.frame; },                [](run_t& run) { ++run.epoch; },
-        [](run_t& run) { run.tail = 1; },               [](run_t& run) { run.cut = 1; },
-        [](run_t& run) { ++run.incarnation; },          [](run_t& run) { ++run.sequence; },
+        [](run_t& run) { ++run.velocity.front(); },
+        [](run_t& run) { --run.acceleration.back(); },
+        [](run_t& run) { ++run.ticks.front(); },
+        [](run_t& run) { ++run.start_tick; },
+        [](run_t& run) { ++run.start_phase; },
+        [](run_t& run) { ++run.start_count; },
+        [](run_t& run) { ++run.stop_count; },
+        [](run_t& run) { ++run.zero_count; },
+        [](run_t& run) { ++run.frame; },
+        [](run_t& run) { ++run.epoch; },
+        [](run_t& run) { run.tail = 1; },
+        [](run_t& run) { run.cut = 1; },
+        [](run_t& run) { ++run.incarnation; },
+        [](run_t& run) { ++run.sequence; },
         [](run_t& run) { run.epoch = 0; },
     };
     for (std::size_t i = 0; i < changes.size(); ++i) {
         log = AlteredLog(original);
         seen = 0;
-        ASSERT_EQ(log.change<run_t>("_RUN", [&](run_t& run) {
-            if (!is_the_one(run)) { return false; }
-            changes[i](run);
-            return true;
-        }), 1);
+        ASSERT_EQ(log.change<run_t>("_RUN",
+                                    [&](run_t& run) {
+                                        if (!is_the_one(run)) { return false; }
+                                        changes[i](run);
+                                        return true;
+                                    }),
+                  1);
         SCOPED_TRACE("change " + std::to_string(i));
         EXPECT_FALSE(difference().text.empty());
     }
 }
 
 TEST_F(Altered, AFrameFasterByTheLeastBitNamesThePiece) {
-    ASSERT_EQ(log.change<run_t>("_RUN", [&](run_t& run) {
-        return is_the_one(run) && ++run.velocity.front() != 0;
-    }), 1);
+    ASSERT_EQ(log.change<run_t>("_RUN", [&](run_t& run) { return is_the_one(run) && ++run.velocity.front() != 0; }), 1);
     const Difference found = difference();
     EXPECT_NE(found.text.find("frame 2 has piece 1 of "), std::string::npos) << found.text;
 }
 
 TEST_F(Altered, AHomingRunFromAnotherPlace) {
-    ASSERT_EQ(log.change<run_t>("_RUN", [&](run_t& run) {
-        return run.epoch == 0 && run.axis == "X" && run.sequence == 1 && ++run.start_phase != 0;
-    }), 1);
+    ASSERT_EQ(log.change<run_t>("_RUN",
+                                [&](run_t& run) {
+                                    return run.epoch == 0 && run.axis == "X" && run.sequence == 1 &&
+                                           ++run.start_phase != 0;
+                                }),
+              1);
     (void)difference();
 }
 
 TEST_F(Altered, TheProgramAnother) {
-    ASSERT_EQ(log.change<job_t>("_JOB", [&](job_t& job) {
-        const auto at = job.program.find("62");
-        if (at == std::string::npos) { return false; }
-        job.program.replace(at, 2, "63");
-        return true;
-    }), 1);
+    ASSERT_EQ(log.change<job_t>("_JOB",
+                                [&](job_t& job) {
+                                    const auto at = job.program.find("62");
+                                    if (at == std::string::npos) { return false; }
+                                    job.program.replace(at, 2, "63");
+                                    return true;
+                                }),
+              1);
     EXPECT_NE(difference().text.find("planned"), std::string::npos);
 }
 
 TEST_F(Altered, TheConfigurationAnother) {
-    ASSERT_GE(log.change<job_t>("_JOB", [&](job_t& job) {
-        const auto at = job.config.find("max_accel_mm_s2: 1500");
-        if (at == std::string::npos) { return false; }
-        job.config.replace(at, 21, "max_accel_mm_s2: 1501");
-        return true;
-    }), 1);
+    ASSERT_GE(log.change<job_t>("_JOB",
+                                [&](job_t& job) {
+                                    const auto at = job.config.find("max_accel_mm_s2: 1500");
+                                    if (at == std::string::npos) { return false; }
+                                    job.config.replace(at, 21, "max_accel_mm_s2: 1501");
+                                    return true;
+                                }),
+              1);
     (void)difference();
 }
 

@@ -49,7 +49,9 @@ public:
     bool reaches(MachinePhase phase) {
         return vm_.advance_until([&] { return vm_.state() && vm_.state()->phase == phase; }, Ticks{200'000'000});
     }
-    void advance_ms(std::int64_t ms) { vm_.advance_until([] { return false; }, Ticks{ms * 1000}); }
+    void advance_ms(std::int64_t ms) {
+        vm_.advance_until([] { return false; }, Ticks{ms * 1000});
+    }
     /// Said again until it is answered.
     void command(CommandKind kind, std::uint64_t program = 0) {
         bool answered = false;

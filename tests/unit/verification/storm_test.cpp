@@ -10,7 +10,8 @@
 namespace lockstep::verification {
 namespace {
 
-constexpr std::string_view kTour = "G21 G90 F6000\nG1 X60 Y8\nX62 Y50\nX40 Y55\nG4 P0.1\nG0 X10 Y40\nM0\nG0 X80 Y90\nX5 Y5\n";
+constexpr std::string_view kTour =
+    "G21 G90 F6000\nG1 X60 Y8\nX62 Y50\nX40 Y55\nG4 P0.1\nG0 X10 Y40\nM0\nG0 X80 Y90\nX5 Y5\n";
 
 class Storm : public testing::TestWithParam<std::uint64_t> {
 protected:

@@ -63,8 +63,9 @@ TEST_F(Rig, AStopIsOnThePathAndTheMachineIsReadyAgain) {
     EXPECT_GT(at[0], 500);
     EXPECT_LT(at[0], 8500);
     EXPECT_NEAR(static_cast<double>(at[1] - 500), static_cast<double>(at[0] - 500) / 2, 1.0);
-    ASSERT_EQ(run(program_of({{5, 5}}, 40, {static_cast<double>(at[0]) / 100, static_cast<double>(at[1]) / 100})).status,
-              ReplyStatus::Accepted);
+    ASSERT_EQ(
+        run(program_of({{5, 5}}, 40, {static_cast<double>(at[0]) / 100, static_cast<double>(at[1]) / 100})).status,
+        ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10));
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
 }
@@ -127,7 +128,8 @@ TEST_F(Rig, ALimitSwitchStopsItsAxisAtOnceAndTheOthersOnTheirLine) {
     EXPECT_EQ(axis_fault(1), FaultCode::None) << describe();
     EXPECT_FALSE(vm.axis_states()[0]->homed);
     EXPECT_TRUE(vm.axis_states()[1]->homed);
-    EXPECT_EQ(vm.axis_states()[0]->phase == AxisPhase::Initialize || vm.axis_states()[0]->phase == AxisPhase::Fault, true);
+    EXPECT_EQ(vm.axis_states()[0]->phase == AxisPhase::Initialize || vm.axis_states()[0]->phase == AxisPhase::Fault,
+              true);
 }
 
 TEST_F(Rig, AMotorThatLosesStepsIsFoundOut) {
@@ -141,11 +143,12 @@ TEST_F(Rig, AMotorThatLosesStepsIsFoundOut) {
 
 class RigWithoutSwitch : public Rig {
 protected:
-    RigWithoutSwitch() : Rig({.machine = [] {
-        MachineConfig machine = small_machine();
-        machine.axes[0].homing.switch_position_mm = -50;  // behind the limit switch
-        return machine;
-    }()}) {}
+    RigWithoutSwitch()
+        : Rig({.machine = [] {
+              MachineConfig machine = small_machine();
+              machine.axes[0].homing.switch_position_mm = -50;  // behind the limit switch
+              return machine;
+          }()}) {}
 };
 
 TEST_F(RigWithoutSwitch, HomingThatFindsNoSwitchSaysSo) {
@@ -158,11 +161,12 @@ TEST_F(RigWithoutSwitch, HomingThatFindsNoSwitchSaysSo) {
 
 class RigOnSwitch : public Rig {
 protected:
-    RigOnSwitch() : Rig({.machine = [] {
-        MachineConfig machine = small_machine();
-        machine.axes[0].plant.start_position_mm = -1.5;  // on the home switch
-        return machine;
-    }()}) {}
+    RigOnSwitch()
+        : Rig({.machine = [] {
+              MachineConfig machine = small_machine();
+              machine.axes[0].plant.start_position_mm = -1.5;  // on the home switch
+              return machine;
+          }()}) {}
 };
 
 TEST_F(RigOnSwitch, AnAxisThatStandsOnItsSwitchPullsOffFirst) {

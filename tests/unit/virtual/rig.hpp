@@ -13,13 +13,20 @@ namespace lockstep {
 
 /// Two axes, X and Y, 100 mm of travel, 100 steps/mm.
 inline MachineConfig small_machine() {
-    AxisConfig axis{.name = "X", .steps_per_mm = 100, .start_velocity_mm_s = 10, .max_velocity_mm_s = 100,
-                    .max_accel_mm_s2 = 1000, .max_decel_mm_s2 = 1000, .position_min_mm = 0, .position_max_mm = 100};
-    axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1,
-                   .park_mm = 5};
+    AxisConfig axis{.name = "X",
+                    .steps_per_mm = 100,
+                    .start_velocity_mm_s = 10,
+                    .max_velocity_mm_s = 100,
+                    .max_accel_mm_s2 = 1000,
+                    .max_decel_mm_s2 = 1000,
+                    .position_min_mm = 0,
+                    .position_max_mm = 100};
+    axis.homing = {
+        .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
     axis.plant = {.start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
-    MachineConfig machine{.name = "rig", .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2,
-                                                    .send_ahead_slots = 12, .frame_slots = 5}};
+    MachineConfig machine{
+        .name = "rig",
+        .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5}};
     machine.axes = {axis, axis};
     machine.axes[1].name = "Y";
     return machine;
@@ -51,8 +58,8 @@ protected:
 
     bool reaches(MachinePhase phase, double seconds) {
         const Ticks limit{static_cast<std::int64_t>(seconds * vm.machine().ticks_per_second())};
-        return vm.advance_until(
-            [&] { return vm.state() && vm.state()->job >= job_ && vm.state()->phase == phase; }, limit);
+        return vm.advance_until([&] { return vm.state() && vm.state()->job >= job_ && vm.state()->phase == phase; },
+                                limit);
     }
     void wait(double seconds) {
         (void)vm.advance_until([] { return false; }, Ticks{static_cast<std::int64_t>(seconds * 1e6)});
@@ -81,9 +88,11 @@ protected:
     FaultCode fault() const { return static_cast<FaultCode>(vm.state()->fault); }
     FaultCode axis_fault(std::size_t i) const { return static_cast<FaultCode>(vm.axis_states()[i]->fault); }
     std::string describe() const {
-        std::string text = "phase " + std::to_string(static_cast<int>(vm.state()->phase)) + ", " + std::string(name_of(fault()));
+        std::string text =
+            "phase " + std::to_string(static_cast<int>(vm.state()->phase)) + ", " + std::string(name_of(fault()));
         for (std::size_t i = 0; i < vm.axis_states().size(); ++i) {
-            text += " | " + std::string(name_of(vm.axis_states()[i]->phase)) + ", " + std::string(name_of(axis_fault(i)));
+            text +=
+                " | " + std::string(name_of(vm.axis_states()[i]->phase)) + ", " + std::string(name_of(axis_fault(i)));
         }
         return text;
     }

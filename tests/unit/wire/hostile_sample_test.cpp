@@ -75,22 +75,13 @@ TEST(HostileFrame, RandomDamageNeverGetsPastTheBounds) {
         SetpointMessage message = to_wire(good_frame());
         auto& target = message.storage;
         switch (random.index(4)) {
-            case 0:
-                target.body_count[random.index(2)] = static_cast<std::uint16_t>(random.bits());
-                break;
-            case 1:
-                target.ticks[random.index(5)] = static_cast<std::int64_t>(random.bits());
-                break;
-            case 2:
-                target.velocity[random.index(5)] = static_cast<std::int64_t>(random.bits());
-                break;
-            default:
-                message.ticks._length = random.index(6);
+            case 0: target.body_count[random.index(2)] = static_cast<std::uint16_t>(random.bits()); break;
+            case 1: target.ticks[random.index(5)] = static_cast<std::int64_t>(random.bits()); break;
+            case 2: target.velocity[random.index(5)] = static_cast<std::int64_t>(random.bits()); break;
+            default: message.ticks._length = random.index(6);
         }
         const auto received = from_wire(message);
-        if (!received) {
-            continue;
-        }
+        if (!received) { continue; }
         for (const AxisTrack& axis : received->axes) {
             for (const Piece& piece : axis.body) { EXPECT_LE(piece.ticks.value, INT32_MAX); }
         }

@@ -40,9 +40,7 @@ TEST(StepBatcher, TellsEveryStepWithItsTickAndDirection) {
     for (std::int64_t tick = 0; tick < 100'000; tick += 7) {
         made.push_back({{tick}, static_cast<std::int8_t>(tick % 5 == 0 ? -1 : 1)});
         record.batcher.add(made.back());
-        if (tick % 1000 < 7) {
-            record.batcher.poll({tick});
-        }
+        if (tick % 1000 < 7) { record.batcher.poll({tick}); }
     }
     record.batcher.flush();
     EXPECT_EQ(steps_in(record.batches, 100), made);
