@@ -1,0 +1,31 @@
+#include "clients/lockstep/live/job_verdict.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+constexpr Identity kAsked = 1000;
+
+JobVerdict verdict(std::uint64_t job, std::optional<JobOutcome> outcome, Identity coordinator = kAsked) {
+    return judge({.coordinator = coordinator, .job = job, .outcome = outcome}, 5, kAsked);
+}
+
+TEST(JobVerdict, IsWhatTheCoordinatorSaysOfThatJob) {
+    EXPECT_EQ(verdict(5, std::nullopt), JobVerdict::InProgress);
+    EXPECT_EQ(verdict(5, JobOutcome::Done), JobVerdict::Done);
+    EXPECT_EQ(verdict(5, JobOutcome::Stopped), JobVerdict::Stopped);
+    EXPECT_EQ(verdict(5, JobOutcome::Failed), JobVerdict::Failed);
+}
+
+TEST(JobVerdict, IsNotThatOfTheJobBefore) {  // said before the reply, heard after it
+    EXPECT_EQ(verdict(4, JobOutcome::Done), JobVerdict::InProgress);
+}
+
+TEST(JobVerdict, IsUnknownAfterAnotherJobOrCoordinator) {
+    EXPECT_EQ(verdict(6, JobOutcome::Done), JobVerdict::Lost);
+    EXPECT_EQ(verdict(5, JobOutcome::Done, kAsked + 1), JobVerdict::Lost);
+}
+
+}  // namespace
+}  // namespace lockstep

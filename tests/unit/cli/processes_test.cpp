@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "clients/lockstep/live/process_record.hpp"
+#include "clients/lockstep/live/restart_policy.hpp"
+#include "clients/lockstep/live/service_lines.hpp"
+#include "tests/unit/cli/two_axes.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+
+ProcessRecord this_process() { return {"test", getpid(), *start_of(getpid())}; }
+
+TEST(ProcessRecord, IsReadAsItWasWritten) {
+    const std::vector<ProcessRecord> records{{"supervisor", 12, 3456}, {"axis-X", 0, 0}};
+    EXPECT_EQ(records_from_text(to_text(records)), records);
+}
+
+TEST(ProcessRecord, ThatIsDamagedIsLeftOut) {
+    EXPECT_THAT(records_from_text("axis-X\n\naxis-Y 12 x\naxis-Z 7 9\naxis-Q -1 9\n"), ElementsAre(ProcessRecord{"axis-Z", 7, 9}));
+}
+
+TEST(ProcessRecord, IsOfOneProcessNotOfItsNumber) {
+    EXPECT_TRUE(is_running(this_process()));
+    ProcessRecord earlier = this_process();
+    --earlier.start;
+    EXPECT_FALSE(is_running(earlier));
+    signal_process(earlier, SIGKILL);  // or this test ends here
+    EXPECT_TRUE(wait_until_gone({earlier}, 0ms));
+    EXPECT_FALSE(wait_until_gone({this_process()}, 0ms));
+}
+
+TEST(ProcessRecord, WithoutANumberIsOfNone) {
+    EXPECT_FALSE(is_running({.name = "axis-X"}));
+    signal_process({.name = "axis-X"}, SIGKILL);  // 0 would mean the whole process group
+    EXPECT_TRUE(wait_until_gone({{.name = "axis-X"}}, 0ms));
+}
+
+TEST(RestartPolicy, WaitsLongerEachTimeThenGivesUp) {
+    RestartPolicy policy;
+    EXPECT_EQ(policy.after_end(1s), 200ms);
+    EXPECT_EQ(policy.after_end(2s), 400ms);
+    EXPECT_EQ(policy.after_end(3s), 800ms);
+    EXPECT_EQ(policy.after_end(4s), 1600ms);
+    EXPECT_EQ(policy.after_end(5s), 3200ms);
+    EXPECT_EQ(policy.after_end(6s), std::nullopt);
+}
+
+TEST(RestartPolicy, ForgetsWhatIsLongAgo) {
+    RestartPolicy policy;
+    for (int i = 0; i < 5; ++i) { (void)policy.after_end(1s); }
+    EXPECT_EQ(policy.after_end(1s + kRestartWindow), std::nullopt);
+    EXPECT_EQ(policy.after_end(2s + kRestartWindow), 200ms);
+}
+
+std::vector<std::string> names_of(const std::vector<ServiceLine>& lines) {
+    std::vector<std::string> names;
+    for (const ServiceLine& line : lines) { names.push_back(line.name); }
+    return names;
+}
+
+TEST(ServiceLines, AreACoordinatorAndAnAxisEach) {
+    const auto lines = service_lines(two_axes(), FpgaKind::Sim, "/opt/bin", StateDirectory("mill"));
+    EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "axis-X", "axis-Y"));
+    EXPECT_EQ(lines[1].words[0], "/opt/bin/lockstep-axis");
+    EXPECT_THAT(lines[1].words, Contains(StateDirectory("mill").machine_file().string()));
+}
+
+TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
+    const auto lines = service_lines(two_axes(), FpgaKind::Shared, "/opt/bin", StateDirectory("mill"));
+    EXPECT_THAT(names_of(lines), ElementsAre("fpga-X", "fpga-Y", "coordinator", "axis-X", "axis-Y"));
+    EXPECT_EQ(lines[0].words.back(), "lockstep-mill-X");
+    EXPECT_THAT(lines[3].words, Contains("shm:lockstep-mill-X"));
+}
+
+}  // namespace
+}  // namespace lockstep
