@@ -106,8 +106,10 @@ bool is_last_fall(const Path& path, std::size_t i, Subticks t) {
 }  // namespace
 
 PathBounds bounds_of(const MachineConfig& machine) {
-    constexpr std::int64_t kMovesPerFrame = kMaxBodyPieces / 3 - 4;  // three phases each, and what the edges cut
-    return {{machine.frame_ticks().value / kMovesPerFrame + 1}, kMaxTailPieces - 4};
+    // Each move is three phases and the tick of its corner, in a tail one phase and that tick; and what the edges cut.
+    constexpr std::int64_t kMovesPerFrame = kMaxBodyPieces / 4 - 4;
+    constexpr std::size_t kMovesPerTail = kMaxTailPieces / 2 - 2;
+    return {{machine.frame_ticks().value / kMovesPerFrame + 1}, kMovesPerTail};
 }
 
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,

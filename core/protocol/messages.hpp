@@ -22,8 +22,8 @@ using Slot = std::int64_t;
 /// Who speaks: made anew at every start of a process.
 using Identity = std::uint64_t;
 
-inline constexpr std::size_t kMaxBodyPieces = 240;  // per axis and frame; the planner keeps moves long enough
-inline constexpr std::size_t kMaxTailPieces = 32;   // the planner keeps stops short enough
+inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the planner keeps moves long enough
+inline constexpr std::size_t kMaxTailPieces = 60;   // the planner keeps stops short enough
 
 /// One axis's share of a frame. The tail starts where the body ends.
 struct AxisTrack {
