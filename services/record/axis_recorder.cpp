@@ -17,7 +17,18 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
                 .tick_ns = machine.tick_ns},
                0, [this](const step_batch_t& batch) { sink_.publish(channels_.steps, batch); }) {}
 
+/// The count before the first step there is: where the axis stands, less the steps it had made by then.
+void AxisRecorder::place(const AxisState& state) {
+    std::int64_t before = state.position.count();
+    for (const StepEdge& step : early_) { before -= step.tick <= state.tick ? step.direction : 0; }
+    batcher_.set_position(before);
+    for (const StepEdge& step : early_) { batcher_.add(step); }
+    early_.clear();
+    placed_ = true;
+}
+
 void AxisRecorder::loop(Tick now, const AxisOutputs& out, std::int64_t zero_count) {
+    if (!placed_ && out.state) { place(*out.state); }
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,
                                .axis = machine_.axes[axis_].name,

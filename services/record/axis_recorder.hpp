@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/axis/axis_controller.hpp"
 #include "services/record/record_sink.hpp"
@@ -19,13 +20,15 @@ public:
     AxisRecorder& operator=(const AxisRecorder&) = delete;
 
     /// Every step, in order, before the loop's outputs.
-    void step(StepEdge step) { batcher_.add(step); }
+    void step(StepEdge step) { placed_ ? batcher_.add(step) : early_.push_back(step); }
     /// After each loop: its outputs, and what the axis's zero then is.
     void loop(Tick now, const AxisOutputs& out, std::int64_t zero_count);
     /// At the end: what is still in hand.
     void finish() { batcher_.flush(); }
 
 private:
+    void place(const AxisState& state);
+
     MachineConfig machine_;
     std::size_t axis_;
     Identity incarnation_;
@@ -34,6 +37,8 @@ private:
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
     std::uint64_t runs_ = 0;
+    bool placed_ = false;             // it is known where the device stands: it may have outlived another process
+    std::vector<StepEdge> early_;     // until then
 };
 
 }  // namespace lockstep

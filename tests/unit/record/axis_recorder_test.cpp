@@ -1,0 +1,70 @@
+// The record counts from where the device stands, also where the device has outlived the process before.
+#include "services/record/axis_recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/wire/lcm_decode.hpp"
+
+namespace lockstep {
+namespace {
+
+class Batches : public RecordSink {
+public:
+    void write(const std::string& channel, std::int64_t, std::span<const std::uint8_t> bytes) override {
+        if (channel.ends_with("_STEPS")) { batches.push_back(decode_lcm<step_batch_t>(bytes).value()); }
+    }
+    std::vector<step_batch_t> batches;
+};
+
+AxisOutputs says(std::int64_t position_steps, std::int64_t tick) {
+    AxisOutputs out;
+    out.state = AxisState{.position = Position::steps(position_steps), .tick = Tick{tick}};
+    return out;
+}
+
+class TheRecord : public testing::Test {
+protected:
+    MachineConfig machine{.name = "mill", .axes = {{.name = "X", .steps_per_mm = 80}}};
+    Batches sink;
+    AxisRecorder recorder{machine, 0, 7, sink};
+};
+
+TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
+    recorder.loop(Tick{100}, says(0, 100), 0);
+    recorder.step({Tick{200}, +1});
+    recorder.finish();
+    ASSERT_EQ(sink.batches.size(), 1U);
+    EXPECT_EQ(sink.batches[0].position_before, 0);
+}
+
+TEST_F(TheRecord, BeginsWhereADeviceStandsThatRanBefore) {
+    recorder.loop(Tick{100}, says(400, 100), 0);
+    recorder.step({Tick{200}, -1});
+    recorder.finish();
+    ASSERT_EQ(sink.batches.size(), 1U);
+    EXPECT_EQ(sink.batches[0].position_before, 400);
+}
+
+TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
+    recorder.step({Tick{80}, +1});
+    recorder.step({Tick{90}, +1});
+    recorder.step({Tick{101}, +1});  // after the look at the device
+    recorder.loop(Tick{101}, says(400, 100), 0);
+    recorder.finish();
+    ASSERT_EQ(sink.batches.size(), 1U);
+    EXPECT_EQ(sink.batches[0].position_before, 398);
+    EXPECT_EQ(sink.batches[0].count, 3);
+}
+
+TEST_F(TheRecord, JumpsWhereTheAxisIsZeroed) {
+    recorder.loop(Tick{100}, says(0, 100), 0);
+    recorder.step({Tick{200}, -1});
+    recorder.loop(Tick{300}, {}, -81);
+    recorder.step({Tick{400}, +1});
+    recorder.finish();
+    ASSERT_EQ(sink.batches.size(), 2U);
+    EXPECT_EQ(sink.batches[1].position_before, 80);
+}
+
+}  // namespace
+}  // namespace lockstep
