@@ -227,7 +227,7 @@ std::string JobCheck::out_of_order(const Progress& axis, const Run& run) const {
 }
 
 std::string JobCheck::commanded(const Run& run, Tick tick) const {
-    if (run.epoch == 0) { return (job_ ? job_->label + ", " : "") + name_of(run); }
+    if (run.epoch == 0) { return name_of(run); }
     std::string text;
     for (const auto& [epoch, label] : labels_) {
         if (epoch == run.epoch) { text = label + ", "; }
