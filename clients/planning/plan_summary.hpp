@@ -18,7 +18,7 @@ std::vector<double> parked_mm(const MachineConfig& machine);
 
 struct AxisPlan {
     std::string name;
-    std::int64_t steps = 0;              // both ways together
+    std::int64_t steps = 0;  // both ways together
     double peak_velocity_mm_s = 0;
     double peak_acceleration_mm_s2 = 0;  // rising or falling; jumps within the start velocity are none
     double min_mm = 0;                   // where it goes, its start included
@@ -31,9 +31,9 @@ struct ProgramPlan {
     std::vector<Path> paths;  // from rest to rest; between two of them the program waits for a person
     int moves = 0;
     int pauses = 0;
-    Ticks duration;           // of all paths, dwells included; pauses are not
+    Ticks duration;  // of all paths, dwells included; pauses are not
     double duration_s = 0;
-    double length_mm = 0;     // along the path
+    double length_mm = 0;  // along the path
     std::vector<AxisPlan> axes;
 };
 

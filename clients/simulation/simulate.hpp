@@ -27,14 +27,14 @@ struct SimulatedStage {
 };
 
 struct SimulationResult {
-    std::uint64_t job = 0;                  // 0: homing failed, the program was not begun
+    std::uint64_t job = 0;  // 0: homing failed, the program was not begun
     JobOutcome outcome = JobOutcome::Failed;
     FaultCode fault = FaultCode::None;
     std::optional<std::size_t> fault_axis;
-    std::string trouble;                    // in words; empty where all went well
-    Ticks motion;                           // of the program's motion, pauses left out
-    std::vector<std::int64_t> final_counts; // machine coordinates, steps
-    std::int64_t steps = 0;                 // of all axes, homing included
+    std::string trouble;                     // in words; empty where all went well
+    Ticks motion;                            // of the program's motion, pauses left out
+    std::vector<std::int64_t> final_counts;  // machine coordinates, steps
+    std::int64_t steps = 0;                  // of all axes, homing included
     SimulatedStage homing;
     SimulatedStage running;
 };

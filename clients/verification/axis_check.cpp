@@ -31,8 +31,9 @@ void AxisCheck::take(Run run) {
 }
 
 void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
-    const std::string which = end - from == 1 ? "run " + std::to_string(from) + " is"
-                                              : "runs " + std::to_string(from) + " to " + std::to_string(end - 1) + " are";
+    const std::string which = end - from == 1
+                                  ? "run " + std::to_string(from) + " is"
+                                  : "runs " + std::to_string(from) + " to " + std::to_string(end - 1) + " are";
     differ("axis " + name_ + ": the record of " + which + " not in the log; the steps up to " +
                at_tick(last_tick_, "its beginning") + " are compared",
            {}, {});
@@ -47,8 +48,9 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     }
     settle(false);
     if (waiting_.size() > kMaxWaiting) {
-        differ("axis " + name_ + ": no run is recorded for " + plural(static_cast<std::int64_t>(waiting_.size()), "step"),
-               {}, waiting_.front().edge.tick);
+        differ(
+            "axis " + name_ + ": no run is recorded for " + plural(static_cast<std::int64_t>(waiting_.size()), "step"),
+            {}, waiting_.front().edge.tick);
     }
 }
 
@@ -109,8 +111,8 @@ void AxisCheck::compare(const SeenStep& seen) {
     const std::int64_t count = maker_->count() + expected.direction;
     const std::string step = step_name();
     if (seen.edge.tick != expected.tick) {
-        return differ(step + " is expected at tick " + std::to_string(expected.tick.value) + ", the log has it at tick " +
-                          std::to_string(seen.edge.tick.value),
+        return differ(step + " is expected at tick " + std::to_string(expected.tick.value) +
+                          ", the log has it at tick " + std::to_string(seen.edge.tick.value),
                       expected.tick, seen.edge.tick);
     }
     if (seen.edge.direction != expected.direction) {
@@ -141,8 +143,8 @@ void AxisCheck::end_of_log() {
     const std::string compared = plural(steps_, "step") + " up to " + at_tick(last_tick_, "there") + " compared";
     if (maker_) {
         const Tick expected = maker_->next()->tick;
-        differ("axis " + name_ + ": the log has no more steps, though " + name_of(maker_->run()) + " makes one at tick " +
-                   std::to_string(expected.value) + "; " + compared,
+        differ("axis " + name_ + ": the log has no more steps, though " + name_of(maker_->run()) +
+                   " makes one at tick " + std::to_string(expected.value) + "; " + compared,
                expected, {});
     } else if (!waiting_.empty()) {
         differ("axis " + name_ + ": " + plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +

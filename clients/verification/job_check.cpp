@@ -58,8 +58,11 @@ void JobCheck::begin(const job_t& record) {
     if (job_ && job_->coordinator == record.coordinator) {
         return differ(job_->label + ": the log has no end of it, though " + number_of(record) + " begins");
     }
-    if (job_) { findings_.notes.push_back(job_->label + " has no end: another coordinator began " + number_of(record)); }
-    job_ = Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
+    if (job_) {
+        findings_.notes.push_back(job_->label + " has no end: another coordinator began " + number_of(record));
+    }
+    job_ =
+        Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
     if (record.program.empty()) { return; }
     const auto machine = parse_machine(record.config);
     const auto program = program_from_text(record.program);
@@ -162,8 +165,8 @@ void JobCheck::finish() {
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
     if (!waiting_.empty()) {
         const auto& [axis, run] = waiting_.front();
-        differ("axis " + axis + ": the log has no record of epoch " + std::to_string(run.epoch) + ", which it ran", axis,
-               &run);
+        differ("axis " + axis + ": the log has no record of epoch " + std::to_string(run.epoch) + ", which it ran",
+               axis, &run);
     }
     if (!job_) { return; }
     const auto& last = findings_.last_tick;
@@ -239,8 +242,13 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
 }
 
 void JobCheck::differ(std::string text, const std::string& axis, const Run* run) {
-    findings_.differ({std::move(text), axis, {}, run != nullptr ? std::optional(run->start) : std::nullopt,
-                      run != nullptr ? commanded(*run, run->start) : job_ ? job_->label : ""});
+    findings_.differ({std::move(text),
+                      axis,
+                      {},
+                      run != nullptr ? std::optional(run->start) : std::nullopt,
+                      run != nullptr ? commanded(*run, run->start)
+                      : job_         ? job_->label
+                                     : ""});
 }
 
 }  // namespace lockstep::verification

@@ -15,14 +15,16 @@ std::string text_of(Position position) {
 }
 
 std::string what_differs(const Run& planned, const Run& seen) {
-    if (seen.from != planned.from) { return "starts at " + text_of(seen.from) + ", planned at " + text_of(planned.from); }
+    if (seen.from != planned.from) {
+        return "starts at " + text_of(seen.from) + ", planned at " + text_of(planned.from);
+    }
     const auto [p, s] = std::ranges::mismatch(planned.pieces, seen.pieces);
     if (p == planned.pieces.end() || s == seen.pieces.end()) {
         return "has " + std::to_string(seen.pieces.size()) + " pieces, planned are " +
                std::to_string(planned.pieces.size());
     }
-    return "has piece " + std::to_string(p - planned.pieces.begin() + 1) + " of " + text_of(*s) + "; planned: " +
-           text_of(*p);
+    return "has piece " + std::to_string(p - planned.pieces.begin() + 1) + " of " + text_of(*s) +
+           "; planned: " + text_of(*p);
 }
 
 void find_step(const Run& planned, const Run& seen, RunDifference& difference) {

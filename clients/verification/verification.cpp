@@ -48,7 +48,9 @@ std::string to_text(const Findings& findings) {
     std::string text;
     if (findings.difference) {
         text = "not exact: " + findings.difference->text + "\n";
-        if (!findings.difference->commanded.empty()) { text += "  in motion: " + findings.difference->commanded + "\n"; }
+        if (!findings.difference->commanded.empty()) {
+            text += "  in motion: " + findings.difference->commanded + "\n";
+        }
         text += "  compared before that and equal: " + counted(findings) + "\n";
     } else {
         text = "exact: " + counted(findings) + " are what the programs give, tick for tick\n";

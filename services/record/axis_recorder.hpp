@@ -37,8 +37,8 @@ private:
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
     std::uint64_t runs_ = 0;
-    bool placed_ = false;             // it is known where the device stands: it may have outlived another process
-    std::vector<StepEdge> early_;     // until then
+    bool placed_ = false;          // it is known where the device stands: it may have outlived another process
+    std::vector<StepEdge> early_;  // until then
 };
 
 }  // namespace lockstep

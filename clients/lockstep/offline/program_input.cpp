@@ -28,7 +28,8 @@ std::expected<void, std::string> place_axis(const MachineConfig& machine, const 
 
 }  // namespace
 
-std::expected<std::vector<double>, std::string> places_at_start(const MachineConfig& machine, const std::string& start) {
+std::expected<std::vector<double>, std::string> places_at_start(const MachineConfig& machine,
+                                                                const std::string& start) {
     std::vector<double> places = parked_mm(machine);
     std::istringstream words(start);
     for (std::string word; std::getline(words, word, ',');) {

@@ -58,7 +58,8 @@ ExitCode analyze(const AnalyzeOptions& options) {
 }  // namespace
 
 void add_analyze(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("analyze", "say what a log holds: of each axis, of each job, and what is missing");
+    CLI::App* verb =
+        app.add_subcommand("analyze", "say what a log holds: of each axis, of each job, and what is missing");
     const auto options = std::make_shared<AnalyzeOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
     verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");

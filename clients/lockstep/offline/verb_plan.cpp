@@ -24,8 +24,9 @@ ExitCode plan(const PlanOptions& options) {
     const auto input = read_program(options.file, options.machine_file, options.start);
     if (!input) { return voice.fail(input.error()); }
     if (!options.svg_dir.empty()) {
-        const auto drawn = write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input->machine, input->plan)},
-                                                           {"speed.svg", plan_speed_figure(input->machine, input->plan)}});
+        const auto drawn =
+            write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input->machine, input->plan)},
+                                            {"speed.svg", plan_speed_figure(input->machine, input->plan)}});
         if (!drawn) { return voice.fail(bad_input(drawn.error())); }
     }
     voice.say(plan_text(*input));
@@ -36,8 +37,9 @@ ExitCode plan(const PlanOptions& options) {
 }  // namespace
 
 void add_plan(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("plan", "say how long a G-code file takes and what it asks of each axis; "
-                                                "needs no running machine");
+    CLI::App* verb = app.add_subcommand("plan",
+                                        "say how long a G-code file takes and what it asks of each axis; "
+                                        "needs no running machine");
     const auto options = std::make_shared<PlanOptions>();
     verb->add_option("file", options->file, "the G-code file")->required();
     verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
@@ -45,8 +47,9 @@ void add_plan(CLI::App& app, Action& action) {
                      "where the axes stand when it begins, in mm: X=10,Y=5; those not named are parked");
     verb->add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(footer("  lockstep plan plate.gcode --machine mill.textproto\n"
-                        "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"));
+    verb->footer(
+        footer("  lockstep plan plate.gcode --machine mill.textproto\n"
+               "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"));
     verb->callback([&action, options] { action = [options] { return plan(*options); }; });
 }
 

@@ -96,8 +96,9 @@ ExitCode simulate_verb(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("simulate", "home a simulated machine, run a G-code file on it, and write the "
-                                                    "log that a live run gives");
+    CLI::App* verb = app.add_subcommand("simulate",
+                                        "home a simulated machine, run a G-code file on it, and write the "
+                                        "log that a live run gives");
     const auto options = std::make_shared<SimulateOptions>();
     verb->add_option("file", options->file, "the G-code file; its pauses are passed at once")->required();
     verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
@@ -105,8 +106,9 @@ void add_simulate(CLI::App& app, Action& action) {
     verb->add_flag("--force", options->force, "replace the file whatever it is");
     verb->add_flag("--speed-report", options->speed_report, "say how fast each stage was simulated");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"
-                        "  lockstep verify plate.lcm\n"));
+    verb->footer(
+        footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"
+               "  lockstep verify plate.lcm\n"));
     verb->callback([&action, options] { action = [options] { return simulate_verb(*options); }; });
 }
 

@@ -37,8 +37,9 @@ ExitCode verify(const VerifyOptions& options) {
 }  // namespace
 
 void add_verify(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("verify", "compare every step in a log with what its programs must give, tick "
-                                                  "for tick");
+    CLI::App* verb = app.add_subcommand("verify",
+                                        "compare every step in a log with what its programs must give, tick "
+                                        "for tick");
     const auto options = std::make_shared<VerifyOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");

@@ -23,7 +23,9 @@ Ended run(const std::string& words) {
     Ended ended;
     FILE* pipe = popen((std::string(LOCKSTEP_COMMAND) + " " + words).c_str(), "r");
     std::array<char, 4096> part{};
-    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) { ended.out.append(part.data(), got); }
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) {
+        ended.out.append(part.data(), got);
+    }
     ended.exit = WEXITSTATUS(pclose(pipe));
     return ended;
 }
@@ -69,8 +71,7 @@ TEST_F(Command, PlanSimulateAnalyzeVerify) {
     EXPECT_EQ(verified.exit, 0);
     const auto verdict = report_of<proto::VerifyReport>(verified);
     EXPECT_TRUE(verdict.exact());
-    EXPECT_EQ(verdict.steps_compared(),
-              analysed.axes(0).steps() + analysed.axes(1).steps() + analysed.axes(2).steps());
+    EXPECT_EQ(verdict.steps_compared(), analysed.axes(0).steps() + analysed.axes(1).steps() + analysed.axes(2).steps());
 }
 
 TEST_F(Command, PicturesAndTables) {
