@@ -1,0 +1,30 @@
+// A counter times a reference speed, compared with one: no timer and no division.
+//
+// Source: Daniel Carrica, Marcos A. Funes, Sergio A. González, "Novel stepper motor controller based on FPGA hardware
+// implementation", Eqs. (5), (7), (9), (11) and Fig. 5. n counts clock periods T_c since the last step; a step falls
+// where
+//   n V_ref T_c >= 1,                                                                                         (11)
+// and n starts anew. V_ref is a trapezoid over time from V_min to V_max (Fig. 4). Only speeds 1/(n T_c) can be made,
+// each at or below the reference; near speed V neighbours are about V^2 T_c apart.
+//
+// Left open there and chosen here: V_ref changes every T_c, in fixed point of 2^-60 step per T_c, rounded up so that a
+// speed whose period is a whole number of T_c gets exactly that period; it falls once the steps that remain are no more
+// than (V_ref^2 - V_min^2)/(2a), and stays at V_min until the last step is made.
+#pragma once
+
+#include "core/stepgen/method.hpp"
+
+namespace lockstep::stepgen {
+
+struct CarricaParameters {
+    double clock_s = 800e-9;  // T_c of the experiment of Figs. 6 and 7; 400 ns for Fig. 8
+};
+
+/// The speed next below 1/(n T_c), and how far it is: what the quantisation of speed costs near `steps_per_s`.
+double carrica_speed_gap(double steps_per_s, double clock_s);
+
+/// One acceleration for both ramps: the smaller of the two. From rest it begins at sqrt(2a), the speed after one step.
+/// Step k is where the position is k. Error: the maximum is above 1/T_c.
+StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& parameters = {});
+
+}  // namespace lockstep::stepgen

@@ -1,0 +1,69 @@
+#include "core/stepgen/lai.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stepgen/adjustments.hpp"
+#include "core/stepgen/lai_dda.hpp"
+#include "core/stepgen/number_text.hpp"
+
+namespace lockstep::stepgen {
+namespace {
+
+constexpr double kHair = 1e-9;  // a speed this close to a whole number of pulses is one
+
+std::int64_t whole(double pulses) { return static_cast<std::int64_t>(std::floor(pulses * (1 + kHair))); }
+
+bool differs(double made, double asked) { return std::abs(made - asked) > kHair * std::max(made, asked); }
+
+LaiSpeeds expressible(const StepMove& move, double period_s, Adjustments& changed) {
+    const double asked = std::min(move.acceleration, move.deceleration);
+    const LaiSpeeds speeds{.start = whole(move.start * period_s),
+                           .max = whole(move.max * period_s),
+                           .change = std::max<std::int64_t>(1, whole(asked * period_s * period_s))};
+    const double start = static_cast<double>(speeds.start) / period_s;
+    const double max = static_cast<double>(speeds.max) / period_s;
+    const double change = static_cast<double>(speeds.change) / (period_s * period_s);
+    if (differs(start, move.start) || differs(max, move.max)) {
+        changed.add("has whole pulses per " + number(period_s * 1e3) + " ms",
+                    "from " + number(start) + " to " + number(max) + " steps/s");
+    }
+    if (differs(change, move.acceleration) || differs(change, move.deceleration)) {
+        changed.add("changes speed by whole pulses per period, alike both ways", number(change) + " steps/s^2");
+    }
+    return speeds;
+}
+
+StepTrain spread(const std::vector<std::int64_t>& periods, double clock_s) {
+    StepTrain train{.clock_s = clock_s};
+    Dda dda;
+    std::int64_t now = 0;
+    for (const std::int64_t pulses : periods) {
+        dda.load(pulses);
+        for (int i = 0; i < kDdaClocks; ++i) {
+            ++now;
+            if (dda.clock()) { train.times_s.push_back(static_cast<double>(now) * clock_s); }
+        }
+    }
+    return train;
+}
+
+}  // namespace
+
+StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters) {
+    const double period_s = parameters.period_s;
+    if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
+    const double most = static_cast<double>(kMaxPeriodPulses) / period_s;
+    if (move.max < (1 - kHair) / period_s || move.max > most) {
+        return std::unexpected("speeds are 1 to 255 whole pulses per " + number(period_s * 1e3) +
+                               " ms: the maximum must be " + number(1 / period_s) + " to " + number(most) + " steps/s");
+    }
+    Adjustments changed;
+    const LaiSpeeds speeds = expressible(move, period_s, changed);
+    if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
+    StepTrain train = spread(plan_long_axis(move.steps, speeds), period_s / kDdaClocks);
+    train.nearest = changed.text();
+    return train;
+}
+
+}  // namespace lockstep::stepgen

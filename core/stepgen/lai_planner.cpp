@@ -1,0 +1,110 @@
+#include "core/stepgen/lai_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace lockstep::stepgen {
+namespace {
+
+std::int64_t whole_root(std::int64_t value) {
+    return static_cast<std::int64_t>(std::floor(std::sqrt(static_cast<double>(std::max<std::int64_t>(0, value)))));
+}
+
+/// v + (v - change) + ... down to the lowest speed.
+std::int64_t falling_distance(std::int64_t v, std::int64_t lowest, std::int64_t change) {
+    const std::int64_t falls = (v - lowest) / change;
+    return (falls + 1) * v - change * falls * (falls + 1) / 2;
+}
+
+class ShortAxis {
+public:
+    ShortAxis(std::int64_t length, std::int64_t long_length, const LaiSpeeds& speeds, LaiRounding rounding,
+              LaiCompensation compensation)
+        : length_(length),
+          long_length_(long_length),
+          change_(speeds.change),
+          rounding_(rounding),
+          compensation_(compensation) {}
+
+    /// Its pulses while the long axis, `before` on its way, makes `pulses`.
+    std::int64_t follow(std::int64_t before, std::int64_t pulses) { return make(wanted(before, pulses)); }
+    /// Its pulses once the long axis has arrived.
+    std::int64_t finish() { return make(remaining()); }
+    std::int64_t remaining() const { return length_ - done_; }
+
+private:
+    /// m * along, halves up.
+    std::int64_t share(std::int64_t along) const { return (2 * length_ * along + long_length_) / (2 * long_length_); }
+
+    std::int64_t wanted(std::int64_t before, std::int64_t pulses) const {
+        return rounding_ == LaiRounding::InEachPeriod ? share(pulses) : share(before + pulses) - done_;
+    }
+    std::int64_t make(std::int64_t v) {
+        if (compensation_.derivative) {
+            v = std::clamp(v, std::max<std::int64_t>(0, speed_ - change_), speed_ + change_);
+        }
+        if (compensation_.remaining) { v = std::min(v, whole_root(remaining())); }
+        speed_ = v;
+        done_ += v;
+        return v;
+    }
+
+    std::int64_t length_;
+    std::int64_t long_length_;
+    std::int64_t change_;
+    LaiRounding rounding_;
+    LaiCompensation compensation_;
+    std::int64_t speed_ = 0;
+    std::int64_t done_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds) {
+    const std::int64_t lowest = std::max<std::int64_t>(1, speeds.start);
+    const std::int64_t short_max = whole_root(speeds.start * speeds.start + speeds.change * length);
+    const std::int64_t top = std::max(lowest, std::min(speeds.max, short_max));
+    std::vector<std::int64_t> periods;
+    bool falling = false;
+    std::int64_t v = 0;
+    for (std::int64_t remaining = length; remaining > 0; remaining -= periods.back()) {
+        falling = falling || (v > 0 && remaining <= falling_distance(v, lowest, speeds.change));
+        if (falling) {
+            v = std::max(lowest, v - speeds.change);
+        } else {
+            v = v == 0 && speeds.start > 0 ? lowest : std::min(top, v + speeds.change);
+        }
+        periods.push_back(std::min(v, remaining));
+    }
+    return periods;
+}
+
+std::vector<PeriodPulses> plan_two_axes(PeriodPulses lengths, const LaiSpeeds& speeds, LaiRounding rounding,
+                                        LaiCompensation compensation) {
+    const bool x_leads = std::abs(lengths.x) >= std::abs(lengths.y);
+    const std::int64_t long_length = std::max(std::abs(lengths.x), std::abs(lengths.y));
+    ShortAxis follower(std::min(std::abs(lengths.x), std::abs(lengths.y)), long_length, speeds, rounding, compensation);
+    std::vector<PeriodPulses> periods;
+    const auto add = [&](std::int64_t leading, std::int64_t following) {
+        const std::int64_t x = x_leads ? leading : following;
+        const std::int64_t y = x_leads ? following : leading;
+        periods.push_back({lengths.x < 0 ? -x : x, lengths.y < 0 ? -y : y});
+    };
+    std::int64_t along = 0;
+    for (const std::int64_t pulses : plan_long_axis(long_length, speeds)) {
+        add(pulses, follower.follow(along, pulses));
+        along += pulses;
+    }
+    const bool compensated = compensation.derivative || compensation.remaining;
+    while (compensated && follower.remaining() > 0) { add(0, follower.finish()); }
+    return periods;
+}
+
+PeriodPulses total(const std::vector<PeriodPulses>& periods) {
+    PeriodPulses sum;
+    for (const PeriodPulses& period : periods) { sum = {sum.x + period.x, sum.y + period.y}; }
+    return sum;
+}
+
+}  // namespace lockstep::stepgen

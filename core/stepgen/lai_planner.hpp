@@ -1,0 +1,57 @@
+// The velocity planner: how many pulses each axis makes in each sampling period.
+//
+// Source: Chiu-Keng Lai, Wei-Nan Chien, Yaw-Ting Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping
+// Motors Drives Design", Sections 3.1 and 3.3. Speed v is a whole number of pulses per period.
+//   long axis    v rises by `change` each period (5) to V_max (6), and falls by it (7) once no more remains than
+//                v + (v - change) + ... (11). A short move: V_max = floor(sqrt(V_0^2 + change L)), which is (10) for
+//                V_0 = 0.
+//   short axis   follows with slope m = L_short/L_long (13).
+//   compensated  its change per period is limited to `change` (14, 15), and its speed to floor(sqrt(remaining)) (17).
+//
+// Left open there and chosen here:
+// - What falling has left over is made at the lowest speed, max(V_0, 1). For 107 pulses: 1, 2 ... 10 ... 2, 1 and seven
+//   single pulses.
+// - How m v becomes whole pulses. Rounded in each period for itself, halves up, (107, -93) ends at -94 as in Fig. 8.
+//   Rounded from the start, so that the short axis is where it belongs at every sample, nothing is left over, but
+//   neighbouring periods may differ by two pulses: the sudden change of Fig. 6. Hence both.
+// - Once the long axis has arrived, a compensated short axis makes what remains of its own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lockstep::stepgen {
+
+/// Pulses per period, and per period and period.
+struct LaiSpeeds {
+    std::int64_t start = 0;   // V_0
+    std::int64_t max = 4;     // V_max: four periods to it from rest, Section 3.1
+    std::int64_t change = 1;  // a
+};
+
+/// Pulses of each period; their sum is `length` (> 0).
+std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds);
+
+enum class LaiRounding { InEachPeriod, FromTheStart };
+
+/// Which of the two compensations of the short axis are on.
+struct LaiCompensation {
+    bool derivative = true;  // Eqs. (14) and (15)
+    bool remaining = true;   // Eqs. (16) and (17)
+};
+inline constexpr LaiCompensation kUncompensated{false, false};
+
+struct PeriodPulses {
+    std::int64_t x = 0;  // signed
+    std::int64_t y = 0;
+    bool operator==(const PeriodPulses&) const = default;
+};
+
+/// Pulses of both axes in each period; the longer one leads, x where they are equal. At least one length is not 0.
+std::vector<PeriodPulses> plan_two_axes(PeriodPulses lengths, const LaiSpeeds& speeds, LaiRounding rounding,
+                                        LaiCompensation compensation);
+
+/// The sum over all periods: where the axes end.
+PeriodPulses total(const std::vector<PeriodPulses>& periods);
+
+}  // namespace lockstep::stepgen

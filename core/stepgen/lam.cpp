@@ -1,0 +1,52 @@
+#include "core/stepgen/lam.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stepgen/adjustments.hpp"
+#include "core/stepgen/number_text.hpp"
+
+namespace lockstep::stepgen {
+namespace {
+
+constexpr double kShortestDelay = 2;  // a pulse is high for one count and low for one
+
+std::int64_t delay_for(double steps_per_s, double clock_hz) {
+    return static_cast<std::int64_t>(std::ceil(std::max(kShortestDelay, clock_hz / steps_per_s) * (1 - 1e-9)));
+}
+
+LamParameters expressible(const StepMove& move, const LamParameters& parameters, Adjustments& changed) {
+    const double f = parameters.clock_hz;
+    LamParameters made = parameters;
+    made.cruise_delay = delay_for(move.max, f);
+    if (move.start > 0) { made.start_delay = delay_for(move.start, f); }
+    made.start_delay = std::max(made.start_delay, made.cruise_delay);
+    changed.add("has whole counts of " + number(f / 1e3) + " kHz",
+                "from " + number(f / static_cast<double>(made.start_delay)) + " to " +
+                    number(f / static_cast<double>(made.cruise_delay)) + " steps/s");
+    changed.add("has no acceleration to choose", std::to_string(made.acceleration) + " counts fewer each pulse");
+    changed.add("has no deceleration to choose", std::to_string(made.deceleration) + " counts more each of the last " +
+                                                     std::to_string(made.brake_pulses) + " pulses");
+    return made;
+}
+
+}  // namespace
+
+StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters) {
+    if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
+    Adjustments changed;
+    const LamParameters made = expressible(move, parameters, changed);
+    if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
+    if (auto valid = check_length(move, 1 / made.clock_hz); !valid) { return std::unexpected(valid.error()); }
+
+    StepTrain train{.clock_s = 1 / made.clock_hz, .nearest = changed.text()};
+    train.times_s.reserve(static_cast<std::size_t>(move.steps));
+    LamController controller = LamController::standing_at(0, made);
+    (void)controller.clock({.data_ready = true, .destination = move.steps});
+    for (std::int64_t now = 1; controller.state() != LamState::Standby; ++now) {
+        if (controller.clock({}).pulse) { train.times_s.push_back(static_cast<double>(now) / made.clock_hz); }
+    }
+    return train;
+}
+
+}  // namespace lockstep::stepgen
