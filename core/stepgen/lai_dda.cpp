@@ -3,50 +3,58 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace lockstep::stepgen {
 namespace {
 
-/// One axis: its DDA, or the bare count of what is left of the period.
-class PulseSource {
-public:
-    explicit PulseSource(LaiPulses how) : how_(how) {}
+/// The pulse of an axis at a clock of its DDA.
+std::int64_t clocked(Dda& dda, std::int64_t pulses) { return dda.clock() ? (pulses < 0 ? -1 : 1) : 0; }
 
-    void load(std::int64_t pulses) {
-        direction_ = pulses < 0 ? -1 : 1;
-        left_ = std::abs(pulses);
-        dda_.load(left_);
+class Walk {
+public:
+    void spread(const PeriodPulses& period) {
+        x_.load(std::abs(period.x));
+        y_.load(std::abs(period.y));
+        for (int i = 1; i <= kDdaClocks; ++i) { step(i, clocked(x_, period.x), clocked(y_, period.y)); }
+        start_ += kDdaClocks;
     }
-    std::int64_t clock() {
-        const bool pulse = how_ == LaiPulses::Spread ? dda_.clock() : left_-- > 0;
-        return pulse ? direction_ : 0;
+    void at_once(const PeriodPulses& period) {
+        std::int64_t i = 0;
+        for (; i < std::abs(period.x); ++i) {
+            step(std::min<std::int64_t>(i + 1, kDdaClocks), period.x < 0 ? -1 : 1, 0);
+        }
+        for (std::int64_t j = 0; j < std::abs(period.y); ++j) {
+            step(std::min<std::int64_t>(i + j + 1, kDdaClocks), 0, period.y < 0 ? -1 : 1);
+        }
+        start_ += kDdaClocks;
     }
+    std::vector<LaiPoint> points() && { return std::move(points_); }
 
 private:
-    LaiPulses how_;
-    Dda dda_;
-    std::int64_t left_ = 0;
-    std::int64_t direction_ = 1;
+    void step(std::int64_t clock, std::int64_t dx, std::int64_t dy) {
+        if (dx == 0 && dy == 0) { return; }
+        points_.push_back({start_ + clock, points_.back().x + dx, points_.back().y + dy});
+    }
+
+    Dda x_;
+    Dda y_;
+    std::int64_t start_ = 0;
+    std::vector<LaiPoint> points_{{}};
 };
 
 }  // namespace
 
 std::vector<LaiPoint> walk_two_axes(const std::vector<PeriodPulses>& periods, LaiPulses how) {
-    std::vector<LaiPoint> points{{}};
-    PulseSource x(how);
-    PulseSource y(how);
-    LaiPoint now;
+    Walk walk;
     for (const PeriodPulses& period : periods) {
-        x.load(period.x);
-        y.load(period.y);
-        for (int i = 0; i < kDdaClocks; ++i) {
-            ++now.clock;
-            now.x += x.clock();
-            now.y += y.clock();
-            if (now.x != points.back().x || now.y != points.back().y) { points.push_back(now); }
+        if (how == LaiPulses::Spread) {
+            walk.spread(period);
+        } else {
+            walk.at_once(period);
         }
     }
-    return points;
+    return std::move(walk).points();
 }
 
 double farthest_from_line(const std::vector<LaiPoint>& points, PeriodPulses end) {

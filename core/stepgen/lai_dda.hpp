@@ -31,7 +31,10 @@ private:
     std::uint8_t sum_ = 0;
 };
 
-/// What makes pulses of a period's number: the DDA, or nothing: one pulse each DDA clock from the period's beginning.
+/// How a period's pulses are made: spread by the DDAs of both axes side by side; or, without them, written by the
+/// processor as the period begins, x's and then y's, one each DDA clock. What the paper's lines were drawn with where
+/// they had no DDA is left open there; written so, every line that is not along an axis is less straight, as in
+/// Fig. 14.
 enum class LaiPulses { Spread, AtOnce };
 
 /// Where two axes are, and since when.
