@@ -23,6 +23,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_simulate(app, action);
     add_analyze(app, action);
     add_verify(app, action);
+    add_compare(app, action);
 }
 
 /// Help and version are what was asked for; anything else is bad usage, said as JSON where JSON was asked for.
@@ -36,7 +37,8 @@ int say_usage(const CLI::App& app, const CLI::ParseError& error, bool json) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Lockstep moves stepper axes that live in separate processes as if one chip drove them all.", "lockstep"};
+    CLI::App app{"Lockstep moves stepper axes that live in separate processes as if one chip drove them all.",
+                 "lockstep"};
     app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
     app.require_subcommand(1);
     app.footer(footer("  lockstep up --machine mill.textproto\n  lockstep home\n  lockstep move X=10 Y=20\n"
@@ -44,7 +46,8 @@ int main(int argc, char** argv) {
                "\nOptions of a verb: lockstep VERB --help");
     Action action;
     add_verbs(app, action);
-    const bool json = std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+    const bool json =
+        std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) { return say_usage(app, error, json); }

@@ -45,10 +45,13 @@ std::string names_of(const std::vector<ProcessRecord>& processes) {
 std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDirectory& state) {
     const std::string name = "machine '" + machine.config.name + "'";
     if (const auto running = state.running(); !running.empty()) {
-        return std::unexpected(failed(name + " is up already (" + names_of(running) + "); see: lockstep status, lockstep down"));
+        return std::unexpected(
+            failed(name + " is up already (" + names_of(running) + "); see: lockstep status, lockstep down"));
     }
     if (auto made = state.make(); !made) { return std::unexpected(failed(made.error())); }
-    if (!state.lock()) { return std::unexpected(failed(name + " is being started by another lockstep up; see: lockstep status")); }
+    if (!state.lock()) {
+        return std::unexpected(failed(name + " is being started by another lockstep up; see: lockstep status"));
+    }
     state.forget_processes();
     state.remove_logs();
     if (auto written = state.write_machine_file(machine_text(machine.config)); !written) {
@@ -78,18 +81,26 @@ std::string with_log(const std::string& what, const std::string& process, const 
 std::optional<std::string> trouble(const Session& session, const StateDirectory& state, nanoseconds since) {
     const auto recorded = state.recorded();
     for (const ProcessRecord& process : recorded) {
-        if (process.pid == 0) { return with_log(process.name + " ended and is not started again", process.name, state); }
+        if (process.pid == 0) {
+            return with_log(process.name + " ended and is not started again", process.name, state);
+        }
     }
-    if (!recorded.empty() && !is_running(recorded.front())) { return with_log("the supervisor ended", kSupervisor, state); }
+    if (!recorded.empty() && !is_running(recorded.front())) {
+        return with_log("the supervisor ended", kSupervisor, state);
+    }
     const MachineConfig& machine = session.config();
     const auto is_older = [&](Identity start_ns) { return start_ns < static_cast<Identity>(since.count()); };
     const auto foreign = [&](const std::string& who) {
         return who + " of machine '" + machine.name + "' runs already, started by other means; end it first";
     };
     const auto tick_ns = static_cast<Identity>(machine.tick_ns);
-    if (session.state() && is_older((session.state()->state.coordinator + 1) * tick_ns)) { return foreign("a coordinator"); }
+    if (session.state() && is_older((session.state()->state.coordinator + 1) * tick_ns)) {
+        return foreign("a coordinator");
+    }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (session.axis(i) && is_older(session.axis(i)->state.identity)) { return foreign("axis " + machine.axes[i].name); }
+        if (session.axis(i) && is_older(session.axis(i)->state.identity)) {
+            return foreign("axis " + machine.axes[i].name);
+        }
     }
     return std::nullopt;
 }
@@ -132,7 +143,8 @@ void supervise(const StateDirectory& state, const std::vector<ServiceLine>& line
     Supervisor(state, lines).run();
 }
 
-std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state,
+                                                              const std::vector<ServiceLine>& lines) {
     const pid_t pid = fork();
     if (pid < 0) { return std::unexpected(failed("cannot start the supervisor: no more processes")); }
     if (pid == 0) { be_supervisor(state, lines); }

@@ -23,7 +23,8 @@ void supervise(const StateDirectory& state, const std::vector<ServiceLine>& line
 
 /// Supervises in a process of its own that outlives this one. Call it before the first thread starts. Returns the
 /// supervisor. Error: no more processes.
-std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state, const std::vector<ServiceLine>& lines);
+std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state,
+                                                              const std::vector<ServiceLine>& lines);
 
 /// Waits until the machine is Idle, or in Fault, with all axes heard. `since`: CLOCK_MONOTONIC before the start; who
 /// runs for longer was not started here. Error: who that is, or who is missing, with the end of its log.

@@ -39,7 +39,8 @@ ProgramChunk ChunkedProgram::chunk(std::uint32_t index) const {
             .program = program_,
             .index = index,
             .count = count_,
-            .bytes = {bytes_.begin() + static_cast<std::ptrdiff_t>(from), bytes_.begin() + static_cast<std::ptrdiff_t>(to)}};
+            .bytes = {bytes_.begin() + static_cast<std::ptrdiff_t>(from),
+                      bytes_.begin() + static_cast<std::ptrdiff_t>(to)}};
 }
 
 }  // namespace lockstep

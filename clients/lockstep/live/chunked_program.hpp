@@ -11,14 +11,15 @@
 
 namespace lockstep {
 
-inline constexpr std::size_t kChunkBytes = 32'768;     // the most a ProgramChunk may have
-inline constexpr std::size_t kChunksInFlight = 16;     // well under what the topic keeps
+inline constexpr std::size_t kChunkBytes = 32'768;  // the most a ProgramChunk may have
+inline constexpr std::size_t kChunksInFlight = 16;  // well under what the topic keeps
 inline constexpr std::chrono::milliseconds kRepeatAfter{300};
 
 class ChunkedProgram {
 public:
     /// Chunk i has the sequence number first_sequence + i. A program has at least one chunk.
-    ChunkedProgram(Identity client, std::uint64_t first_sequence, std::uint64_t program, std::vector<std::uint8_t> bytes);
+    ChunkedProgram(Identity client, std::uint64_t first_sequence, std::uint64_t program,
+                   std::vector<std::uint8_t> bytes);
 
     std::uint32_t count() const { return count_; }
     std::uint32_t answered() const { return answered_; }
@@ -37,9 +38,9 @@ private:
     std::uint64_t program_;
     std::vector<std::uint8_t> bytes_;
     std::uint32_t count_;
-    std::uint32_t sent_ = 0;                                      // the first so many
+    std::uint32_t sent_ = 0;  // the first so many
     std::uint32_t answered_ = 0;
-    std::map<std::uint32_t, std::chrono::nanoseconds> in_flight_; // when each was last sent
+    std::map<std::uint32_t, std::chrono::nanoseconds> in_flight_;  // when each was last sent
 };
 
 }  // namespace lockstep

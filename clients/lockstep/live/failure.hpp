@@ -17,7 +17,9 @@ struct Failure {
 
 inline Failure failed(std::string why) { return {kExitFailed, {}, {{.message = std::move(why)}}}; }
 inline Failure bad_input(std::string why) { return {kExitBadInput, {}, {{.message = std::move(why)}}}; }
-inline Failure bad_file(std::string file, Diagnostics errors) { return {kExitBadInput, std::move(file), std::move(errors)}; }
+inline Failure bad_file(std::string file, Diagnostics errors) {
+    return {kExitBadInput, std::move(file), std::move(errors)};
+}
 inline Failure unreachable(std::string why) { return {kExitUnreachable, {}, {{.message = std::move(why)}}}; }
 
 }  // namespace lockstep

@@ -1,8 +1,6 @@
 #include "clients/lockstep/live/job.hpp"
 
-#include <algorithm>
-
-#include "clients/lockstep/live/job_verdict.hpp"
+#include "clients/lockstep/live/job_watch.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/status_text.hpp"
 #include "clients/lockstep/live/words.hpp"
@@ -16,76 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kGlance = 100ms;           // how soon a signal is noticed
 constexpr nanoseconds kFinalStatePatience = 1s;  // for the axes' word of where they came to rest
-
-/// Waits for a job's end, and tells what happens meanwhile.
-class JobWatch {
-public:
-    JobWatch(Session& session, const Job& job, std::uint64_t number, Voice& voice, const StopSignal& stop)
-        : session_(session), job_(job), number_(number), voice_(voice), stop_(stop), asked_(session.state()->state.coordinator) {}
-
-    /// Error: the coordinator fell silent.
-    std::expected<JobVerdict, Failure> wait() {
-        for (;;) {
-            session_.listen(kGlance);
-            if (session_.is_silent()) { return std::unexpected(silent()); }
-            const MachineState& state = session_.state()->state;
-            const JobVerdict verdict = judge(state, number_, asked_);
-            if (verdict != JobVerdict::InProgress) { return verdict; }
-            if (stop_.requested() && !stop_sent_) {
-                if (auto sent = send_stop(); !sent) { return std::unexpected(sent.error()); }
-            }
-            if (state.job == number_) { tell(state); }
-        }
-    }
-
-private:
-    Failure silent() const {
-        Failure failure = session_.silent();
-        failure.errors.front().message = "the coordinator fell silent; the axes come to rest on the path by themselves. " +
-                                         failure.errors.front().message;
-        return failure;
-    }
-
-    std::expected<void, Failure> send_stop() {
-        stop_sent_ = true;
-        voice_.say("stopping on the path ...");
-        const auto reply = session_.command(CommandKind::Stop);
-        if (!reply) { return std::unexpected(reply.error()); }
-        if (reply->status == ReplyStatus::Refused) {
-            return std::unexpected(failed("the stop was refused: " + reply->text +
-                                          "; the machine goes on; to stop it at once: lockstep estop"));
-        }
-        return {};
-    }
-
-    void tell(const MachineState& state) {
-        if (state.line > 0) { line_ = state.line; }
-        const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
-        if (rests && state.phase != told_) {
-            const std::string where = line_ > 0 ? " after line " + std::to_string(line_) : "";
-            voice_.say((state.phase == MachinePhase::Paused ? "paused" : "held") + where +
-                       ": go on with lockstep resume, or end it with lockstep stop");
-        }
-        told_ = state.phase;
-        if (rests) { return; }
-        const proto::StatusReport status = status_report(session_);
-        voice_.progress(job_.command == CommandKind::Home ? homing_text(status)
-                        : voice_.is_terminal()            ? progress_bar(status)
-                                                          : progress_text(status));
-    }
-
-    Session& session_;
-    const Job& job_;
-    std::uint64_t number_;
-    Voice& voice_;
-    const StopSignal& stop_;
-    Identity asked_;
-    bool stop_sent_ = false;
-    std::int32_t line_ = 0;
-    std::optional<MachinePhase> told_;
-};
 
 std::string outcome_name(JobVerdict verdict) {
     switch (verdict) {
@@ -103,20 +32,26 @@ void add_final_positions(Session& session, proto::RunReport& report) {
     const nanoseconds end = monotonic_now();
     const MachineConfig& machine = session.config();
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const auto rests = [&] { return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest; };
+        const auto rests = [&] {
+            return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
+        };
         while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.listen(10ms); }
         if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
     }
 }
 
-std::string title(const Job& job) { return job.name.empty() || job.name == job.kind ? job.kind : job.kind + " " + job.name; }
+std::string title(const Job& job) {
+    return job.name.empty() || job.name == job.kind ? job.kind : job.kind + " " + job.name;
+}
 
 void say_end(const Job& job, const proto::RunReport& report, Voice& voice) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
     voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; at " + places_text(report), 80, "  "));
     if (report.has_fault()) { voice.say(fault_text(report.fault())); }
     if (report.outcome() == "stopped") { voice.say("stopped on the path; the rest of the job is dropped"); }
-    if (report.outcome() == "lost") { voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status"); }
+    if (report.outcome() == "lost") {
+        voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status");
+    }
 }
 
 ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Voice& voice) {
@@ -148,7 +83,9 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job) {
 ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {
     report.set_outcome(outcome_name(verdict));
     if (verdict == JobVerdict::Failed) {
-        if (auto fault = fault_of(session.state()->state, session.config())) { *report.mutable_fault() = *std::move(fault); }
+        if (auto fault = fault_of(session.state()->state, session.config())) {
+            *report.mutable_fault() = *std::move(fault);
+        }
     }
     if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
     voice.report(report);
@@ -174,7 +111,7 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     voice.say(title(job) + ": job " + std::to_string(reply->job) +
               (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
-    const auto verdict = JobWatch(session, job, reply->job, voice, stop).wait();
+    const auto verdict = JobWatch(session, reply->job, job.command, voice, stop).wait();
     if (!verdict) { return voice.fail(verdict.error()); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     return end(session, job, *verdict, report, voice);
@@ -197,7 +134,8 @@ std::expected<double, Failure> planned_seconds(const MachineConfig& machine, con
     const ProgramPlanner planner(machine);
     auto legs = planner.plan(program, start);
     if (!legs) {
-        return std::unexpected(bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
+        return std::unexpected(
+            bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
     }
     double ticks = 0;
     for (Leg& leg : *legs) {

@@ -12,12 +12,12 @@ namespace lockstep {
 
 struct Job {
     CommandKind command = CommandKind::Run;
-    std::string kind;                      // "home", "move", "run"
-    std::string name;                      // of the program
-    std::uint32_t axes = 0;                // home: bit i for axis i; 0: all
-    std::optional<Program> program = {};   // move, run
+    std::string kind;                     // "home", "move", "run"
+    std::string name;                     // of the program
+    std::uint32_t axes = 0;               // home: bit i for axis i; 0: all
+    std::optional<Program> program = {};  // move, run
     std::optional<double> planned_s = {};
-    bool detach = false;                   // ends when the job has begun
+    bool detach = false;  // ends when the job has begun
 };
 
 /// Begins it, shows its progress, waits for its end, reports. SIGINT and SIGTERM stop the machine on its path first.

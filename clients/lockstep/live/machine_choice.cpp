@@ -8,8 +8,9 @@
 namespace lockstep {
 
 void add_live_options(CLI::App& verb, LiveOptions& options) {
-    verb.add_option("--machine", options.machine_file,
-                    "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host");
+    verb.add_option(
+        "--machine", options.machine_file,
+        "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host");
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
 }
 
@@ -24,7 +25,9 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
     if (environment != nullptr && *environment != '\0') { return environment; }
     if (up.size() == 1) { return up.front(); }
     constexpr const char* kHow = "say which: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
-    if (up.empty()) { return std::unexpected(bad_input("no machine is named and none is up on this host; " + std::string(kHow))); }
+    if (up.empty()) {
+        return std::unexpected(bad_input("no machine is named and none is up on this host; " + std::string(kHow)));
+    }
     std::string names;
     for (const auto& file : up) { names += (names.empty() ? "" : ", ") + file.parent_path().filename().string(); }
     return std::unexpected(bad_input("several machines are up on this host (" + names + "); " + kHow));

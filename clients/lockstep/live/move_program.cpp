@@ -19,7 +19,8 @@ std::optional<double> number(std::string_view text) {
 }
 
 std::expected<void, std::string> check_travel(const AxisConfig& axis, double mm) {
-    const bool is_within = mm >= axis.position_min_mm - kTravelTolerance_mm && mm <= axis.position_max_mm + kTravelTolerance_mm;
+    const bool is_within =
+        mm >= axis.position_min_mm - kTravelTolerance_mm && mm <= axis.position_max_mm + kTravelTolerance_mm;
     if (is_within) { return {}; }
     return std::unexpected(axis.name + "=" + fixed(mm, 4) + " is outside the travel of axis " + axis.name + ", " +
                            fixed(axis.position_min_mm, 3) + " to " + fixed(axis.position_max_mm, 3) + " mm");
@@ -39,7 +40,8 @@ std::expected<AxisTarget, std::string> parse_target(std::string_view word) {
     const std::size_t at = word.find('=');
     const auto mm = at == word.npos ? std::nullopt : number(word.substr(at + 1));
     if (mm && at > 0) { return AxisTarget{std::string(word.substr(0, at)), *mm}; }
-    return std::unexpected("'" + std::string(word) + "' is not a target; write an axis, = and a place in mm: X=10 or Y=-3.5");
+    return std::unexpected("'" + std::string(word) +
+                           "' is not a target; write an axis, = and a place in mm: X=10 or Y=-3.5");
 }
 
 std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name) {
@@ -54,7 +56,8 @@ std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, 
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                  const MoveOptions& options) {
     if (auto checked = check_feed(options); !checked) { return std::unexpected(checked.error()); }
-    LinearMove move{.target_mm = start_mm, .feed_mm_s = options.feed_mm_min.value_or(0) / 60, .rapid = !options.feed_mm_min};
+    LinearMove move{
+        .target_mm = start_mm, .feed_mm_s = options.feed_mm_min.value_or(0) / 60, .rapid = !options.feed_mm_min};
     std::vector<bool> is_named(machine.axes.size());
     for (const std::string& word : options.targets) {
         const auto target = parse_target(word);

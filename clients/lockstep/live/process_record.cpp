@@ -49,7 +49,9 @@ private:
 
 std::string to_text(const std::vector<ProcessRecord>& records) {
     std::ostringstream text;
-    for (const ProcessRecord& record : records) { text << record.name << ' ' << record.pid << ' ' << record.start << '\n'; }
+    for (const ProcessRecord& record : records) {
+        text << record.name << ' ' << record.pid << ' ' << record.start << '\n';
+    }
     return text.str();
 }
 

@@ -8,7 +8,8 @@ namespace {
 
 /// Faults that are the machine's: no one axis has them.
 bool is_of_an_axis(FaultCode fault) {
-    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate && fault != FaultCode::SecondCoordinator;
+    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
+           fault != FaultCode::SecondCoordinator;
 }
 
 bool is_in_motion(MachinePhase phase) { return phase == MachinePhase::Running || phase == MachinePhase::Stopping; }
@@ -77,7 +78,8 @@ proto::StatusReport status_report(const Session& session) {
     }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const auto& axis = session.axis(i);
-        *report.add_axes() = axis_status(machine.axes[i], machine.tick_ns, axis ? &axis->state : nullptr, session.axis_present(i));
+        *report.add_axes() =
+            axis_status(machine.axes[i], machine.tick_ns, axis ? &axis->state : nullptr, session.axis_present(i));
     }
     return report;
 }

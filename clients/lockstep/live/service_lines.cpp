@@ -2,12 +2,13 @@
 
 namespace lockstep {
 
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga, const std::filesystem::path& programs,
-                                       const StateDirectory& state) {
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga,
+                                       const std::filesystem::path& programs, const StateDirectory& state) {
     const auto begin = [&](const char* program) {
         return std::vector<std::string>{(programs / program).string(), "--machine", state.machine_file().string()};
     };
-    const auto line = [](const std::string& name, std::vector<std::string> words, const std::vector<std::string>& more) {
+    const auto line = [](const std::string& name, std::vector<std::string> words,
+                         const std::vector<std::string>& more) {
         words.insert(words.end(), more.begin(), more.end());
         return ServiceLine{name, std::move(words)};
     };
@@ -15,9 +16,11 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fp
     std::vector<ServiceLine> lines;
     for (const AxisConfig& axis : machine.axes) {
         if (fpga == FpgaKind::Sim) { break; }
-        lines.push_back(line("fpga-" + axis.name, begin("lockstep-fpga"), {"--axis", axis.name, "--name", shared_name(axis)}));
+        lines.push_back(
+            line("fpga-" + axis.name, begin("lockstep-fpga"), {"--axis", axis.name, "--name", shared_name(axis)}));
     }
-    lines.push_back(line("coordinator", begin("lockstep-coordinator"), {"--log", state.log_file("coordinator").string()}));
+    lines.push_back(
+        line("coordinator", begin("lockstep-coordinator"), {"--log", state.log_file("coordinator").string()}));
     for (const AxisConfig& axis : machine.axes) {
         const std::string name = "axis-" + axis.name;
         std::vector<std::string> more{"--axis", axis.name, "--log", state.log_file(name).string()};

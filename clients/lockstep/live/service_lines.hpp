@@ -18,7 +18,7 @@ struct ServiceLine {
 };
 
 /// Devices first: an axis attaches to its own. `programs`: the directory of the services' executables.
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga, const std::filesystem::path& programs,
-                                       const StateDirectory& state);
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga,
+                                       const std::filesystem::path& programs, const StateDirectory& state);
 
 }  // namespace lockstep

@@ -110,7 +110,8 @@ Failure Session::silent() const {
     }
     const std::string none = "no coordinator of " + whereabouts();
     if (heard.empty()) { return unreachable(none + ": is it up? " + start); }
-    return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " + start);
+    return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " +
+                       start);
 }
 
 std::expected<Reply, Failure> Session::command(CommandKind kind, std::uint32_t axes, std::uint64_t program) {

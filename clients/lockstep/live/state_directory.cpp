@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 fs::path root() {
     if (const char* set = std::getenv("LOCKSTEP_STATE"); set != nullptr && *set != '\0') { return fs::absolute(set); }
     if (geteuid() == 0) { return "/run/lockstep"; }
-    if (const char* own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own != '\0') { return fs::path(own) / "lockstep"; }
+    if (const char* own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own != '\0') {
+        return fs::path(own) / "lockstep";
+    }
     return "/tmp/lockstep-" + std::to_string(geteuid());
 }
 
@@ -61,7 +63,8 @@ void StateDirectory::remove_logs() const {
 }
 
 bool StateDirectory::lock() const {
-    const int file = open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
+    const int file =
+        open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
     return file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 

@@ -36,11 +36,11 @@ std::string headline(const proto::StatusReport& status) {
     return wrapped(text + job_parts(status, ", ") + " (" + age_text(status) + ")", 80, "  ") + "\n";
 }
 
-std::string row(const std::string& name, const std::string& position, const std::string& velocity, const std::string& state,
-                const std::string& homed) {
+std::string row(const std::string& name, const std::string& position, const std::string& velocity,
+                const std::string& state, const std::string& homed) {
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%-16s %14s %14s   %-11s %s", name.c_str(), position.c_str(), velocity.c_str(),
-                  state.c_str(), homed.c_str());
+    std::snprintf(text.data(), text.size(), "%-16s %14s %14s   %-11s %s", name.c_str(), position.c_str(),
+                  velocity.c_str(), state.c_str(), homed.c_str());
     return text.data() + std::string("\n");
 }
 
@@ -81,7 +81,7 @@ std::string progress_text(const proto::StatusReport& status) {
 std::string homing_text(const proto::StatusReport& status) {
     std::string text;
     for (const proto::AxisStatus& axis : status.axes()) {
-        const std::string state = axis.homed() ? "homed at " + fixed(axis.position_mm(), 3)
+        const std::string state = axis.homed()     ? "homed at " + fixed(axis.position_mm(), 3)
                                   : axis.present() ? axis.state()
                                                    : "not heard";
         text += (text.empty() ? "" : "   ") + axis.name() + " " + state;

@@ -18,9 +18,9 @@ using namespace std::chrono_literals;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr milliseconds kEndPatience = 4s;     // for SIGTERM to be followed
-constexpr int kCannotExecute = 127;           // as shells have it
-constexpr int kBadInput = 2;                  // a service's own: the same again would end the same
+constexpr milliseconds kEndPatience = 4s;  // for SIGTERM to be followed
+constexpr int kCannotExecute = 127;        // as shells have it
+constexpr int kBadInput = 2;               // a service's own: the same again would end the same
 
 sigset_t handled_signals() {
     sigset_t set;

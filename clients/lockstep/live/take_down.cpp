@@ -35,7 +35,9 @@ TakenDown take_down(const StateDirectory& state, const std::optional<ProcessReco
     TakenDown taken;
     for (int round = 0; round < kMaxRounds; ++round) {
         std::vector<ProcessRecord> processes = state.running();
-        if (also && is_running(*also) && std::ranges::find(processes, *also) == processes.end()) { processes.push_back(*also); }
+        if (also && is_running(*also) && std::ranges::find(processes, *also) == processes.end()) {
+            processes.push_back(*also);
+        }
         if (processes.empty()) { break; }
         end_processes(processes);
         for (const ProcessRecord& process : processes) {

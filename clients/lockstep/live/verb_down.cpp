@@ -55,18 +55,22 @@ ExitCode down(const LiveOptions& options) {
     if (state.running().empty()) { return say_done("nothing of machine '" + machine->config.name + "' is up", voice); }
     bring_to_rest(*machine, voice);
     const TakenDown taken = take_down(state);
-    if (taken.left.empty()) { return say_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), voice); }
-    return voice.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name + "'; see " +
-                             state.path().string() + "/processes"));
+    if (taken.left.empty()) {
+        return say_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), voice);
+    }
+    return voice.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name +
+                             "'; see " + state.path().string() + "/processes"));
 }
 
 }  // namespace
 
 void add_down(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("down", "stop the machine on its path if it moves, then end its processes on this host");
+    CLI::App* verb =
+        app.add_subcommand("down", "stop the machine on its path if it moves, then end its processes on this host");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(*verb, *options);
-    verb->footer("Where nothing is up there is nothing to do: it says so, and that is done.\n" + footer("  lockstep down\n"));
+    verb->footer("Where nothing is up there is nothing to do: it says so, and that is done.\n" +
+                 footer("  lockstep down\n"));
     verb->callback([&action, options] { action = [options] { return down(*options); }; });
 }
 

@@ -27,20 +27,27 @@ ExitCode move(const MoveVerbOptions& options) {
     if (!program) { return voice.fail(bad_input(program.error())); }
     const auto planned_s = planned_seconds(machine->config, *program, *start_mm);
     if (!planned_s) { return voice.fail(planned_s.error()); }
-    const Job job{.command = CommandKind::Move, .kind = "move", .name = program->name, .program = *program, .planned_s = *planned_s};
+    const Job job{.command = CommandKind::Move,
+                  .kind = "move",
+                  .name = program->name,
+                  .program = *program,
+                  .planned_s = *planned_s};
     return run_job(*session, job, voice);
 }
 
 }  // namespace
 
 void add_move(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("move", "move axes together, in a straight line, to a place in machine coordinates");
+    CLI::App* verb =
+        app.add_subcommand("move", "move axes together, in a straight line, to a place in machine coordinates");
     const auto options = std::make_shared<MoveVerbOptions>();
     verb->add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes not named stay")->required();
-    verb->add_option("--feed", options->move.feed_mm_min, "speed along the line, mm/min; as fast as allowed where not given");
+    verb->add_option("--feed", options->move.feed_mm_min,
+                     "speed along the line, mm/min; as fast as allowed where not given");
     verb->add_flag("--relative", options->move.relative, "targets are from where each axis stands");
     add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n  lockstep move Z=-2.5 --relative\n"));
+    verb->footer(
+        footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n  lockstep move Z=-2.5 --relative\n"));
     verb->callback([&action, options] { action = [options] { return move(*options); }; });
 }
 

@@ -30,7 +30,9 @@ ExitCode say_dry_run(const Job& job, Voice& voice) {
 
 ExitCode run(const RunOptions& options) {
     Voice voice(options.json);
-    if (const auto text = read_text_file(options.file); !text) { return voice.fail(bad_file(options.file, {text.error()})); }
+    if (const auto text = read_text_file(options.file); !text) {
+        return voice.fail(bad_file(options.file, {text.error()}));
+    }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
     auto session = Session::open(*machine);
@@ -41,8 +43,12 @@ ExitCode run(const RunOptions& options) {
     if (!program) { return voice.fail(bad_file(options.file, program.error())); }
     const auto planned_s = planned_seconds(machine->config, *program, *start_mm);
     if (!planned_s) { return voice.fail(bad_file(options.file, planned_s.error().errors)); }
-    const Job job{.command = CommandKind::Run, .kind = "run", .name = program->name, .program = *std::move(program),
-                  .planned_s = *planned_s, .detach = options.detach};
+    const Job job{.command = CommandKind::Run,
+                  .kind = "run",
+                  .name = program->name,
+                  .program = *std::move(program),
+                  .planned_s = *planned_s,
+                  .detach = options.detach};
     return options.dry_run ? say_dry_run(job, voice) : run_job(*session, job, voice);
 }
 

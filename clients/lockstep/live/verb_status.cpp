@@ -39,7 +39,9 @@ void watch(Session& session, Voice& voice) {
     while (!stop.requested()) {
         show(session, voice, redraw);
         const nanoseconds next = monotonic_now() + period;
-        while (!stop.requested() && monotonic_now() < next) { session.listen(std::min(kRedrawPeriod, next - monotonic_now())); }
+        while (!stop.requested() && monotonic_now() < next) {
+            session.listen(std::min(kRedrawPeriod, next - monotonic_now()));
+        }
     }
 }
 

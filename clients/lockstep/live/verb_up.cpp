@@ -41,7 +41,8 @@ ExitCode up(const UpOptions& options) {
     (void)take_down(state, *supervisor);
     Failure failure = session.error();
     failure.errors.front().message += failure.errors.front().message.ends_with('\n') ? "" : "\n";
-    failure.errors.front().message += "machine '" + machine->config.name + "' is not up; what was started is ended again";
+    failure.errors.front().message +=
+        "machine '" + machine->config.name + "' is not up; what was started is ended again";
     return voice.fail(failure);
 }
 
@@ -50,10 +51,12 @@ ExitCode up(const UpOptions& options) {
 void add_up(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("up", "start a machine's processes on this host, and wait until it is ready");
     const auto options = std::make_shared<UpOptions>();
-    verb->add_option("--fpga", options->fpga, "the devices: sim, in the axes' processes; shm, in processes of their own")
+    verb->add_option("--fpga", options->fpga,
+                     "the devices: sim, in the axes' processes; shm, in processes of their own")
         ->check(CLI::IsMember({"sim", "shm"}))
         ->capture_default_str();
-    verb->add_flag("--foreground", options->foreground, "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
+    verb->add_flag("--foreground", options->foreground,
+                   "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_live_options(*verb, *options);
     verb->footer(
         "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; where that is not set, in\n"

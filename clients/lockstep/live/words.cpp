@@ -23,13 +23,15 @@ std::string two_parts(long whole, const char* unit, long part, const char* part_
 }  // namespace
 
 std::string_view name_of(MachinePhase phase) {
-    return pick(std::array<std::string_view, 8>{"Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping", "Fault"},
+    return pick(std::array<std::string_view, 8>{"Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping",
+                                                "Fault"},
                 phase);
 }
 
 std::string_view name_of(AxisPhase phase) {
-    return pick(std::array<std::string_view, 7>{"Initialize", "Standby", "Accelerate", "Cruise", "Decelerate", "Stop", "Fault"},
-                phase);
+    return pick(
+        std::array<std::string_view, 7>{"Initialize", "Standby", "Accelerate", "Cruise", "Decelerate", "Stop", "Fault"},
+        phase);
 }
 
 std::string fixed(double value, int digits) {

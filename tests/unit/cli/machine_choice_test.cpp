@@ -20,7 +20,8 @@ TEST(MachineChoice, IsNotGuessed) {
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().exit, kExitBadInput);
     EXPECT_THAT(none.error().errors[0].message, HasSubstr("--machine FILE"));
-    const auto several = choose_file("", nullptr, {"/run/lockstep/a/machine.textproto", "/run/lockstep/b/machine.textproto"});
+    const auto several =
+        choose_file("", nullptr, {"/run/lockstep/a/machine.textproto", "/run/lockstep/b/machine.textproto"});
     ASSERT_FALSE(several);
     EXPECT_THAT(several.error().errors[0].message, HasSubstr("(a, b)"));
 }

@@ -33,7 +33,8 @@ TEST(Target, IsAnAxisAndAPlaceInMillimetres) {
 }
 
 TEST(Target, ThatIsNoneIsRefusedWithAnExample) {
-    for (const char* word : {"", "X", "X=", "=10", "X=ten", "X=10mm", "X=1e999", "X=nan", "X=inf", "X = 10", "X=0x10", "X=1,5"}) {
+    for (const char* word :
+         {"", "X", "X=", "=10", "X=ten", "X=10mm", "X=1e999", "X=nan", "X=inf", "X = 10", "X=0x10", "X=1,5"}) {
         const auto target = parse_target(word);
         ASSERT_FALSE(target) << word;
         EXPECT_THAT(target.error(), HasSubstr("X=10"));

@@ -22,7 +22,8 @@ TEST(ProcessRecord, IsReadAsItWasWritten) {
 }
 
 TEST(ProcessRecord, ThatIsDamagedIsLeftOut) {
-    EXPECT_THAT(records_from_text("axis-X\n\naxis-Y 12 x\naxis-Z 7 9\naxis-Q -1 9\n"), ElementsAre(ProcessRecord{"axis-Z", 7, 9}));
+    EXPECT_THAT(records_from_text("axis-X\n\naxis-Y 12 x\naxis-Z 7 9\naxis-Q -1 9\n"),
+                ElementsAre(ProcessRecord{"axis-Z", 7, 9}));
 }
 
 TEST(ProcessRecord, IsOfOneProcessNotOfItsNumber) {

@@ -34,11 +34,13 @@ proto::StatusReport running() {
 }
 
 TEST(StatusText, SaysPhaseJobLineAndAge) {
-    EXPECT_THAT(status_text(running()), HasSubstr("mill: Running, job 3, 42 %, line 120, 12.3 s left (heard 4 ms ago)\n"));
+    EXPECT_THAT(status_text(running()),
+                HasSubstr("mill: Running, job 3, 42 %, line 120, 12.3 s left (heard 4 ms ago)\n"));
 }
 
 TEST(StatusText, SaysWhereEachAxisIsAndHowFast) {
-    EXPECT_THAT(status_text(running()), HasSubstr("X                       -5.0000        -10.000   Cruise      yes\n"));
+    EXPECT_THAT(status_text(running()),
+                HasSubstr("X                       -5.0000        -10.000   Cruise      yes\n"));
     EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not heard   -\n"));
 }
 
@@ -74,7 +76,8 @@ TEST(StatusText, SaysThatNobodyIsHeard) {
 }
 
 TEST(MachineFault, NamesAnAxisOnlyWhereItIsOneAxiss) {
-    const auto limit = fault_of({.fault = static_cast<std::uint16_t>(FaultCode::LimitHit), .fault_axis = 1}, two_axes());
+    const auto limit =
+        fault_of({.fault = static_cast<std::uint16_t>(FaultCode::LimitHit), .fault_axis = 1}, two_axes());
     EXPECT_EQ(limit->axis(), "Y");
     const auto estop = fault_of({.fault = static_cast<std::uint16_t>(FaultCode::EmergencyStopped)}, two_axes());
     EXPECT_FALSE(estop->has_axis());

@@ -1,0 +1,70 @@
+#include "clients/lockstep/live/job_watch.hpp"
+
+#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/status_text.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kGlance{100};  // how soon a signal is noticed
+
+}  // namespace
+
+JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop)
+    : session_(session),
+      number_(number),
+      command_(command),
+      voice_(voice),
+      stop_(stop),
+      asked_(session.state()->state.coordinator) {}
+
+std::expected<JobVerdict, Failure> JobWatch::wait() {
+    for (;;) {
+        session_.listen(kGlance);
+        if (session_.is_silent()) { return std::unexpected(silent()); }
+        const MachineState& state = session_.state()->state;
+        const JobVerdict verdict = judge(state, number_, asked_);
+        if (verdict != JobVerdict::InProgress) { return verdict; }
+        if (stop_.requested() && !stop_sent_) {
+            if (auto sent = send_stop(); !sent) { return std::unexpected(sent.error()); }
+        }
+        if (state.job == number_) { tell(state); }
+    }
+}
+
+Failure JobWatch::silent() const {
+    Failure failure = session_.silent();
+    std::string& message = failure.errors.front().message;
+    message = "the coordinator fell silent; the axes come to rest on the path by themselves. " + message;
+    return failure;
+}
+
+std::expected<void, Failure> JobWatch::send_stop() {
+    stop_sent_ = true;
+    voice_.say("stopping on the path ...");
+    const auto reply = session_.command(CommandKind::Stop);
+    if (!reply) { return std::unexpected(reply.error()); }
+    if (reply->status == ReplyStatus::Accepted) { return {}; }
+    return std::unexpected(
+        failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
+}
+
+void JobWatch::tell(const MachineState& state) {
+    if (state.line > 0) { line_ = state.line; }
+    const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+    if (rests && state.phase != told_) {
+        const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
+        const std::string where = line_ > 0 ? " at line " + std::to_string(line_) : "";
+        voice_.say(how + where + ": go on with lockstep resume, or end it with lockstep stop");
+    }
+    told_ = state.phase;
+    if (!rests) { tell_progress(); }
+}
+
+void JobWatch::tell_progress() {
+    const proto::StatusReport status = status_report(session_);
+    if (command_ == CommandKind::Home) { return voice_.progress(homing_text(status)); }
+    voice_.progress(voice_.is_terminal() ? progress_bar(status) : progress_text(status));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,41 @@
+// Waits for a job's end, and tells what happens meanwhile: progress, pauses, a stop that was asked for.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+
+#include "clients/lockstep/live/job_verdict.hpp"
+#include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+
+class JobWatch {
+public:
+    /// `number`: of the job, from the reply to `command`.
+    JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop);
+
+    /// A stop signal stops the machine on its path; then the job's end is waited for as ever. Error: the coordinator
+    /// fell silent, or refused the stop.
+    std::expected<JobVerdict, Failure> wait();
+
+private:
+    Failure silent() const;
+    std::expected<void, Failure> send_stop();
+    void tell(const MachineState& state);
+    void tell_progress();
+
+    Session& session_;
+    std::uint64_t number_;
+    CommandKind command_;
+    Voice& voice_;
+    const StopSignal& stop_;
+    Identity asked_;
+    bool stop_sent_ = false;
+    std::int32_t line_ = 0;  // the last in motion
+    std::optional<MachinePhase> told_;
+};
+
+}  // namespace lockstep

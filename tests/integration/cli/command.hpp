@@ -1,0 +1,50 @@
+// The lockstep command as a user runs it: words in; exit code, standard output and standard error back.
+#pragma once
+
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace lockstep {
+
+using Words = std::vector<std::string>;
+
+struct Ran {
+    int code = 0;  // minus the signal that ended it
+    std::string out;
+    std::string err;
+
+    /// Standard output as a report; a failed expectation where it is none.
+    template <typename Report>
+    Report json() const {
+        Report report;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(out, &report).ok()) << out << err;
+        return report;
+    }
+};
+
+/// A process that runs beside the test; ended with the object.
+class Command {
+public:
+    /// program: a path. Its standard input is empty, and neither output is a terminal.
+    explicit Command(const std::string& program, const Words& words);
+    ~Command();
+    Command(const Command&) = delete;
+    Command& operator=(const Command&) = delete;
+
+    void signal(int number) const;
+    /// What it has written so far.
+    std::string out() const;
+    Ran wait();
+
+private:
+    pid_t pid_ = 0;
+    std::string files_;  // where its output goes: this .out and .err
+};
+
+Ran run_lockstep(const Words& words);
+
+}  // namespace lockstep

@@ -1,0 +1,118 @@
+// What a user does with a machine, and what he is told.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kSquare = "G21 G90\nG0 X20 Y0\nG1 X60 F9000\nG1 Y40\nG1 X20\nG1 Y0\nM2\n";
+constexpr const char* kLong = "G21 G90\nG1 X150 Y20 F600\nG1 X20 Y0\nM2\n";
+constexpr const char* kPaused = "G21 G90\nG0 X20 Y0\nM0\nG1 X30 F9000\nM2\n";
+
+class Motion : public OwnMachine {
+protected:
+    void SetUp() override {
+        OwnMachine::SetUp();
+        bring_up_and_home();
+    }
+};
+
+TEST_F(OwnMachine, IsUpThenHomedThenMovedThenDown) {
+    bring_up();
+    EXPECT_EQ(status().phase(), "Idle");
+    EXPECT_FALSE(status().axes(0).homed());
+
+    const Ran refused = run_lockstep({"move", "X=10", "--json"});
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_EQ(refused.json<proto::RunReport>().outcome(), "refused");
+    EXPECT_EQ(refused.json<proto::RunReport>().fault().name(), "not-homed");
+
+    EXPECT_EQ(run_lockstep({"home"}).code, 0);
+    EXPECT_TRUE(status().axes(1).homed());
+
+    const auto moved = run_lockstep({"move", "X=10", "Y=-3.5", "--json"}).json<proto::RunReport>();
+    EXPECT_EQ(moved.outcome(), "done");
+    EXPECT_EQ(moved.final_positions(0).position_steps(), 800);
+    EXPECT_EQ(moved.final_positions(1).position_steps(), -280);
+
+    const Ran down = run_lockstep({"down"});
+    EXPECT_EQ(down.code, 0);
+    EXPECT_THAT(down.out, HasSubstr("is down"));
+    EXPECT_TRUE(state().running().empty());
+    EXPECT_EQ(run_lockstep({"down"}).code, 0);  // nothing to do is done
+}
+
+TEST_F(Motion, OfAProgramEndsWhereItSays) {
+    const std::string square = write("square.gcode", kSquare);
+    const Ran dry = run_lockstep({"run", square, "--dry-run", "--json"});
+    EXPECT_EQ(dry.json<proto::RunReport>().outcome(), "dry-run");
+    EXPECT_GT(dry.json<proto::RunReport>().planned_s(), 0.5);
+    EXPECT_EQ(status().job(), 1u);  // homing; nothing was sent
+
+    const Ran run = run_lockstep({"run", square});
+    EXPECT_EQ(run.code, 0) << run.out << run.err;
+    EXPECT_THAT(run.out, HasSubstr("run square.gcode: done after"));
+    EXPECT_THAT(run.out, HasSubstr("X 20.0000  Y 0.0000"));
+}
+
+TEST_F(Motion, IsHeldResumedAndStopped) {
+    EXPECT_EQ(run_lockstep({"run", write("long.gcode", kLong), "--detach"}).code, 0);
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"move", "X=1"}).code, 1);  // busy
+    EXPECT_EQ(run_lockstep({"hold"}).code, 0);
+    EXPECT_EQ(status().phase(), "Holding");
+    EXPECT_EQ(run_lockstep({"hold"}).code, 1);  // nothing moves
+    EXPECT_EQ(run_lockstep({"resume"}).code, 0);
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_TRUE(run_lockstep({"stop", "--json"}).json<proto::CommandReport>().accepted());
+    EXPECT_EQ(status().phase(), "Idle");
+    EXPECT_TRUE(status().axes(0).at_rest());
+}
+
+TEST_F(Motion, ThatAnotherStopsIsNotDone) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"stop"}).code, 0);
+    const Ran ran = run.wait();
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.json<proto::RunReport>().outcome(), "stopped");
+}
+
+TEST_F(Motion, StopsOnItsPathWhenItsCommandIsInterrupted) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ASSERT_TRUE(becomes("Running"));
+    run.signal(SIGINT);
+    const Ran ran = run.wait();
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_THAT(ran.out, HasSubstr("stopped on the path"));
+    EXPECT_EQ(status().phase(), "Idle");
+}
+
+TEST_F(Motion, PausesAndSaysHowToGoOn) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("paused.gcode", kPaused)});
+    ASSERT_TRUE(eventually([&] { return run.out().find("lockstep resume") != std::string::npos; }));
+    EXPECT_EQ(status().phase(), "Paused");
+    EXPECT_EQ(run_lockstep({"resume"}).code, 0);
+    EXPECT_EQ(run.wait().code, 0);
+}
+
+TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"estop"}).code, 0);
+    const Ran ran = run.wait();
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.json<proto::RunReport>().fault().name(), "emergency-stopped");
+    EXPECT_EQ(status().phase(), "Fault");
+    EXPECT_EQ(run_lockstep({"home"}).code, 1);
+    EXPECT_EQ(run_lockstep({"reset"}).code, 0);
+    EXPECT_EQ(run_lockstep({"home", "X", "y"}).code, 0);
+}
+
+}  // namespace
+}  // namespace lockstep

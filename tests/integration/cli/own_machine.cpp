@@ -1,0 +1,115 @@
+#include "tests/integration/cli/own_machine.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "services/documents/machine_file.hpp"
+#include "tests/integration/wire/eventually.hpp"
+#include "tests/integration/wire/own_network.hpp"
+
+namespace lockstep {
+namespace {
+
+AxisConfig quick_axis(const char* name, double min_mm, double max_mm) {
+    return {.name = name,
+            .steps_per_mm = 80,
+            .start_velocity_mm_s = 10,
+            .max_velocity_mm_s = 150,
+            .max_accel_mm_s2 = 1500,
+            .max_decel_mm_s2 = 1500,
+            .position_min_mm = min_mm,
+            .position_max_mm = max_mm,
+            .homing = {.search_velocity_mm_s = 10,
+                       .latch_velocity_mm_s = 5,
+                       .pulloff_mm = 0.5,
+                       .switch_position_mm = min_mm - 1,
+                       .park_mm = min_mm + 1},
+            .plant = {.start_position_mm = min_mm + 1,
+                      .travel_margin_mm = 2,
+                      .max_torque_accel_mm_s2 = 2250,
+                      .max_jump_mm_s = 15}};
+}
+
+}  // namespace
+
+void OwnMachine::SetUp() {
+    name_ = "cli-" + std::to_string(getpid());
+    folder_ = std::filesystem::path(testing::TempDir()) / ("lockstep-" + name_);
+    std::filesystem::create_directories(folder_);
+    const MachineConfig machine{
+        .name = name_, .network = own_network(), .axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)}};
+    file_ = write("machine.textproto", machine_text(machine));
+    setenv("LOCKSTEP_STATE", (folder_ / "state").c_str(), 1);
+    setenv("LOCKSTEP_MACHINE", file_.c_str(), 1);
+    start_guard();
+}
+
+/// The guard takes the machine down when the pipe closes: at the test's end, however it comes.
+void OwnMachine::start_guard() {
+    int ends[2] = {};
+    ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
+    guard_pipe_ = ends[1];
+    guard_ = fork();
+    if (guard_ != 0) {
+        close(ends[0]);
+        return;
+    }
+    close(ends[1]);
+    char nothing = 0;
+    while (read(ends[0], &nothing, 1) > 0) {}
+    dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+    execl(LOCKSTEP_COMMAND, "lockstep", "down", static_cast<char*>(nullptr));
+    _exit(127);
+}
+
+void OwnMachine::TearDown() {
+    if (HasFailure()) {
+        for (const char* log : {"supervisor", "coordinator", "axis-X", "axis-Y"}) {
+            std::cerr << log << ":\n" << tail_of(state().log_file(log), 20);
+        }
+    }
+    close(guard_pipe_);
+    int status = 0;
+    waitpid(guard_, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_TRUE(state().running().empty());
+    std::filesystem::remove_all(folder_);
+}
+
+std::string OwnMachine::write(const std::string& name, const std::string& text) const {
+    const std::filesystem::path path = folder_ / name;
+    std::ofstream(path) << text;
+    return path.string();
+}
+
+void OwnMachine::bring_up() const {
+    const Ran up = run_lockstep({"up"});
+    ASSERT_EQ(up.code, 0) << up.out << up.err;
+}
+
+void OwnMachine::bring_up_and_home() const {
+    bring_up();
+    const Ran home = run_lockstep({"home"});
+    ASSERT_EQ(home.code, 0) << home.out << home.err;
+}
+
+proto::StatusReport OwnMachine::status() const {
+    return run_lockstep({"status", "--json"}).json<proto::StatusReport>();
+}
+
+bool OwnMachine::becomes(const std::string& phase) const {
+    return eventually([&] { return status().phase() == phase; });
+}
+
+pid_t OwnMachine::process(const std::string& name) const {
+    for (const ProcessRecord& record : state().running()) {
+        if (record.name == name) { return record.pid; }
+    }
+    return 0;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,46 @@
+// A machine that a test has to itself: network, name, state directory. Whatever becomes of the test, also when it is
+// killed, what it started is taken down.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+
+#include "clients/lockstep/live/state_directory.hpp"
+#include "idl/proto/report.pb.h"
+#include "tests/integration/cli/command.hpp"
+
+namespace lockstep {
+
+/// Two axes that home within a second: X from 0 to 200 mm, Y from -50 to 50 mm.
+class OwnMachine : public testing::Test {
+protected:
+    void SetUp() override;
+    void TearDown() override;
+
+    /// Writes a file beside the machine's; its path.
+    std::string write(const std::string& name, const std::string& text) const;
+
+    void bring_up() const;
+    void bring_up_and_home() const;
+    proto::StatusReport status() const;
+    /// Until the machine is in this phase; false if it is not within the bound.
+    bool becomes(const std::string& phase) const;
+    pid_t process(const std::string& name) const;
+
+    StateDirectory state() const { return StateDirectory(name_); }
+    const std::string& file() const { return file_; }
+
+private:
+    void start_guard();
+
+    std::string name_;
+    std::filesystem::path folder_;
+    std::string file_;
+    pid_t guard_ = 0;
+    int guard_pipe_ = -1;
+};
+
+}  // namespace lockstep

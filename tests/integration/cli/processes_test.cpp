@@ -1,0 +1,81 @@
+// A machine's processes: who is refused, what is started again, what is never left behind.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <filesystem>
+
+#include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+class Processes : public OwnMachine {};
+
+std::string beside_command(const char* program) {
+    return (std::filesystem::path(LOCKSTEP_COMMAND).parent_path() / program).string();
+}
+
+TEST_F(Processes, AreStartedOnce) {
+    bring_up();
+    const Ran again = run_lockstep({"up"});
+    EXPECT_EQ(again.code, 1);
+    EXPECT_THAT(again.err, HasSubstr("is up already"));
+    EXPECT_EQ(Command(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"}).wait().code, 1);
+    EXPECT_EQ(Command(beside_command("lockstep-axis"), {"--machine", file(), "--axis", "X", "--no-lcm"}).wait().code,
+              1);
+    EXPECT_EQ(status().phase(), "Idle");
+}
+
+TEST_F(Processes, ThatOthersStartedAreNotTakenForOnesOwn) {
+    const Command coordinator(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"});
+    ASSERT_TRUE(becomes("Waiting"));
+    const Ran up = run_lockstep({"up"});
+    EXPECT_EQ(up.code, 1);
+    EXPECT_THAT(up.err, HasSubstr("started by other means"));
+    EXPECT_TRUE(state().running().empty());
+}
+
+TEST_F(Processes, ThatDieAreStartedAgainAndTheirAxisIsUnhomed) {
+    bring_up_and_home();
+    const pid_t before = process("axis-Y");
+    kill(before, SIGKILL);
+    ASSERT_TRUE(eventually([&] { return process("axis-Y") != 0 && process("axis-Y") != before; }));
+    ASSERT_TRUE(eventually([&] { return status().axes(1).present() && !status().axes(1).homed(); }));
+    EXPECT_TRUE(status().axes(0).homed());
+}
+
+TEST_F(Processes, AreTakenDownAlsoWithoutTheirSupervisor) {
+    bring_up();
+    const auto processes = state().running();
+    for (const ProcessRecord& each : processes) {
+        if (each.name != kSupervisor) { kill(each.pid, SIGSTOP); }  // they cannot follow their supervisor by themselves
+    }
+    kill(process(kSupervisor), SIGKILL);
+    const Ran down = run_lockstep({"down"});
+    EXPECT_EQ(down.code, 0) << down.out << down.err;
+    EXPECT_TRUE(wait_until_gone(processes, std::chrono::milliseconds{0}));
+    bring_up();
+}
+
+TEST_F(Processes, RunTheirDevicesApartWhereAsked) {
+    ASSERT_EQ(run_lockstep({"up", "--fpga", "shm"}).code, 0);
+    EXPECT_NE(process("fpga-X"), 0);
+    EXPECT_EQ(run_lockstep({"home"}).code, 0);
+    EXPECT_EQ(run_lockstep({"move", "X=5"}).code, 0);
+}
+
+TEST_F(Processes, EndWithASupervisorInTheForeground) {
+    Command up(LOCKSTEP_COMMAND, {"up", "--foreground"});
+    ASSERT_TRUE(becomes("Idle"));
+    const auto processes = state().running();
+    EXPECT_EQ(processes.size(), 4u);
+    up.signal(SIGTERM);
+    EXPECT_EQ(up.wait().code, 0);
+    EXPECT_TRUE(wait_until_gone(processes, std::chrono::milliseconds{0}));
+}
+
+}  // namespace
+}  // namespace lockstep
