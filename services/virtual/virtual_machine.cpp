@@ -14,17 +14,17 @@ struct Mail {
     std::vector<Command> commands;
     std::vector<Reply> replies;
 
-    void operator()(std::shared_ptr<const Frame>& m) { frames.push_back(*m); }
-    void operator()(AxisState& m) { axes.push_back(m); }
-    void operator()(MachineState& m) { machine.push_back(m); }
-    void operator()(AxisCommand& m) { axis_commands.push_back(m); }
-    void operator()(Command& m) { commands.push_back(m); }
-    void operator()(Reply& m) { replies.push_back(std::move(m)); }
+    void operator()(const Frame& m) { frames.push_back(m); }
+    void operator()(const AxisState& m) { axes.push_back(m); }
+    void operator()(const MachineState& m) { machine.push_back(m); }
+    void operator()(const AxisCommand& m) { axis_commands.push_back(m); }
+    void operator()(const Command& m) { commands.push_back(m); }
+    void operator()(const Reply& m) { replies.push_back(m); }
 };
 
 Mail collect(VirtualNetwork& network, Tick now, std::size_t address) {
     Mail mail;
-    while (auto message = network.receive(now, static_cast<VirtualNetwork::Receiver>(address))) {
+    while (const auto message = network.receive(now, static_cast<VirtualNetwork::Receiver>(address))) {
         std::visit(mail, *message);
     }
     return mail;
@@ -90,24 +90,25 @@ void VirtualMachine::step_coordinator() {
     const Mail mail = collect(network_, now_, coordinator_address());
     const CoordinatorOutputs out = coordinator_.step({now_, mail.axes, mail.machine, mail.commands});
     for (const Frame& frame : out.frames) {
-        const auto shared = std::make_shared<const Frame>(frame);
-        for (std::size_t i = 0; i < axes_.size(); ++i) {
-            network_.send(now_, static_cast<VirtualNetwork::Receiver>(i), shared);
-        }
+        const auto message = std::make_shared<const VirtualMessage>(frame);
+        for (std::size_t i = 0; i < axes_.size(); ++i) { send(i, message); }
     }
     if (out.state) { multicast(*out.state, coordinator_address()); }
     for (const AxisCommand& command : out.axis_commands) {
-        network_.send(now_, command.axis, command);
+        send(command.axis, std::make_shared<const VirtualMessage>(command));
     }
-    for (const Reply& reply : out.replies) {
-        network_.send(now_, static_cast<VirtualNetwork::Receiver>(client_address()), reply);
-    }
+    for (const Reply& reply : out.replies) { send(client_address(), std::make_shared<const VirtualMessage>(reply)); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
 }
 
-void VirtualMachine::multicast(const VirtualMessage& message, std::size_t from) {
+void VirtualMachine::send(std::size_t to, SharedMessage message) {
+    network_.send(now_, static_cast<VirtualNetwork::Receiver>(to), std::move(message));
+}
+
+void VirtualMachine::multicast(VirtualMessage message, std::size_t from) {
+    const auto shared = std::make_shared<const VirtualMessage>(std::move(message));
     for (std::size_t to = 0; to <= client_address(); ++to) {
-        if (to != from) { network_.send(now_, static_cast<VirtualNetwork::Receiver>(to), message); }
+        if (to != from) { send(to, shared); }
     }
 }
 
@@ -130,7 +131,7 @@ std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std:
 }
 
 void VirtualMachine::repeat_command() {
-    network_.send(now_, static_cast<VirtualNetwork::Receiver>(coordinator_address()), command_);
+    send(coordinator_address(), std::make_shared<const VirtualMessage>(command_));
 }
 
 const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {

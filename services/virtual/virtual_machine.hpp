@@ -69,7 +69,8 @@ private:
     void step_axis(std::size_t i);
     void step_coordinator();
     void listen();
-    void multicast(const VirtualMessage& message, std::size_t from);
+    void send(std::size_t to, SharedMessage message);
+    void multicast(VirtualMessage message, std::size_t from);
     std::size_t coordinator_address() const { return axes_.size(); }
     std::size_t client_address() const { return axes_.size() + 1; }
 

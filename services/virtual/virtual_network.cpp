@@ -6,22 +6,24 @@ bool VirtualNetwork::happens(double probability) {
     return probability > 0 && static_cast<double>(random_() >> 11) * 0x1p-53 < probability;
 }
 
-void VirtualNetwork::send(Tick now, Receiver to, VirtualMessage message) {
+void VirtualNetwork::send(Tick now, Receiver to, SharedMessage message) {
     if (happens(behaviour_.lost)) { return; }
     if (happens(behaviour_.duplicated)) { post(now, to, message); }
     post(now, to, std::move(message));
 }
 
-void VirtualNetwork::post(Tick now, Receiver to, VirtualMessage message) {
+void VirtualNetwork::post(Tick now, Receiver to, SharedMessage message) {
     if (mailboxes_.size() <= to) { mailboxes_.resize(to + 1); }
     const auto spread = static_cast<std::uint64_t>((behaviour_.delay_max - behaviour_.delay_min).value) + 1;
     const Ticks delay = behaviour_.delay_min + Ticks{static_cast<std::int64_t>(random_() % spread)};
     mailboxes_[to].push({now + delay, sent_++, std::move(message)});
 }
 
-std::optional<VirtualMessage> VirtualNetwork::receive(Tick now, Receiver to) {
-    if (to >= mailboxes_.size() || mailboxes_[to].empty() || mailboxes_[to].top().arrives > now) { return std::nullopt; }
-    VirtualMessage message = mailboxes_[to].top().message;
+SharedMessage VirtualNetwork::receive(Tick now, Receiver to) {
+    if (to >= mailboxes_.size() || mailboxes_[to].empty() || mailboxes_[to].top().arrives > now) {
+        return nullptr;
+    }
+    SharedMessage message = mailboxes_[to].top().message;
     mailboxes_[to].pop();
     return message;
 }

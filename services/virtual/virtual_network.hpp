@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <queue>
 #include <random>
 #include <variant>
@@ -21,7 +20,10 @@ struct NetworkBehaviour {
     double lost = 0;        // probability
 };
 
-using VirtualMessage = std::variant<std::shared_ptr<const Frame>, AxisState, MachineState, AxisCommand, Command, Reply>;
+using VirtualMessage = std::variant<Frame, AxisState, MachineState, AxisCommand, Command, Reply>;
+
+/// One message, however many copies of it are on their way.
+using SharedMessage = std::shared_ptr<const VirtualMessage>;
 
 class VirtualNetwork {
 public:
@@ -29,16 +31,16 @@ public:
 
     VirtualNetwork(const NetworkBehaviour& behaviour, std::uint64_t seed) : behaviour_(behaviour), random_(seed) {}
 
-    void send(Tick now, Receiver to, VirtualMessage message);
+    void send(Tick now, Receiver to, SharedMessage message);
 
-    /// The next message that has arrived at `to` by `now`, oldest arrival first.
-    std::optional<VirtualMessage> receive(Tick now, Receiver to);
+    /// The next message that has arrived at `to` by `now`, oldest arrival first. Null: no more.
+    SharedMessage receive(Tick now, Receiver to);
 
 private:
     struct Parcel {
         Tick arrives;
         std::uint64_t number = 0;
-        VirtualMessage message;
+        SharedMessage message;
         bool operator>(const Parcel& other) const {
             return arrives != other.arrives ? arrives > other.arrives : number > other.number;
         }
@@ -46,7 +48,7 @@ private:
     using Mailbox = std::priority_queue<Parcel, std::vector<Parcel>, std::greater<>>;
 
     bool happens(double probability);
-    void post(Tick now, Receiver to, VirtualMessage message);
+    void post(Tick now, Receiver to, SharedMessage message);
 
     NetworkBehaviour behaviour_;
     std::mt19937_64 random_;
