@@ -9,7 +9,7 @@ namespace {
 /// Slots as short as a quiet network allows, up to those for hosts that stall for long.
 ProtocolTiming draw_timing(Draw& draw) {
     ProtocolTiming t;
-    t.slot_us = draw.any_of<std::int64_t>({500, 1000, 1000, 2000, 5000, 10'000});
+    t.slot_us = draw.any_of<std::int64_t>({500, 1000, 2000, 2000, 5000, 5000, 10'000, 10'000});
     const auto slots = [&draw](std::int64_t low, std::int64_t high) { return static_cast<int>(draw.whole(low, high)); };
     t.stall_slots = slots(1, t.slot_us < 2000 ? 12 : 5);
     t.freshness_slots = t.stall_slots + slots(1, 3);
@@ -29,7 +29,7 @@ struct Dynamics {
 
 Dynamics draw_dynamics(Draw& draw) {
     Dynamics d;
-    d.top = draw.magnitude(300, 120'000);
+    d.top = draw.magnitude(300, 80'000);
     d.start = draw.chance(0.1) ? d.top : draw.magnitude(std::min(30.0, d.top / 3), std::min(d.top, 3000.0));
     d.accel = std::max(0.1 * d.top, d.top - d.start) / draw.magnitude(0.005, 0.8);
     d.decel = draw.chance(0.3) ? d.accel : d.accel * draw.magnitude(0.4, 2.5);
@@ -74,8 +74,9 @@ AxisConfig draw_axis(Draw& draw, const std::string& name) {
     axis.position_min_mm = draw.chance(0.5) ? 0 : -travel_mm * draw.real(0, 1.5);
     axis.position_max_mm = axis.position_min_mm + travel_mm;
     axis.plant.travel_margin_mm = draw.real(5, 30) / axis.steps_per_mm;
+    // A motor that loses nothing: corners that follow each other closely may ask more of one than each does alone.
     axis.plant.max_torque_accel_mm_s2 = 1.5 * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
-    axis.plant.max_jump_mm_s = 1.2 * axis.start_velocity_mm_s;
+    axis.plant.max_jump_mm_s = 3 * axis.max_velocity_mm_s;
     axis.homing = draw_homing(draw, axis, d);
     axis.plant.start_position_mm = draw_start(draw, axis, travel_mm);
     return axis;

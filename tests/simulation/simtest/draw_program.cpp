@@ -7,7 +7,7 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kProgramSeconds = 6;  // about; what is drawn ends there
+constexpr double kProgramSeconds = 3;  // about; what is drawn ends there
 constexpr std::int64_t kMostGroups = 8;
 
 class ProgramDrawer {
@@ -111,8 +111,9 @@ private:
 
     /// A feed below, at or above what the machine can do, but not so slow that nothing else would happen. The first
     /// move comes from wherever the machine stands: rapid, since a feed would be for another distance.
-    void move(const std::vector<double>& to, bool may_be_rapid) {
-        const bool rapid = may_be_rapid || program_.blocks.empty();
+    void move(const std::vector<double>& to, bool is_rapid) {
+        const bool rapid = is_rapid || !moved_;
+        moved_ = true;
         double least_s = 1e-6;
         double square = 0;
         for (std::size_t i = 0; i < to.size(); ++i) {
@@ -138,6 +139,7 @@ private:
     Program program_;
     std::vector<double> at_;
     double seconds_ = 0;
+    bool moved_ = false;
 };
 
 }  // namespace

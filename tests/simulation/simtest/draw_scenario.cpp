@@ -96,7 +96,7 @@ Scenario draw_scenario(std::uint64_t seed, const NetworkFaults& faults, std::opt
         scenario.before_homing.push_back(
             {CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
-    for (std::int64_t n = draw.whole(1, 3); n > 0; --n) {
+    for (std::int64_t n = draw.whole(1, 2); n > 0; --n) {
         scenario.tasks.push_back(draw_task(draw, scenario.machine));
     }
     return scenario;
