@@ -47,7 +47,8 @@ const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
         wait_slots(kAnswerSlots);
         if (vm_.reply_to(sequence) == nullptr) { vm_.repeat_command(); }
     }
-    const bool answered = await([&] { return vm_.reply_to(sequence) != nullptr; }, kAnswerSlots * slot_s(), "an answer");
+    const bool answered =
+        await([&] { return vm_.reply_to(sequence) != nullptr; }, kAnswerSlots * slot_s(), "an answer");
     return answered ? vm_.reply_to(sequence) : nullptr;
 }
 

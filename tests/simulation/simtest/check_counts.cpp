@@ -33,8 +33,12 @@ void check_sequence(const Recording& recording, const JobRecord& job, std::size_
         return;
     }
     if (job.outcome != JobOutcome::Done) { return; }
-    if (static_cast<std::int64_t>(steps.size()) != course.steps() || job.course.from[i] + sum(steps) != job.course.to[i]) {
-        violations.push_back({"exact", i, {}, job.end_step[i],
+    if (static_cast<std::int64_t>(steps.size()) != course.steps() ||
+        job.course.from[i] + sum(steps) != job.course.to[i]) {
+        violations.push_back({"exact",
+                              i,
+                              {},
+                              job.end_step[i],
                               std::to_string(steps.size()) + " steps made of " + std::to_string(course.steps())});
     }
 }
@@ -54,7 +58,9 @@ Violations check_counts(const Recording& recording) {
             at = job.end_step[i];
             if (!job.homing) { check_sequence(recording, job, i, violations); }
         }
-        if (at != recording.axes[i].steps.size()) { violations.push_back({"exact", i, {}, at, "steps after the last job"}); }
+        if (at != recording.axes[i].steps.size()) {
+            violations.push_back({"exact", i, {}, at, "steps after the last job"});
+        }
     }
     return violations;
 }

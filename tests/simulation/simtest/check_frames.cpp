@@ -56,12 +56,16 @@ private:
     void check_track(std::size_t i, const Track& track, const Track* before) {
         const bool same_epoch = before != nullptr && before->epoch == track.epoch;
         const FrameNumber ran = same_epoch ? before->frame : 0;
-        if (!track.tail && track.armed < track.frame) { object(i, track.start, "frame " + text(track.frame) + " was not armed"); }
+        if (!track.tail && track.armed < track.frame) {
+            object(i, track.start, "frame " + text(track.frame) + " was not armed");
+        }
         if (same_epoch && before->tail) { object(i, track.start, "run after the tail of its epoch"); }
         if (track.frame != ran + (track.tail ? 0 : 1)) {
             object(i, track.start, "frame " + text(track.frame) + " run after frame " + text(ran));
         }
-        if (same_epoch && track.start != before->start + before->ticks) { object(i, track.start, "a gap between frames"); }
+        if (same_epoch && track.start != before->start + before->ticks) {
+            object(i, track.start, "a gap between frames");
+        }
         const auto epoch = recording_.frames.find(track.epoch);
         if (epoch == recording_.frames.end() || !epoch->second.contains(track.frame)) {
             return object(i, track.start, "a frame that was never sent");

@@ -150,7 +150,7 @@ private:
     }
 
     void object(const char* rule, std::size_t n, double is, double most, std::size_t window) {
-        constexpr std::size_t kEnough = 8;
+        constexpr std::size_t kEnough = 1000;
         if (violations_.size() >= kEnough) { return; }
         char text[160];
         std::snprintf(text, sizeof text, "%.6g steps/tick, at most %.6g, over %zu steps; start velocity %.6g", is, most,

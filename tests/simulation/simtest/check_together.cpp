@@ -41,7 +41,7 @@ private:
     }
 
     const AxisCourse& course_;
-    std::size_t low_ = 0;   // the moves in which the places were last found
+    std::size_t low_ = 0;  // the moves in which the places were last found
     std::size_t high_ = 0;
     double earliest_ = 0;
     double latest_ = 0;

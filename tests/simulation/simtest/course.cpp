@@ -114,9 +114,7 @@ Course course_of(const Program& program, const MachineConfig& machine, const Cou
     const std::vector<Stretch> stretches = stretches_of(program, machine, from);
     Course course{.from = from, .to = stretches.empty() ? from : stretches.back().to};
     course.moves = stretches.size();
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        course.axes.push_back(axis_course(machine, i, from, stretches));
-    }
+    for (std::size_t i = 0; i < from.size(); ++i) { course.axes.push_back(axis_course(machine, i, from, stretches)); }
     Counts at = from;
     for (const Stretch& stretch : stretches) {
         course.pauses += stretch.pause ? 1 : 0;

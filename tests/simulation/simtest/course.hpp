@@ -37,9 +37,9 @@ struct Course {
     Counts from;
     Counts to;
     std::vector<AxisCourse> axes;
-    std::size_t moves = 0;   // pauses and dwells included
+    std::size_t moves = 0;  // pauses and dwells included
     std::size_t pauses = 0;
-    double seconds = 0;      // far more than it can take, rests of the protocol not included
+    double seconds = 0;  // far more than it can take, rests of the protocol not included
 };
 
 Course course_of(const Program& program, const MachineConfig& machine, const Counts& from);

@@ -93,12 +93,9 @@ Scenario draw_scenario(std::uint64_t seed, const NetworkFaults& faults, std::opt
     scenario.machine = draw_machine(draw, axes.value_or(drawn));
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (draw.chance(0.3)) {
-        scenario.before_homing.push_back(
-            {CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
+        scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
-    for (std::int64_t n = draw.whole(1, 2); n > 0; --n) {
-        scenario.tasks.push_back(draw_task(draw, scenario.machine));
-    }
+    for (std::int64_t n = draw.whole(1, 2); n > 0; --n) { scenario.tasks.push_back(draw_task(draw, scenario.machine)); }
     return scenario;
 }
 

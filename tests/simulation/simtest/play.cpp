@@ -14,7 +14,8 @@ void check_slides(Bench& bench, const Counts& at) {
         const double mm = static_cast<double>(at[i]) / axis.steps_per_mm;
         const double is = bench.vm().axis(i).simulated()->plant().position_mm();
         if (std::abs(is - mm) * axis.steps_per_mm > 2) {
-            bench.object("place", axis.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));
+            bench.object("place",
+                         axis.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));
         }
     }
 }
@@ -29,7 +30,8 @@ void check_places(Bench& bench, const Counts& at) {
         for (const StepEdge& step : bench.recording().axes[i].steps) { pulses += step.direction; }
         const std::int64_t encoder = bench.vm().axis(i).simulated()->plant().encoder();
         if (encoder != pulses) {
-            bench.object("lost", axis.name + " has moved " + std::to_string(encoder) + " steps after " + std::to_string(pulses) + " pulses");
+            bench.object("lost", axis.name + " has moved " + std::to_string(encoder) + " steps after " +
+                                     std::to_string(pulses) + " pulses");
         } else if (!state || state->position.count() != at[i] || !state->homed || !state->at_rest) {
             bench.object("place", axis.name + " does not say that it rests homed at step " + std::to_string(at[i]));
         }

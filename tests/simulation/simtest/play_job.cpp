@@ -74,12 +74,16 @@ void play_homing(Bench& bench, Counts& at) {
 
 void JobPlayer::play() {
     if (!start()) { return; }
-    const double seconds = 2 * job_.course.seconds + protocol_seconds(bench_) * static_cast<double>(
-        1 + task_.interrupts.size() + job_.course.pauses);
-    const Tick deadline = bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
+    const double seconds =
+        2 * job_.course.seconds +
+        protocol_seconds(bench_) * static_cast<double>(1 + task_.interrupts.size() + job_.course.pauses);
+    const Tick deadline =
+        bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
     while (!bench_.over() && !ended()) {
         go_on();
-        if (bench_.vm().now() > deadline) { bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s"); }
+        if (bench_.vm().now() > deadline) {
+            bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s");
+        }
     }
     (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
     record();
@@ -91,7 +95,9 @@ bool JobPlayer::start() {
     const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
     const Reply* reply = bench_.ask(CommandKind::Run, program);
     if (reply == nullptr) { return false; }
-    if (reply->status != ReplyStatus::Accepted) { bench_.object("refusal", "a good program was " + answer_text(*reply)); }
+    if (reply->status != ReplyStatus::Accepted) {
+        bench_.object("refusal", "a good program was " + answer_text(*reply));
+    }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
 }

@@ -29,7 +29,7 @@ private:
     const Task& task_;
     Counts& at_;
     JobRecord job_;
-    std::size_t next_ = 0;   // of the interrupts
+    std::size_t next_ = 0;  // of the interrupts
     Tick moving_since_;
 };
 

@@ -18,9 +18,9 @@ struct Track {
     bool tail = false;
     Tick start;
     Ticks ticks;
-    std::int64_t net_steps = 0;   // what its pieces amount to
-    bool cut = false;             // ended early: at a switch
-    FrameNumber armed = 0;        // the highest frame the axis had then told its device it may run
+    std::int64_t net_steps = 0;  // what its pieces amount to
+    bool cut = false;            // ended early: at a switch
+    FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
 };
 
 struct AxisRecord {
@@ -41,7 +41,7 @@ struct SentFrame {
 struct JobRecord {
     bool homing = false;
     JobOutcome outcome = JobOutcome::Done;
-    Course course;                       // of a program
+    Course course;  // of a program
     std::vector<std::size_t> first_step;
     std::vector<std::size_t> end_step;
 };
@@ -51,8 +51,8 @@ struct Recording {
     std::vector<AxisRecord> axes;
     std::vector<JobRecord> jobs;
     std::map<Epoch, std::map<FrameNumber, SentFrame>> frames;
-    std::vector<Identity> writers;       // of frames, each once
-    std::vector<std::string> troubles;   // what must not happen at all, as it happened
+    std::vector<Identity> writers;      // of frames, each once
+    std::vector<std::string> troubles;  // what must not happen at all, as it happened
     Tick began;
     Tick ended;
 

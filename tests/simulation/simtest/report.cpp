@@ -42,8 +42,13 @@ void print_run(std::uint64_t seed, const Verdict& verdict, const Options& option
     std::FILE* to = options.json ? stderr : stdout;
     std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, verdict.steps,
                  verdict.simulated_s, verdict.hash, verdict.faulted ? ", ended in Fault" : "");
-    for (const Violation& v : verdict.violations) {
+    constexpr std::size_t kMostPrinted = 8;
+    for (std::size_t n = 0; n < std::min(kMostPrinted, verdict.violations.size()); ++n) {
+        const Violation& v = verdict.violations[n];
         std::fprintf(to, "  VIOLATED %s:%s: %s\n", v.rule.c_str(), place(v).c_str(), v.text.c_str());
+    }
+    if (verdict.violations.size() > kMostPrinted) {
+        std::fprintf(to, "  ... and %zu more\n", verdict.violations.size() - kMostPrinted);
     }
     if (verdict.violations.empty()) { return; }
     const std::string axes = options.axes ? " --axes " + std::to_string(*options.axes) : "";
@@ -54,8 +59,8 @@ void print_run(std::uint64_t seed, const Verdict& verdict, const Options& option
 void print_tally(const Tally& t, const Options& options) {
     const double hours = t.simulated_s / 3600;
     if (options.json) {
-        std::printf("{\"runs\": %" PRIu64 ", \"failed\": %" PRIu64 ", \"faulted\": %" PRIu64
-                    ", \"steps\": %" PRIu64 ", \"simulatedHours\": %.6f, \"wallSeconds\": %.3f}\n",
+        std::printf("{\"runs\": %" PRIu64 ", \"failed\": %" PRIu64 ", \"faulted\": %" PRIu64 ", \"steps\": %" PRIu64
+                    ", \"simulatedHours\": %.6f, \"wallSeconds\": %.3f}\n",
                     t.runs, t.failed, t.faulted, t.steps, hours, t.wall_s);
         return;
     }

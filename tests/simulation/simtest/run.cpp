@@ -31,7 +31,8 @@ Verdict run_seed(std::uint64_t seed, const NetworkFaults& faults, std::optional<
     append(verdict.violations, check_all(recording));
     verdict.steps = recording.steps();
     verdict.hash = recording.hash();
-    verdict.simulated_s = static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
+    verdict.simulated_s =
+        static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
     if (twice && play(scenario).recording.hash() != verdict.hash) {
         verdict.violations.push_back({"determinism", {}, {}, {}, "a second run of the same seed made other steps"});
     }

@@ -11,7 +11,7 @@ namespace lockstep::simtest {
 struct Verdict {
     Violations violations;
     std::uint64_t steps = 0;
-    std::uint64_t hash = 0;    // of all steps
+    std::uint64_t hash = 0;  // of all steps
     double simulated_s = 0;
     bool faulted = false;
 };

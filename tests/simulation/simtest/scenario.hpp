@@ -33,8 +33,8 @@ struct WrongCommand {
 struct Interrupt {
     enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, WrongCommand };
     Kind kind = Kind::HoldAndResume;
-    double after_s = 0;       // since the motion began or went on
-    double rest_s = 0;        // how long it is held
+    double after_s = 0;  // since the motion began or went on
+    double rest_s = 0;   // how long it is held
     WrongCommand wrong;
 };
 

@@ -9,10 +9,10 @@
 namespace lockstep::simtest {
 
 struct Violation {
-    std::string rule;                  // "acceleration", "together", ...
+    std::string rule;  // "acceleration", "together", ...
     std::optional<std::size_t> axis;
     std::optional<std::int64_t> tick;
-    std::optional<std::size_t> step;   // of the axis, counted from power-up
+    std::optional<std::size_t> step;  // of the axis, counted from power-up
     std::string text;
 };
 

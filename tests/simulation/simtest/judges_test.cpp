@@ -1,0 +1,164 @@
+// The judges object: a recording that is right is tampered with, one wrong at a time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/play.hpp"
+#include "tests/simulation/simtest/run.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+AxisConfig axis(const std::string& name) {
+    AxisConfig a{.name = name, .steps_per_mm = 200};
+    a.start_velocity_mm_s = 5;
+    a.max_velocity_mm_s = 200;
+    a.max_accel_mm_s2 = a.max_decel_mm_s2 = 1000;
+    a.position_max_mm = 100;
+    a.homing = {
+        .search_velocity_mm_s = 5, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = 0, .park_mm = 10};
+    a.plant = {.start_position_mm = 1, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 8};
+    return a;
+}
+
+/// One job of two axes: 8 mm and 4 mm in a line, which at 1000 mm/s^2 peaks below half the greatest speed, and a
+/// corner.
+Scenario two_axes() {
+    Scenario scenario{.seed = 7};
+    scenario.machine = {.name = "two", .axes = {axis("X"), axis("Y")}};
+    scenario.machine.timing = {
+        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 6};
+    Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {}, .blocks = {}};
+    program.blocks = {{1, LinearMove{{18, 14}, 0, true}}, {2, LinearMove{{18, 20}, 0, true}}};
+    scenario.tasks = {{program, {}, {}}};
+    return scenario;
+}
+
+class Judges : public testing::Test {
+protected:
+    Judges() : recording(play(two_axes()).recording) {}
+
+    void SetUp() override {
+        ASSERT_EQ(recording.jobs.size(), 2U);
+        ASSERT_EQ(recording.jobs[1].outcome, JobOutcome::Done);
+        ASSERT_TRUE(check_all(recording).empty());
+    }
+    std::span<StepEdge> job_steps(std::size_t i) {
+        const JobRecord& job = recording.jobs[1];
+        return std::span(recording.axes[i].steps).subspan(job.first_step[i], job.end_step[i] - job.first_step[i]);
+    }
+    static bool has(const Violations& violations, const std::string& rule) {
+        return std::ranges::any_of(violations, [&](const Violation& v) { return v.rule == rule; });
+    }
+
+    Recording recording;
+};
+
+TEST_F(Judges, MissAStep) {
+    recording.axes[0].steps.erase(recording.axes[0].steps.begin() +
+                                  static_cast<std::ptrdiff_t>(recording.jobs[1].first_step[0]) + 500);
+    --recording.jobs[1].end_step[0];
+    EXPECT_TRUE(has(check_counts(recording), "exact"));
+    EXPECT_FALSE(check_limits(recording).empty());
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, SeeAStepTooMany) {
+    const StepEdge last = recording.axes[0].steps.back();
+    recording.axes[0].steps.push_back({last.tick + Ticks{1000}, last.direction});
+    ++recording.jobs[1].end_step[0];
+    EXPECT_TRUE(has(check_counts(recording), "exact"));
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, SeeAStepTheWrongWay) {
+    job_steps(1)[100].direction = -1;
+    EXPECT_TRUE(has(check_counts(recording), "exact"));
+}
+
+TEST_F(Judges, SeeAStepTwoMillisecondsLate) {
+    // All behind it keep their time: the one lies among others of its axis no more.
+    auto steps = job_steps(0);
+    steps[3].tick += Ticks{2000};
+    EXPECT_FALSE(check_limits(recording).empty());
+    EXPECT_TRUE(has(check_together(recording), "together"));
+}
+
+TEST_F(Judges, SeeAStepATenthOfItsTimeEarly) {
+    auto steps = job_steps(0);
+    const Ticks interval = steps[501].tick - steps[500].tick;
+    steps[501].tick = steps[501].tick - Ticks{interval.value / 10};
+    EXPECT_FALSE(check_limits(recording).empty());
+}
+
+TEST_F(Judges, SeeAnAxisOneMillisecondBehindTheOther) {
+    for (StepEdge& step : job_steps(1)) { step.tick += Ticks{1000}; }
+    EXPECT_TRUE(check_counts(recording).empty());
+    EXPECT_TRUE(check_limits(recording).empty());
+    EXPECT_TRUE(has(check_together(recording), "together"));
+}
+
+/// The whole job in 1/sqrt(2) of its time: twice the acceleration, on the path, below the greatest speed.
+TEST_F(Judges, SeeTwiceTheAcceleration) {
+    const Tick begin = job_steps(0)[0].tick;
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (StepEdge& step : job_steps(i)) {
+            step.tick = begin + Ticks{std::llround(static_cast<double>((step.tick - begin).value) / std::sqrt(2))};
+        }
+    }
+    EXPECT_TRUE(check_counts(recording).empty());
+    EXPECT_TRUE(check_together(recording).empty());
+    const Violations violations = check_limits(recording);
+    EXPECT_TRUE(has(violations, "acceleration"));
+    EXPECT_TRUE(has(violations, "deceleration"));
+}
+
+TEST_F(Judges, SeeASpeedABitTooHigh) {
+    for (AxisConfig& a : recording.machine.axes) { a.max_velocity_mm_s = 80; }
+    JobRecord& job = recording.jobs[1];
+    job.course = course_of(two_axes().tasks[0].program, recording.machine, job.course.from);
+    EXPECT_TRUE(has(check_limits(recording), "speed"));
+}
+
+TEST_F(Judges, SeeAStartThatJumpsTooFar) {
+    for (AxisConfig& a : recording.machine.axes) { a.start_velocity_mm_s = 3; }
+    const Violations violations = check_limits(recording);
+    EXPECT_TRUE(has(violations, "start") || has(violations, "stop"));
+}
+
+TEST_F(Judges, SeeAFrameThatWasNotArmed) {
+    recording.axes[1].tracks.back().armed = 0;
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, SeeAFrameRunTwiceOrNotAtAll) {
+    Recording twice = recording;
+    twice.axes[0].tracks.push_back(twice.axes[0].tracks.back());
+    EXPECT_TRUE(has(check_frames(twice), "frames"));
+    recording.axes[1].tracks.pop_back();
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, SeeAFrameRunAtAnotherTime) {
+    recording.axes[0].tracks.back().start += Ticks{1};
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, SeeASecondWriter) {
+    recording.writers.push_back(4711);
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST(Seeds, GiveTheSameStepsEachTimeAndOthersForAnotherSeed) {
+    const NetworkFaults all{true, true, true, true};
+    const Verdict once = run_seed(11, all, 3, false);
+    const Verdict again = run_seed(11, all, 3, false);
+    const Verdict other = run_seed(12, all, 3, false);
+    EXPECT_EQ(once.hash, again.hash);
+    EXPECT_NE(once.hash, other.hash);
+}
+
+}  // namespace
+}  // namespace lockstep::simtest
