@@ -11,6 +11,7 @@
 namespace lockstep {
 namespace {
 
+constexpr double kRedrawPeriod_s = 0.1;  // on a terminal
 constexpr double kProgressPeriod_s = 5;  // where there is no terminal
 
 double now_s() { return static_cast<double>(monotonic_now().count()) * 1e-9; }
@@ -37,16 +38,12 @@ void Voice::clear_progress() {
 }
 
 void Voice::progress(const std::string& line) {
-    if (json_) { return; }
-    if (is_terminal_) {
-        clear_progress();
-        std::cout << line << std::flush;
-        progress_shown_ = true;
-        return;
-    }
-    if (now_s() - progress_time_s_ < kProgressPeriod_s) { return; }
+    if (json_ || now_s() - progress_time_s_ < (is_terminal_ ? kRedrawPeriod_s : kProgressPeriod_s)) { return; }
     progress_time_s_ = now_s();
-    std::cout << line << std::endl;
+    clear_progress();
+    std::cout << line;
+    progress_shown_ = is_terminal_;
+    is_terminal_ ? std::cout << std::flush : std::cout << std::endl;
 }
 
 void Voice::say(const std::string& line) {
