@@ -1,5 +1,7 @@
 #include "clients/verification/log_check.hpp"
 
+#include <algorithm>
+
 #include "clients/analysis/log_step.hpp"
 
 namespace lockstep::verification {
@@ -29,6 +31,10 @@ void LogCheck::on_run(const run_t& message, std::uint64_t offset) {
 }
 
 void LogCheck::on_job(const job_t& message, std::uint64_t offset) {
+    if (!analysis::is_countable(message.start_tick) ||
+        !std::ranges::all_of(message.start_count, analysis::is_countable)) {
+        return on_damage(offset, "a job with numbers that no machine counts to");
+    }
     if (Machine* to = machine(message.machine, offset)) { to->jobs.take(message); }
 }
 

@@ -224,6 +224,16 @@ TEST_F(Altered, TheConfigurationAnother) {
     (void)difference();
 }
 
+TEST_F(Altered, AJobWithWildNumbers) {
+    ASSERT_GE(log.change<job_t>("_JOB",
+                                [&](job_t& job) {
+                                    for (std::int64_t& count : job.start_count) { count = INT64_MIN; }
+                                    return !job.start_count.empty();
+                                }),
+              1);
+    EXPECT_FALSE(difference().text.empty());
+}
+
 TEST_F(Altered, AnyRecordOfAJobLost) {
     for (std::int64_t place = 2; place < 6; ++place) {  // behind homing: begun, two epochs, ended
         log = AlteredLog(original);
