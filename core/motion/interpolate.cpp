@@ -32,8 +32,8 @@ Piece solve_piece(Position from, Position to, Ticks ticks, double acceleration) 
 PieceSource::PieceSource(const Path& path, Ticks begin, Ticks end, std::span<Position> at)
     : path_(path), now_(begin), end_(end), at_(at) {}
 
-/// Phases of one move meet on the nearest tick: the speed is the same on both sides. Moves may meet with a jump: the tick
-/// in which they do is a stretch of its own, lest the jump's share of it bend the next one.
+/// Phases of one move meet on the nearest tick: the speed is the same on both sides. Moves may meet with a jump: the
+/// tick in which they do is a stretch of its own, lest the jump's share of it bend the next one.
 Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) const {
     constexpr Subticks kHalfTick{kSubticksPerTick / 2};
     move = &path_.moves[path_.move_at(subticks(now_))];

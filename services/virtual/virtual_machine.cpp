@@ -130,13 +130,11 @@ std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std:
     return command_.sequence;
 }
 
-void VirtualMachine::repeat_command() {
-    send(coordinator_address(), std::make_shared<const VirtualMessage>(command_));
-}
+void VirtualMachine::repeat_command() { send(coordinator_address(), std::make_shared<const VirtualMessage>(command_)); }
 
 const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {
-    const auto found = std::find_if(replies_.begin(), replies_.end(),
-                                    [&](const Reply& reply) { return reply.sequence == sequence; });
+    const auto found =
+        std::find_if(replies_.begin(), replies_.end(), [&](const Reply& reply) { return reply.sequence == sequence; });
     return found == replies_.end() ? nullptr : &*found;
 }
 

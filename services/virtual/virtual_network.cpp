@@ -20,9 +20,7 @@ void VirtualNetwork::post(Tick now, Receiver to, SharedMessage message) {
 }
 
 SharedMessage VirtualNetwork::receive(Tick now, Receiver to) {
-    if (to >= mailboxes_.size() || mailboxes_[to].empty() || mailboxes_[to].top().arrives > now) {
-        return nullptr;
-    }
+    if (to >= mailboxes_.size() || mailboxes_[to].empty() || mailboxes_[to].top().arrives > now) { return nullptr; }
     SharedMessage message = mailboxes_[to].top().message;
     mailboxes_[to].pop();
     return message;

@@ -35,9 +35,7 @@ public:
         EXPECT_EQ(::posix_spawn(&pid_, arguments[0], nullptr, nullptr, arguments.data(), environ), 0);
     }
     ~Process() {
-        if (pid_ > 0) {
-            (void)end();
-        }
+        if (pid_ > 0) { (void)end(); }
     }
     /// Its exit code once it has ended by itself.
     int wait() {

@@ -18,9 +18,7 @@ using namespace std::chrono_literals;
 template <typename Bus>
 Bus open_or_throw(const NetworkConfig& network, const std::string& machine = "mill") {
     auto bus = open_bus<Bus>(network, machine);
-    if (!bus) {
-        throw std::runtime_error(bus.error());
-    }
+    if (!bus) { throw std::runtime_error(bus.error()); }
     return std::move(*bus);
 }
 

@@ -12,9 +12,7 @@ bool eventually(Condition condition) {
     using namespace std::chrono_literals;
     const auto deadline = std::chrono::steady_clock::now() + 20s;
     while (!condition()) {
-        if (std::chrono::steady_clock::now() > deadline) {
-            return false;
-        }
+        if (std::chrono::steady_clock::now() > deadline) { return false; }
         std::this_thread::sleep_for(1ms);
     }
     return true;

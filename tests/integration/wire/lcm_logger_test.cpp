@@ -46,9 +46,7 @@ TEST_F(Logger, EveryStepPublishedIsInTheLog) {
     for (std::int64_t tick = 0; tick < 500'000; tick += 10) {  // 100,000 steps a second for half a second
         batcher.add({{tick}, 1});
         batcher.poll({tick});
-        if (tick % 10'000 == 0) {
-            std::this_thread::sleep_for(10ms);
-        }
+        if (tick % 10'000 == 0) { std::this_thread::sleep_for(10ms); }
     }
     batcher.flush();
     std::this_thread::sleep_for(500ms);  // the logger takes what is in its socket, then is asked to end
@@ -60,9 +58,7 @@ TEST_F(Logger, EveryStepPublishedIsInTheLog) {
     std::int64_t sequence = 0;
     std::int64_t steps = 0;
     while (const auto event = log->next().value()) {
-        if (event->channel != channel) {
-            continue;
-        }
+        if (event->channel != channel) { continue; }
         const auto batch = decode_lcm<step_batch_t>(event->data);
         ASSERT_TRUE(batch) << batch.error();
         EXPECT_EQ(batch->sequence, sequence++);

@@ -20,9 +20,7 @@ public:
         remove_route_ = *added && !is_own;  // an own network goes with the process
     }
     void TearDown() override {
-        if (remove_route_) {
-            (void)remove_loopback_multicast();
-        }
+        if (remove_route_) { (void)remove_loopback_multicast(); }
     }
 
 private:

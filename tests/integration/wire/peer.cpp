@@ -16,9 +16,7 @@ bool hold_frames(AxisBus& bus) {
     bool ended = false;
     return eventually([&] {
         bus.frames.take([&](Frame&& frame) {
-            if (frame.number == state.held + 1) {
-                state.held = frame.number;
-            }
+            if (frame.number == state.held + 1) { state.held = frame.number; }
             ended = frame.last;
         });
         bus.state.write(state);
@@ -52,9 +50,7 @@ int play(bool (*role)(Bus&), const NetworkConfig& network) {
 }  // namespace lockstep
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        return 2;
-    }
+    if (argc != 3) { return 2; }
     const lockstep::NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(argv[2]))};
     return std::string(argv[1]) == "axis" ? lockstep::play(lockstep::hold_frames, network)
                                           : lockstep::play(lockstep::answer_chunks, network);
