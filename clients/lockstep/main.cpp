@@ -1,6 +1,6 @@
 // lockstep: the command.
 #include <algorithm>
-#include <iostream>
+#include <string>
 #include <string_view>
 
 #include "clients/lockstep/live/machine_choice.hpp"
@@ -26,12 +26,18 @@ void add_verbs(CLI::App& app, Action& action) {
     add_compare(app, action);
 }
 
+/// What CLI11 says, but for a verb that there is not: it would only miss one.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+    const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
+    const bool known = std::ranges::any_of(verbs, [&](const CLI::App* verb) { return verb->get_name() == first; });
+    if (!first.empty() && !first.starts_with('-') && !known) { return "there is no verb '" + first + "'"; }
+    return error.what();
+}
+
 /// Help and version are what was asked for; anything else is bad usage, said as JSON where JSON was asked for.
-int say_usage(const CLI::App& app, const CLI::ParseError& error, bool json) {
+int say_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first, bool json) {
     if (error.get_exit_code() == 0) { return app.exit(error); }
-    if (json) { return Voice(true).fail(bad_input(std::string(error.what()) + "; see: lockstep --help")); }
-    app.exit(error);
-    return kExitBadInput;
+    return Voice(json).fail(bad_input(what_is_wrong(app, error, first) + "; see: lockstep --help"));
 }
 
 }  // namespace
@@ -50,6 +56,6 @@ int main(int argc, char** argv) {
         std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
     try {
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) { return say_usage(app, error, json); }
+    } catch (const CLI::ParseError& error) { return say_usage(app, error, argc > 1 ? argv[1] : "", json); }
     return action();
 }

@@ -19,7 +19,7 @@ struct Reference {
     std::int64_t min;
     std::int64_t max;
     std::int64_t change;  // per clock period
-    bool falling = false;
+    enum class Slope { Rising, Level, Falling } slope = Slope::Rising;
 
     Reference(const StepMove& move, double clock_s)
         : speed(rounded_up(move.start * clock_s)),
@@ -27,7 +27,16 @@ struct Reference {
           max(rounded_up(move.max * clock_s)),
           change(rounded_up(move.acceleration * clock_s * clock_s)) {}
 
-    void clock() { speed = falling ? std::max(min, speed - change) : std::min(max, speed + change); }
+    void clock() {
+        if (slope == Slope::Rising) { speed = std::min(max, speed + change); }
+        if (slope == Slope::Falling) { speed = std::max(min, speed - change); }
+    }
+    /// After a step: once it has begun to fall, it falls or waits for the steps to come down to it.
+    void brake_for(std::int64_t remaining) {
+        const bool too_fast = static_cast<double>(remaining) <= brake_steps();
+        if (too_fast) { slope = Slope::Falling; }
+        if (!too_fast && slope == Slope::Falling) { slope = Slope::Level; }
+    }
     /// Steps from here to V_min.
     double brake_steps() const {
         const double v = static_cast<double>(speed) / kOne;
@@ -79,7 +88,7 @@ StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& param
         train.times_s.push_back(static_cast<double>(now) * clock_s);
         n = 0;
         --remaining;
-        reference.falling = reference.falling || static_cast<double>(remaining) <= reference.brake_steps();
+        reference.brake_for(remaining);
     }
     return train;
 }

@@ -8,8 +8,9 @@
 // each at or below the reference; near speed V neighbours are about V^2 T_c apart.
 //
 // Left open there and chosen here: V_ref changes every T_c, in fixed point of 2^-60 step per T_c, rounded up so that a
-// speed whose period is a whole number of T_c gets exactly that period; it falls once the steps that remain are no more
-// than (V_ref^2 - V_min^2)/(2a), and stays at V_min until the last step is made.
+// speed whose period is a whole number of T_c gets exactly that period. It falls while the steps that remain are no
+// more than (V_ref^2 - V_min^2)/(2a), looked at after each step: the steps made are a little slower than the reference,
+// and one that fell by time alone would be at V_min long before the last step.
 #pragma once
 
 #include "core/stepgen/method.hpp"

@@ -31,7 +31,7 @@ TEST(CarricaFigure6, TwelveThousandStepsFrom500To6000With800ns) {
     EXPECT_LE(top, 6'000 * (1 + 1e-9));
     EXPECT_GT(top, 6'000 - carrica_speed_gap(6'000, 800e-9));
     EXPECT_NEAR(found.back(), 500, 20);
-    EXPECT_NEAR(train->times_s.back(), Ideal(kFigure6).duration_s(), 0.02);  // each speed is rounded down
+    EXPECT_NEAR(train->times_s.back(), Ideal(kFigure6).duration_s(), 0.005);  // each speed is rounded down
 }
 
 TEST(CarricaFigure8, NearTheTopSpeedsAreAbout1000StepsPerSecondApartAndTheRippleIsUnder5Percent) {

@@ -1,0 +1,51 @@
+// One move through the published methods of step generation, and what came of it against the continuous ideal.
+//
+// Errors are step times minus the ideal's, in us, each in the method's own convention of where a step falls. Peaks are
+// measured from the steps as `lockstep analyze` measures them (clients/analysis/speed_meter.hpp), in whole us.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "clients/comparison/lines.hpp"
+#include "core/stepgen/ideal.hpp"
+#include "core/stepgen/methods.hpp"
+
+namespace lockstep::comparison {
+
+/// What a method made of the move.
+struct Outcome {
+    stepgen::StepTrain train;
+    std::vector<double> errors_us;  // of each step
+    double duration_s = 0;          // until the last step
+    double ratio = 0;               // to the ideal's last step
+    double largest_error_us = 0;    // signed: below 0, before its time
+    double rms_error_us = 0;
+    double peak_speed = 0;                    // steps/s
+    std::optional<double> peak_acceleration;  // steps/s^2, either way; nothing where the move is too short to tell
+
+    /// Speed over time, for a picture.
+    std::vector<double> speed_time_s;
+    std::vector<double> speed;
+};
+
+struct Row {
+    stepgen::Method method;
+    std::expected<Outcome, std::string> outcome;  // or why the method cannot make even a near move
+};
+
+struct Comparison {
+    stepgen::StepMove move;
+    double ideal_s = 0;
+    double ideal_peak = 0;
+    std::vector<stepgen::Ideal::Corner> ideal;
+    std::vector<Row> rows;
+    std::vector<LineDeviation> lines;
+};
+
+/// The move must pass stepgen::check(). In the methods' order as given.
+Comparison compare(const stepgen::StepMove& move, std::span<const stepgen::Method> methods);
+
+}  // namespace lockstep::comparison

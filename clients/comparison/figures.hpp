@@ -1,0 +1,15 @@
+// What a comparison looks like.
+#pragma once
+
+#include "clients/comparison/comparison.hpp"
+#include "clients/drawing/figure.hpp"
+
+namespace lockstep::comparison {
+
+/// Speed over time of all methods and of the ideal, then the error of each method's step times.
+drawing::Figure comparison_figure(const Comparison& comparison);
+
+/// The six lines without and with the DDA (lines.hpp), few pulses to a unit so that they can be seen.
+drawing::Figure lines_figure();
+
+}  // namespace lockstep::comparison

@@ -1,0 +1,31 @@
+// The six lines from (0,0), (1,0) ... (5,0) to (5,5), with and without the DDA.
+//
+// Source: Lai, Chien, Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives Design", Figs.
+// 14 and 15: at most four pulses per period of 6.5 ms, one more or fewer each period, both compensations on, the short
+// axis rounded from the start (core/stepgen/lai_planner.hpp). A unit is 100 pulses.
+#pragma once
+
+#include <vector>
+
+#include "core/stepgen/lai_dda.hpp"
+
+namespace lockstep::comparison {
+
+inline constexpr std::int64_t kLines = 6;
+inline constexpr std::int64_t kPulsesPerUnit = 100;
+
+/// One line: the farthest it is left by, and the fastest that pulses of one axis follow each other.
+struct LineDeviation {
+    std::int64_t from_x = 0;  // units
+    double with_dda = 0;      // pulses, at a right angle
+    double without_dda = 0;
+    double rate_with_dda = 0;  // pulses/s
+    double rate_without_dda = 0;
+};
+
+/// The places line `from_x` passes, in pulses from its beginning.
+std::vector<stepgen::LaiPoint> walk_line(std::int64_t from_x, std::int64_t pulses_per_unit, stepgen::LaiPulses how);
+
+std::vector<LineDeviation> line_deviations();
+
+}  // namespace lockstep::comparison

@@ -1,0 +1,11 @@
+// A comparison as `lockstep compare --json` says it.
+#pragma once
+
+#include "clients/comparison/comparison.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep::comparison {
+
+proto::CompareReport to_report(const Comparison& comparison);
+
+}  // namespace lockstep::comparison

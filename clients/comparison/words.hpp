@@ -1,0 +1,19 @@
+// A comparison in words and numbers: for a terminal, for a spreadsheet, for a browser.
+#pragma once
+
+#include <string>
+
+#include "clients/comparison/comparison.hpp"
+
+namespace lockstep::comparison {
+
+/// Tables of the methods and of the lines, and a sentence for what each method changed or refused.
+std::string to_text(const Comparison& comparison);
+
+/// Every step: method, number of the step, time and error.
+std::string to_csv(const Comparison& comparison);
+
+/// The tables and the figures as one self-contained page.
+std::string to_html(const Comparison& comparison);
+
+}  // namespace lockstep::comparison

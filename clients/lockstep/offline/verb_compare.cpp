@@ -1,0 +1,110 @@
+// lockstep compare
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "clients/comparison/comparison.hpp"
+#include "clients/comparison/figures.hpp"
+#include "clients/comparison/move_text.hpp"
+#include "clients/comparison/report.hpp"
+#include "clients/comparison/words.hpp"
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/verb.hpp"
+
+namespace lockstep {
+namespace {
+
+struct CompareOptions {
+    std::string move{comparison::kDefaultMove};
+    std::vector<std::string> methods;
+    std::string svg;
+    std::string lines_svg;
+    std::string html;
+    bool csv = false;
+    bool json = false;
+};
+
+std::expected<std::vector<stepgen::Method>, std::string> chosen(const std::vector<std::string>& names) {
+    const auto all = stepgen::methods();
+    if (names.empty()) { return std::vector<stepgen::Method>(all.begin(), all.end()); }
+    std::vector<stepgen::Method> found;
+    for (const std::string& name : names) {
+        const stepgen::Method* method = stepgen::find_method(name);
+        if (method == nullptr) {
+            std::string known;
+            for (const auto& one : all) { known += " " + std::string(one.name); }
+            return std::unexpected("--method: no method is called '" + name + "'; choose from" + known);
+        }
+        found.push_back(*method);
+    }
+    return found;
+}
+
+std::expected<void, std::string> write_file(const std::string& path, const std::string& text) {
+    if (path.empty()) { return {}; }
+    errno = 0;
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out << text;
+    out.close();
+    if (!out) { return std::unexpected(path + ": cannot be written: " + std::strerror(errno)); }
+    return {};
+}
+
+std::expected<void, std::string> write_files(const CompareOptions& options, const comparison::Comparison& result) {
+    if (!options.svg.empty()) {
+        if (auto done = write_file(options.svg, drawing::to_svg(comparison_figure(result))); !done) { return done; }
+    }
+    if (!options.lines_svg.empty()) {
+        if (auto done = write_file(options.lines_svg, drawing::to_svg(comparison::lines_figure())); !done) {
+            return done;
+        }
+    }
+    return options.html.empty() ? std::expected<void, std::string>{} : write_file(options.html, to_html(result));
+}
+
+ExitCode compare_verb(const CompareOptions& options) {
+    Voice voice(options.json);
+    const auto move = comparison::parse_move(options.move);
+    if (!move) { return voice.fail(bad_input("--move " + move.error())); }
+    const auto methods = chosen(options.methods);
+    if (!methods) { return voice.fail(bad_input(methods.error())); }
+    const auto result = comparison::compare(*move, *methods);
+    if (auto written = write_files(options, result); !written) { return voice.fail(bad_input(written.error())); }
+    if (options.csv) {
+        std::cout << to_csv(result);
+        return kExitDone;
+    }
+    std::string text = to_text(result);
+    text.pop_back();
+    voice.say(text);
+    voice.report(to_report(result));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("compare",
+                                        "make one move by five published methods, and say how far each is "
+                                        "from the ideal; needs no machine");
+    const auto options = std::make_shared<CompareOptions>();
+    verb->add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
+        ->capture_default_str();
+    verb->add_option("--method", options->methods,
+                     "only this one: ranade, spielauer, lai, lam, carrica; may be repeated");
+    verb->add_option("--svg", options->svg, "draw speed and step time error of each method into this file");
+    verb->add_option("--lines-svg", options->lines_svg, "draw the six lines with and without the DDA into this file");
+    verb->add_option("--html", options->html, "write tables and figures into this file, as one page");
+    CLI::Option* csv =
+        verb->add_flag("--csv", options->csv, "every step on standard output: method,step,time_s,error_us");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text")->excludes(csv);
+    verb->footer("A method that cannot express the move makes the nearest it can, and says what it changed.\n" +
+                 footer("  lockstep compare\n  lockstep compare --move 4000,0,1000,1000 --svg compare.svg\n"
+                        "  lockstep compare --method ranade --method carrica --csv > steps.csv\n"));
+    verb->callback([&action, options] { action = [options] { return compare_verb(*options); }; });
+}
+
+}  // namespace lockstep
