@@ -32,7 +32,7 @@ std::string method_table(const Comparison& comparison) {
                         "rms us", "step at");
     const double steepest = std::max(comparison.move.acceleration, comparison.move.deceleration);
     text += fmt::format(kRow, "ideal", comparison.move.steps, fmt::format("{:.6f}", comparison.ideal_s), "1.0000",
-                        fmt::format("{:.1f}", comparison.ideal_peak), fmt::format("{:.0f}", steepest), "", "", "");
+                        fmt::format("{:.1f}", comparison.ideal_peak), fmt::format("{:.0f}", steepest), "-", "-", "k");
     for (const Row& row : comparison.rows) { text += row_text(row); }
     return text;
 }
