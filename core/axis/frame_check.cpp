@@ -8,7 +8,8 @@
 namespace lockstep {
 namespace {
 
-constexpr double kRounding = 1e-6;  // relative: what integers make of doubles
+constexpr double kRounding = 1e-6;          // relative: what integers make of doubles
+constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: what they make of the speeds at a piece's ends
 
 /// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
 constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
@@ -17,10 +18,10 @@ bool within_speed(double velocity, const AxisLimits& limits, double one_tick) {
     return std::abs(velocity) <= limits.max_velocity * (1 + kRounding) + one_tick;
 }
 
-bool within_acceleration(double before, double after, double acceleration, const AxisLimits& limits) {
+bool within_acceleration(double before, double after, double ticks, const AxisLimits& limits) {
     const bool speeds_up = std::abs(after) > std::abs(before);
     const double most = speeds_up ? limits.max_acceleration : limits.max_deceleration;
-    return std::abs(acceleration) <= most * (1 + kRounding);
+    return std::abs(after - before) <= most * ticks * (1 + kRounding) + kSpeedRounding;
 }
 
 bool within_travel(Position at, const AxisLimits& limits) {
@@ -33,9 +34,10 @@ FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, 
         if (piece.ticks.value <= 0 || piece.ticks.value > kMaxPieceTicks) { return FaultCode::BadProgram; }
         const double a = piece.acceleration.steps_per_tick2();
         const double before = piece.velocity.steps_per_tick() + a / 2;
-        const double after = before + a * static_cast<double>(piece.ticks.value);
+        const auto ticks = static_cast<double>(piece.ticks.value);
+        const double after = before + a * ticks;
         const bool fits = within_speed(before, limits, one_tick) && within_speed(after, limits, one_tick) &&
-                          within_acceleration(before, after, a, limits) &&
+                          within_acceleration(before, after, ticks, limits) &&
                           std::abs(before - point.velocity) <= limits.start_velocity * (1 + kRounding) + one_tick;
         if (!fits) { return FaultCode::FrameBeyondLimits; }
         point = {point.position + piece.covered(), after};

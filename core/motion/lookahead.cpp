@@ -189,12 +189,14 @@ Path brake_from(const Path& path, Subticks t) {
         const double entry = speed / scale;
         const double halt = halt_speed / scale;
         if (entry <= halt) { break; }
-        const double needs = (entry * entry - halt * halt) / (2 * move.limits.max_deceleration);
         const double left = (whole - from).as_steps();
-        const bool halts = needs < left;
-        const double exit = halts ? halt : std::sqrt(entry * entry - 2 * move.limits.max_deceleration * left);
-        move.profile = halts ? plan_brake_to(from, entry, halt, move.limits.max_deceleration)
-                             : plan_brake_through(from, whole, entry, exit);
+        const double at_end = entry * entry - 2 * move.limits.max_deceleration * left;
+        const bool halts = at_end < halt * halt;
+        const double exit = halts ? halt : std::sqrt(at_end);
+        if (halts) { move.profile = plan_brake_to(from, entry, halt, move.limits.max_deceleration, clock); }
+        if (!halts || move.profile.phases.back().to > whole) {
+            move.profile = plan_brake_through(from, whole, entry, exit);
+        }
         move.start = clock;
         clock = move.end();
         speed = exit * scale;
