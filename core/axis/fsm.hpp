@@ -1,7 +1,7 @@
 // The axis's six states and Fault: a table, and nothing but a table, decides what follows what.
 //
-// After H. Y. Lam and P. Ehkan, "Bipolar Stepper Motor Controller for Linear Slide Application": Initialize, Standby,
-// Accelerate, Cruise, Decelerate, Stop.
+// After Lam Chee Yuen and Phaklen Ehkan, "Design and Implementation of FPGA Based Bipolar Stepper Motor Controller for
+// Linear Slide Application": Initialize, Standby, Accelerate, Cruise, Decelerate, Stop.
 #pragma once
 
 #include <array>
