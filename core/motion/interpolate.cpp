@@ -32,8 +32,8 @@ Piece solve_piece(Position from, Position to, Ticks ticks, double acceleration) 
 PieceSource::PieceSource(const Path& path, Ticks begin, Ticks end, std::span<Position> at)
     : path_(path), now_(begin), end_(end), at_(at) {}
 
-/// Phases of one move meet on the nearest tick: the speed is the same on both sides. Moves may meet with a jump: the
-/// tick in which they do is a stretch of its own, lest the jump's share of it bend the next one.
+/// Phases of one move meet on the nearest tick: the speed is the same on both sides. At a move's end it may jump: the
+/// tick in which that is becomes a stretch of its own, lest the jump's share of it bend the stretch before or behind.
 Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) const {
     constexpr Subticks kHalfTick{kSubticksPerTick / 2};
     move = &path_.moves[path_.move_at(subticks(now_))];
@@ -44,7 +44,7 @@ Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) cons
         acceleration = phase.acceleration();
         if (middle < phase_end) { break; }
     }
-    const Ticks corner = move->end() >= path_.duration() ? move->end().ceil() : move->end().floor();
+    const Ticks corner = move->end().floor();
     const Ticks whole = phase_end >= move->end() ? corner : std::min((phase_end + kHalfTick).floor(), corner);
     return std::clamp(whole, now_ + Ticks{1}, end_);
 }
@@ -55,7 +55,7 @@ bool PieceSource::next(std::span<Piece> pieces) {
     double acceleration = 0;
     const Ticks to = stretch_end(move, acceleration);
     const Ticks ticks = to - now_;
-    if (ticks == Ticks{1}) { acceleration = 0; }  // a tick has one speed; where moves meet in it, neither's slope
+    if (ticks == Ticks{1}) { acceleration = 0; }  // a tick has one speed; where a move ends in it, not its slope
     if (subticks(to) > move->end() && move != &path_.moves.back()) { move = &path_.moves[path_.move_at(subticks(to))]; }
     const Displacement along = move->profile.at(subticks(to) - move->start);
     for (std::size_t i = 0; i < at_.size(); ++i) {

@@ -52,6 +52,22 @@ TEST(Corner, BetweenTicksLeavesNoTraceInTheSpeedBehindIt) {
     }
 }
 
+TEST(Corner, SoDoesTheEndOfAPathInTheSpeedBeforeIt) {
+    constexpr double kFewTicks = 4e-8;
+    for (std::int64_t length = 100; length < 200; ++length) {
+        const Path path =
+            plan_path(moves_through({{0, 0}, {length, 37}, {0, 0}}), {}, kLimits, {.least_move = Ticks{100}});
+        const PathMove& back = path.moves[1];
+        std::vector<Position> at{Position::steps(0), Position::steps(0)};
+        const Ticks end = path.duration().ceil();
+        const Ticks last_frame = end - Ticks{3};
+        (void)pieces_in(path, Ticks{0}, last_frame, at);
+        const std::vector<Piece> pieces = pieces_in(path, last_frame, end, at);
+        EXPECT_NEAR(speed_before(pieces[0]), -back.profile.velocity_at(subticks(last_frame) - back.start), kFewTicks)
+            << "length " << length;
+    }
+}
+
 TEST(Corner, AsManyAsAFrameCanHoldFitIt) {
     const MachineConfig machine{.name = "one", .axes = {}};
     std::vector<AxisCounts> places{{0, 0}};
