@@ -1,6 +1,9 @@
 #include "clients/analysis/report.hpp"
 
 #include <cstdlib>
+#include <utility>
+
+#include "clients/analysis/words.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -58,6 +61,8 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     }
     for (const auto& axis : analysis.axes) { fill(analysis, *axis, *report.add_axes()); }
     for (const JobLog& job : analysis.jobs) { fill(job, *report.add_jobs()); }
+    if (analysis.largest_distance_mm) { report.set_largest_distance_mm(*analysis.largest_distance_mm); }
+    for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;
 }
 

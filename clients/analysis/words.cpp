@@ -160,18 +160,31 @@ std::string in_a_line(const Analysis& analysis) {
                        plural(total(analysis, steps_of), "step"), seconds(analysis), missing_in_short(analysis));
 }
 
+std::vector<std::string> notes(const Analysis& analysis) {
+    std::string text;
+    if (analysis.largest_distance_mm) {
+        text += fmt::format("the path stepped is at most {:.4f} mm from the path asked (X-Y)\n",
+                            *analysis.largest_distance_mm);
+    }
+    for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
+    text += log_notes(analysis);
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = text.find('\n', at);
+        lines.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
 std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
     text += axis_table(analysis) + job_table(analysis);
-    std::string notes;
-    if (analysis.largest_distance_mm) {
-        notes += fmt::format("the path stepped is at most {:.4f} mm from the path asked (X-Y)\n",
-                             *analysis.largest_distance_mm);
-    }
-    for (const auto& axis : analysis.axes) { notes += axis_notes(*axis); }
-    notes += log_notes(analysis);
-    return notes.empty() ? text : text + "\n" + notes;
+    const auto lines = notes(analysis);
+    if (!lines.empty()) { text += "\n"; }
+    for (const std::string& line : lines) { text += line + "\n"; }
+    return text;
 }
 
 }  // namespace lockstep::analysis

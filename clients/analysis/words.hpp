@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "clients/analysis/analysis.hpp"
 
@@ -10,7 +11,10 @@ namespace lockstep::analysis {
 /// "3 axes · 128 450 steps · 12.4 s · nothing missing"
 std::string in_a_line(const Analysis& analysis);
 
-/// A table of the axes, one of the jobs, and a sentence for everything that is missing, damaged or foreign.
+/// A sentence for everything that is worth knowing besides the tables: what is missing, set anew, damaged, foreign.
+std::vector<std::string> notes(const Analysis& analysis);
+
+/// A table of the axes, one of the jobs, and the notes.
 std::string summary(const Analysis& analysis);
 
 }  // namespace lockstep::analysis

@@ -101,9 +101,10 @@ TEST_F(AnalysisTest, SaysAGapInStepsAndTicks) {
     EXPECT_EQ(report.axes(0).gaps(0).after_tick(), 1900);
     EXPECT_EQ(report.axes(0).gaps(0).before_tick(), 5000);
     EXPECT_EQ(report.axes(0).gaps(0).missing_steps(), 7);
-    EXPECT_NE(summary(*found).find("X: at least 7 steps in 2 messages missing between tick 1 900 and tick 5 000"),
-              std::string::npos)
-        << summary(*found);
+    const std::string note = "X: at least 7 steps in 2 messages missing between tick 1 900 and tick 5 000";
+    EXPECT_NE(summary(*found).find(note), std::string::npos) << summary(*found);
+    ASSERT_EQ(report.notes_size(), 1);
+    EXPECT_EQ(report.notes(0), note);
 }
 
 TEST_F(AnalysisTest, SaysThatTheLastStepsAreNotThere) {
