@@ -5,9 +5,13 @@
 namespace lockstep::verification {
 namespace {
 
+std::string plural(std::int64_t count, const std::string& one) {
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 std::string counted(const Findings& findings) {
-    return std::to_string(findings.steps) + " steps, " + std::to_string(findings.runs + findings.local_runs) +
-           " runs and " + std::to_string(findings.jobs) + " jobs";
+    return plural(findings.steps, "step") + ", " + plural(findings.runs + findings.local_runs, "run") + " and " +
+           plural(findings.jobs, "job");
 }
 
 void fill(const Difference& difference, proto::Difference& out) {
