@@ -1,5 +1,6 @@
 // Whatever is changed in a log, however little, is found and named.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "clients/verification/verification.hpp"
 #include "tests/unit/verification/altered_log.hpp"
@@ -14,7 +15,8 @@ class Altered : public testing::Test {
 protected:
     /// A machine that is homed, runs a program, is held in the middle of it and resumed.
     static void SetUpTestSuite() {
-        original = std::filesystem::path(testing::TempDir()) / "lockstep_offline_original.lcm";
+        const std::string name = "lockstep_original_" + std::to_string(getpid()) + ".lcm";  // tests run side by side
+        original = std::filesystem::path(testing::TempDir()) / name;
         test::RecordedMachine recorded(test::example("two-axis"), original);
         recorded.home();
         recorded.begin(
@@ -25,6 +27,8 @@ protected:
         recorded.command(CommandKind::Resume);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
     }
+
+    static void TearDownTestSuite() { std::filesystem::remove(original); }
 
     Difference difference() {
         const auto findings = verify_log(log.write(test::test_directory() / "altered.lcm"));
