@@ -28,6 +28,7 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
     for (const AxisView& axis : axes) {
         const bool follows = axis.state && axis.state->epoch == epoch_;
         held_by_all = std::min(held_by_all, follows ? axis.state->held : 0);
+        if (follows && axis.state->veto) { ended_ = true; }  // what would come behind it nobody may run
     }
     std::vector<Frame> frames;
     std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });

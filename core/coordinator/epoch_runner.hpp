@@ -46,7 +46,8 @@ public:
     /// Starts as soon as the send-ahead allows. `at` is where each axis rests, exactly.
     void begin(Epoch epoch, Path path, std::vector<Position> at, Slot now);
 
-    /// What is to be sent in this slot: new frames that are due and old ones that somebody lacks.
+    /// What is to be sent in this slot: new frames that are due, until an axis vetoes, and old ones that somebody
+    /// lacks.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
     /// No more frames; the lowest frame that nobody can have decided on yet is vetoed.

@@ -1,0 +1,66 @@
+// How an epoch comes to its end, as the coordinator sees it.
+#include "core/coordinator/epoch_runner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/coordinator/program_plan.hpp"
+
+namespace lockstep {
+namespace {
+
+MachineConfig one_slow_axis() {
+    MachineConfig machine{.name = "slow"};
+    machine.timing = {
+        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+    machine.axes.push_back({.name = "X",
+                            .steps_per_mm = 100,
+                            .start_velocity_mm_s = 1,
+                            .max_velocity_mm_s = 50,
+                            .max_accel_mm_s2 = 25,
+                            .max_decel_mm_s2 = 25,
+                            .position_max_mm = 1000});
+    return machine;
+}
+
+/// The axis as it says it is in a slot.
+std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumber> veto, FrameNumber ran, Position at) {
+    const bool rests = ran > 0;
+    return {
+        {AxisState{.stamp = slot, .epoch = 1, .held = held, .veto = veto, .ran = ran, .at_rest = rests, .position = at},
+         slot}};
+}
+
+/// Two seconds of braking are far more frames than the coordinator remembers the ends of.
+TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
+    const MachineConfig machine = one_slow_axis();
+    const ProgramPlanner planner(machine);
+    Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
+    const auto legs = planner.plan(program, {0});
+    ASSERT_TRUE(legs.has_value());
+    EpochRunner runner(machine, 1);
+    runner.begin(1, planner.path((*legs)[0].moves, {}), {Position::steps(0)}, 100);
+
+    constexpr FrameNumber kRan = 600;  // at full speed
+    Slot slot = 100;
+    std::optional<Position> rest;
+    for (; runner.sent() < kRan; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+            if (frame.number != kRan) { continue; }
+            rest = frame.axes[0].from;
+            for (const Piece& piece : frame.axes[0].body) { rest = *rest + piece.covered(); }
+            for (const Piece& piece : frame.axes[0].tail) { rest = *rest + piece.covered(); }
+        }
+    }
+    ASSERT_TRUE(rest.has_value());
+    for (const Slot braked = slot + 2000; slot < braked; ++slot) {
+        (void)runner.send(slot, says(slot, kRan, kRan + 1, 0, {}));
+    }
+    EXPECT_EQ(runner.sent(), kRan);
+    const auto end = runner.judge(slot, says(slot, kRan, kRan + 1, kRan, *rest));
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->kind, EpochEnd::Kind::Interrupted);
+    EXPECT_EQ(end->ran, kRan);
+}
+
+}  // namespace
+}  // namespace lockstep
