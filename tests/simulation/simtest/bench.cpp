@@ -25,7 +25,8 @@ bool Bench::await(const std::function<bool()>& done, double seconds, const std::
     const bool in_time = vm_.advance_until([&] { return done() || faulted(); }, limit);
     if (done()) { return true; }
     if (faulted() && lossy()) {
-        over_ = played_.faulted = true;
+        over_ = true;
+        played_.fault = watch_.fault();
     } else if (faulted()) {
         object("fault", "while " + what + ": " + std::string(name_of(watch_.fault())));
     } else if (!in_time) {

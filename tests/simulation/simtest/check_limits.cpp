@@ -132,8 +132,8 @@ private:
         const double joined = joints_beside_rest(gap) * limits_.start;
         const bool between = gap > 0 && gap < steps_.size();
         const double slow = between ? 1 / (time(gap - 1, gap) - 1) : 0;
-        const double most = std::max(limits_.start, slow) + joined;
-        return std::sqrt(most * most + 2 * rate);
+        const double slowest = std::max(limits_.start, slow);
+        return std::sqrt(slowest * slowest + 2 * rate) + joined;
     }
     void check_from_rest(std::size_t begin, std::size_t m) {
         check_ramp("start", begin, begin, m, speed_beside_rest(begin, limits_.accel), limits_.accel);

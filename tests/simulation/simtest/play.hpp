@@ -9,8 +9,8 @@ namespace lockstep::simtest {
 
 struct Played {
     Recording recording;
-    Violations violations;  // of what was asked and answered, and of ends that did not come
-    bool faulted = false;   // a lossy network led to Fault, which it may
+    Violations violations;              // of what was asked and answered, and of ends that did not come
+    FaultCode fault = FaultCode::None;  // a lossy network led to Fault, which it may
 };
 
 Played play(const Scenario& scenario);

@@ -33,15 +33,17 @@ NetworkFaults Options::network() const {
 void Tally::add(const Verdict& verdict) {
     ++runs;
     failed += verdict.violations.empty() ? 0 : 1;
-    faulted += verdict.faulted ? 1 : 0;
+    faulted += verdict.fault == FaultCode::None ? 0 : 1;
     steps += verdict.steps;
     simulated_s += verdict.simulated_s;
 }
 
 void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options) {
+    const bool faulted = verdict.fault != FaultCode::None;
+    const std::string fault = faulted ? ", ended in Fault: " + std::string(name_of(verdict.fault)) : "";
     std::FILE* to = options.json ? stderr : stdout;
     std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, verdict.steps,
-                 verdict.simulated_s, verdict.hash, verdict.faulted ? ", ended in Fault" : "");
+                 verdict.simulated_s, verdict.hash, fault.c_str());
     constexpr std::size_t kMostPrinted = 8;
     for (std::size_t n = 0; n < std::min(kMostPrinted, verdict.violations.size()); ++n) {
         const Violation& v = verdict.violations[n];

@@ -27,7 +27,7 @@ Verdict run_seed(std::uint64_t seed, const NetworkFaults& faults, std::optional<
     Played played = play(scenario);
     const Recording& recording = played.recording;
     verdict.violations = std::move(played.violations);
-    verdict.faulted = played.faulted;
+    verdict.fault = played.fault;
     append(verdict.violations, check_all(recording));
     verdict.steps = recording.steps();
     verdict.hash = recording.hash();

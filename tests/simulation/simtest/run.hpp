@@ -13,7 +13,7 @@ struct Verdict {
     std::uint64_t steps = 0;
     std::uint64_t hash = 0;  // of all steps
     double simulated_s = 0;
-    bool faulted = false;
+    FaultCode fault = FaultCode::None;  // a lossy network led to it
 };
 
 /// twice: plays it a second time, to see that it comes out the same.
