@@ -24,21 +24,10 @@ struct Mail {
 
 Mail collect(VirtualNetwork& network, Tick now, std::size_t address) {
     Mail mail;
-    while (const auto message = network.receive(now, static_cast<VirtualNetwork::Receiver>(address))) {
+    while (const auto message = network.receive(now, static_cast<VirtualNetwork::Address>(address))) {
         std::visit(mail, *message);
     }
     return mail;
-}
-
-std::vector<AxisNode> power_up(const VirtualOptions& options) {
-    std::vector<AxisNode> axes;
-    for (std::size_t i = 0; i < options.machine.axes.size(); ++i) {
-        const AxisNode::Setup setup{i, options.machine, static_cast<Identity>(100 + i), options.config_hash};
-        // A device made here is of this version: attaching cannot fail.
-        axes.push_back(*AxisNode::attach(
-            setup, simulated_device(options.machine.axes[i], options.machine.tick_ns, options.start)));
-    }
-    return axes;
 }
 
 }  // namespace
@@ -48,22 +37,99 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
       network_(options.network, options.seed),
       now_(options.start),
       period_{options.machine.slot_ticks().value / options.loops_per_slot},
-      axes_(power_up(options)),
-      coordinator_(options.machine, static_cast<Identity>(options.start.value), options.config_hash),
       axis_states_(options.machine.axes.size()) {
-    std::mt19937_64 random(options.seed ^ 0x9e3779b97f4a7c15U);
-    for (std::size_t i = 0; i <= axes_.size(); ++i) {
+    power_up();
+    network_.trust(static_cast<VirtualNetwork::Address>(client_address()));
+}
+
+void VirtualMachine::power_up() {
+    const MachineConfig& machine = options_.machine;
+    for (const AxisConfig& axis : machine.axes) {
+        axes_.push_back({simulated_device(axis, machine.tick_ns, now_), {}});
+    }
+    processes_.resize(axes_.size() + 1);
+    std::mt19937_64 random(options_.seed ^ 0x9e3779b97f4a7c15U);
+    for (std::size_t i = 0; i < processes_.size(); ++i) {
+        start(i);
         const auto phase = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(period_.value));
-        processes_.push_back({options.start + Ticks{phase}, i});
+        processes_[i].next = now_ + Ticks{phase};
     }
 }
 
+/// A new process, with an identity of its own; an axis's finds its device as it is.
+void VirtualMachine::start(std::size_t process) {
+    if (process == coordinator_address()) {
+        coordinator_.emplace(options_.machine, static_cast<Identity>(now_.value), options_.config_hash);
+    } else {
+        const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash};
+        // A device made here is of this version: attaching cannot fail.
+        axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
+    }
+    processes_[process] = {true, now_};
+}
+
+void VirtualMachine::crash(std::size_t process) {
+    processes_[process].alive = false;
+    process == coordinator_address() ? coordinator_.reset() : axes_[process].node.reset();
+}
+
+void VirtualMachine::restart(std::size_t process) {
+    (void)collect(network_, now_, process);  // nobody was there to receive it
+    if (process != coordinator_address()) { device(process).advance(now_); }
+    start(process);
+}
+
+void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
+    const auto turn = [&](std::size_t from, std::size_t to) {
+        const auto a = static_cast<VirtualNetwork::Address>(from);
+        const auto b = static_cast<VirtualNetwork::Address>(to);
+        begins ? network_.cut(a, b) : network_.mend(a, b);
+    };
+    for (std::size_t peer = 0; peer < processes_.size(); ++peer) {
+        if (peer == fault.process || (fault.peer && peer != *fault.peer)) { continue; }
+        if (fault.outgoing) { turn(fault.process, peer); }
+        if (fault.incoming) { turn(peer, fault.process); }
+    }
+}
+
+void VirtualMachine::schedule(const VirtualFault& fault) {
+    turns_.emplace(std::max(fault.at, now_), Turn{fault, true});
+    turns_.emplace(std::max(fault.end(), now_), Turn{fault, false});
+}
+
+void VirtualMachine::take_turn(const Turn& turn) {
+    Process& victim = processes_[turn.fault.process];
+    switch (turn.fault.kind) {
+        case VirtualFault::Kind::Freeze:
+            if (turn.begins) { victim.next = std::max(victim.next, turn.fault.end()); }
+            break;
+        case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault.process); break;
+        case VirtualFault::Kind::Cut: cut(turn.fault, turn.begins); break;
+    }
+    for (VirtualObserver* observer : observers_) { observer->on_fault(now_, turn.fault, turn.begins); }
+}
+
+std::optional<std::size_t> VirtualMachine::next_process() const {
+    std::optional<std::size_t> next;
+    for (std::size_t i = 0; i < processes_.size(); ++i) {
+        const bool sooner = !next || processes_[i].next < processes_[*next].next;
+        if (processes_[i].alive && sooner) { next = i; }
+    }
+    return next;
+}
+
 void VirtualMachine::advance() {
-    Process& process = *std::min_element(processes_.begin(), processes_.end(),
-                                         [](const Process& a, const Process& b) { return a.next < b.next; });
-    now_ = process.next;
-    process.next += period_;
-    process.number < axes_.size() ? step_axis(process.number) : step_coordinator();
+    const auto process = next_process();
+    if (!turns_.empty() && (!process || turns_.begin()->first <= processes_[*process].next)) {
+        now_ = turns_.begin()->first;
+        const Turn turn = turns_.begin()->second;
+        turns_.erase(turns_.begin());
+        take_turn(turn);
+    } else {
+        now_ = processes_[*process].next;
+        processes_[*process].next += period_;
+        *process == coordinator_address() ? step_coordinator() : step_axis(*process);
+    }
     listen();
 }
 
@@ -81,40 +147,48 @@ void VirtualMachine::step_axis(std::size_t i) {
     const auto on_step = [&](StepEdge step) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
     };
-    const AxisOutputs out = axes_[i].step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands}, on_step);
+    AxisNode& node = *axes_[i].node;
+    device(i).advance(now_);
+    const AxisOutputs out = node.step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands}, on_step);
+    device(i).advance(now_);  // it acts on its orders
     if (out.state) { multicast(*out.state, i); }
-    for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, axes_[i]); }
+    for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
 }
 
 void VirtualMachine::step_coordinator() {
-    const Mail mail = collect(network_, now_, coordinator_address());
-    const CoordinatorOutputs out = coordinator_.step({now_, mail.axes, mail.machine, mail.commands});
+    const std::size_t here = coordinator_address();
+    const Mail mail = collect(network_, now_, here);
+    const CoordinatorOutputs out = coordinator_->step({now_, mail.axes, mail.machine, mail.commands});
     for (const Frame& frame : out.frames) {
         const auto message = std::make_shared<const VirtualMessage>(frame);
-        for (std::size_t i = 0; i < axes_.size(); ++i) { send(i, message); }
+        for (std::size_t i = 0; i < axes_.size(); ++i) { send(here, i, message); }
     }
-    if (out.state) { multicast(*out.state, coordinator_address()); }
+    if (out.state) { multicast(*out.state, here); }
     for (const AxisCommand& command : out.axis_commands) {
-        send(command.axis, std::make_shared<const VirtualMessage>(command));
+        send(here, command.axis, std::make_shared<const VirtualMessage>(command));
     }
-    for (const Reply& reply : out.replies) { send(client_address(), std::make_shared<const VirtualMessage>(reply)); }
+    for (const Reply& reply : out.replies) {
+        send(here, client_address(), std::make_shared<const VirtualMessage>(reply));
+    }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
 }
 
-void VirtualMachine::send(std::size_t to, SharedMessage message) {
-    network_.send(now_, static_cast<VirtualNetwork::Receiver>(to), std::move(message));
+void VirtualMachine::send(std::size_t from, std::size_t to, SharedMessage message) {
+    network_.send(now_, static_cast<VirtualNetwork::Address>(from), static_cast<VirtualNetwork::Address>(to),
+                  std::move(message));
 }
 
 void VirtualMachine::multicast(VirtualMessage message, std::size_t from) {
     const auto shared = std::make_shared<const VirtualMessage>(std::move(message));
     for (std::size_t to = 0; to <= client_address(); ++to) {
-        if (to != from) { send(to, shared); }
+        if (to != from) { send(from, to, shared); }
     }
 }
 
 void VirtualMachine::listen() {
     Mail mail = collect(network_, now_, client_address());
     for (const AxisState& state : mail.axes) {
+        if (state.axis >= axis_states_.size()) { continue; }
         auto& newest = axis_states_[state.axis];
         if (!newest || state.stamp >= newest->stamp) { newest = state; }
     }
@@ -130,7 +204,9 @@ std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std:
     return command_.sequence;
 }
 
-void VirtualMachine::repeat_command() { send(coordinator_address(), std::make_shared<const VirtualMessage>(command_)); }
+void VirtualMachine::repeat_command() {
+    send(client_address(), coordinator_address(), std::make_shared<const VirtualMessage>(command_));
+}
 
 const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {
     const auto found =

@@ -1,15 +1,18 @@
 // A whole machine in one process in virtual time: the same coordinator, axis controllers, drivers and devices as live,
-// joined by a simulated network. Everything follows from the options: the same options give the same run, bit for bit.
+// joined by a simulated network. Everything follows from the options and the faults: the same give the same run, bit
+// for bit.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/coordinator/coordinator.hpp"
 #include "services/axis/axis_node.hpp"
+#include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_network.hpp"
 
 namespace lockstep {
@@ -22,6 +25,8 @@ public:
     /// After an axis's loop; `node` is as it is then.
     virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
     virtual void on_coordinator(Tick /*now*/, const CoordinatorOutputs& /*out*/) {}
+    /// When a fault begins, and when it has ended.
+    virtual void on_fault(Tick /*now*/, const VirtualFault& /*fault*/, bool /*begins*/) {}
 };
 
 struct VirtualOptions {
@@ -39,7 +44,12 @@ public:
 
     void observe(VirtualObserver& observer) { observers_.push_back(&observer); }
 
-    /// Goes on to the next loop of any process.
+    /// A fault to come; what should have begun already begins at once. Crashes of one process do not overlap.
+    void schedule(const VirtualFault& fault);
+    /// Whether a fault is still to come or to end.
+    bool faults_pending() const { return !turns_.empty(); }
+
+    /// Goes on to the next loop of any process, or the next turn of a fault.
     void advance();
     /// Goes on until `done` holds or `limit` has passed. True: it holds.
     bool advance_until(const std::function<bool()>& done, Ticks limit);
@@ -49,7 +59,9 @@ public:
     /// The last command once more, with its sequence number: for a client whose reply does not come.
     void repeat_command();
     /// A program that has arrived whole at the coordinator.
-    void give_program(std::uint64_t id, Program program) { coordinator_.accept_program(id, std::move(program)); }
+    void give_program(std::uint64_t id, Program program) {
+        if (coordinator_) { coordinator_->accept_program(id, std::move(program)); }
+    }
     const std::vector<Reply>& replies() const { return replies_; }
     /// The reply to a command, once it has come.
     const Reply* reply_to(std::uint64_t sequence) const;
@@ -59,17 +71,39 @@ public:
     /// The newest the client has heard.
     const std::optional<MachineState>& state() const { return machine_state_; }
     const std::vector<std::optional<AxisState>>& axis_states() const { return axis_states_; }
-    AxisNode& axis(std::size_t i) { return axes_[i]; }
+    /// An axis's device, which outlives its processes.
+    SimulatedDevice& device(std::size_t i) { return *axes_[i].device.simulated; }
+    const AlterationCounts& alterations() const { return network_.alterations(); }
 
 private:
-    struct Process {
-        Tick next;
-        std::size_t number = 0;
+    /// An axis: its device, and the process that runs it, while there is one.
+    struct Axis {
+        AxisDevice device;
+        std::optional<AxisNode> node;
     };
+    /// When a process's loop runs next; that of a dead one does not.
+    struct Process {
+        bool alive = false;
+        Tick next;
+    };
+    /// A fault begins or ends.
+    struct Turn {
+        VirtualFault fault;
+        bool begins = true;
+    };
+
+    void power_up();
+    std::optional<std::size_t> next_process() const;
+    void take_turn(const Turn& turn);
+    void start(std::size_t process);
+    void crash(std::size_t process);
+    void restart(std::size_t process);
+    void cut(const VirtualFault& fault, bool begins);
+
     void step_axis(std::size_t i);
     void step_coordinator();
     void listen();
-    void send(std::size_t to, SharedMessage message);
+    void send(std::size_t from, std::size_t to, SharedMessage message);
     void multicast(VirtualMessage message, std::size_t from);
     std::size_t coordinator_address() const { return axes_.size(); }
     std::size_t client_address() const { return axes_.size() + 1; }
@@ -80,9 +114,11 @@ private:
     VirtualNetwork network_;
     Tick now_;
     Ticks period_;
-    std::vector<AxisNode> axes_;
-    Coordinator coordinator_;
+    std::vector<Axis> axes_;
+    std::optional<Coordinator> coordinator_;
     std::vector<Process> processes_;  // the axes, then the coordinator
+    Identity axis_identities_ = 100;  // given so far
+    std::multimap<Tick, Turn> turns_;
     std::vector<VirtualObserver*> observers_;
     Command command_{.client = kClient};  // the last one given
     std::vector<Reply> replies_;

@@ -1,14 +1,16 @@
-// Messages in virtual time: delayed, reordered and duplicated as a seed says, one copy per receiver.
+// Messages in virtual time: delayed, reordered, duplicated, lost and altered as a seed says, one copy per receiver.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <random>
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include "core/protocol/messages.hpp"
+#include "services/virtual/corruption.hpp"
 
 namespace lockstep {
 
@@ -18,23 +20,31 @@ struct NetworkBehaviour {
     Ticks delay_max{50};
     double duplicated = 0;  // probability
     double lost = 0;        // probability
+    double corrupted = 0;   // probability
 };
-
-using VirtualMessage = std::variant<Frame, AxisState, MachineState, AxisCommand, Command, Reply>;
 
 /// One message, however many copies of it are on their way.
 using SharedMessage = std::shared_ptr<const VirtualMessage>;
 
 class VirtualNetwork {
 public:
-    using Receiver = std::uint32_t;
+    using Address = std::uint32_t;
 
     VirtualNetwork(const NetworkBehaviour& behaviour, std::uint64_t seed) : behaviour_(behaviour), random_(seed) {}
 
-    void send(Tick now, Receiver to, SharedMessage message);
+    void send(Tick now, Address from, Address to, SharedMessage message);
 
     /// The next message that has arrived at `to` by `now`, oldest arrival first. Null: no more.
-    SharedMessage receive(Tick now, Receiver to);
+    SharedMessage receive(Tick now, Address to);
+
+    /// A link may be cut several times over; it carries messages again when it has been mended as often.
+    void cut(Address from, Address to) { ++cuts_[{from, to}]; }
+    void mend(Address from, Address to) { --cuts_[{from, to}]; }
+
+    /// Messages to this one are never altered.
+    void trust(Address to) { trusted_ = to; }
+    /// How many messages have been altered in each way.
+    const AlterationCounts& alterations() const { return alterations_; }
 
 private:
     struct Parcel {
@@ -48,10 +58,15 @@ private:
     using Mailbox = std::priority_queue<Parcel, std::vector<Parcel>, std::greater<>>;
 
     bool happens(double probability);
-    void post(Tick now, Receiver to, SharedMessage message);
+    bool is_cut(Address from, Address to) const;
+    SharedMessage altered(const SharedMessage& message);
+    void post(Tick now, Address to, SharedMessage message);
 
     NetworkBehaviour behaviour_;
     std::mt19937_64 random_;
+    std::map<std::pair<Address, Address>, int> cuts_;
+    std::optional<Address> trusted_;
+    AlterationCounts alterations_{};
     std::vector<Mailbox> mailboxes_;
     std::uint64_t sent_ = 0;
 };

@@ -12,7 +12,7 @@ void check_slides(Bench& bench, const Counts& at) {
     for (std::size_t i = 0; i < at.size() && !bench.over(); ++i) {
         const AxisConfig& axis = bench.machine().axes[i];
         const double mm = static_cast<double>(at[i]) / axis.steps_per_mm;
-        const double is = bench.vm().axis(i).simulated()->plant().position_mm();
+        const double is = bench.vm().device(i).plant().position_mm();
         if (std::abs(is - mm) * axis.steps_per_mm > 2) {
             bench.object("place",
                          axis.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));
@@ -28,7 +28,7 @@ void check_places(Bench& bench, const Counts& at) {
         const auto& state = bench.vm().axis_states()[i];
         std::int64_t pulses = 0;
         for (const StepEdge& step : bench.recording().axes[i].steps) { pulses += step.direction; }
-        const std::int64_t encoder = bench.vm().axis(i).simulated()->plant().encoder();
+        const std::int64_t encoder = bench.vm().device(i).plant().encoder();
         if (encoder != pulses) {
             bench.object("lost", axis.name + " has moved " + std::to_string(encoder) + " steps after " +
                                      std::to_string(pulses) + " pulses");

@@ -123,7 +123,7 @@ TEST_F(Rig, ALimitSwitchStopsItsAxisAtOnceAndTheOthersOnTheirLine) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
     wait(0.8);
-    vm.axis(0).simulated()->plant().push(9'000);  // a hand pushes the slide onto the far limit switch
+    vm.device(0).plant().push(9'000);  // a hand pushes the slide onto the far limit switch
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(axis_fault(1), FaultCode::None) << describe();
     EXPECT_FALSE(vm.axis_states()[0]->homed);
@@ -136,7 +136,7 @@ TEST_F(Rig, AMotorThatLosesStepsIsFoundOut) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
     wait(0.8);
-    vm.axis(1).simulated()->plant().push(-20);
+    vm.device(1).plant().push(-20);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::FollowingError);
 }
@@ -172,12 +172,12 @@ protected:
 TEST_F(RigOnSwitch, AnAxisThatStandsOnItsSwitchPullsOffFirst) {
     home();
     EXPECT_EQ(counts()[0], 500);
-    EXPECT_NEAR(vm.axis(0).simulated()->plant().position_mm(), 5, 0.011) << "where the machine says it is";
+    EXPECT_NEAR(vm.device(0).plant().position_mm(), 5, 0.011) << "where the machine says it is";
 }
 
 TEST_F(Rig, HomingEndsWhereTheMachineSaysItIs) {
     home();
-    for (std::size_t i = 0; i < 2; ++i) { EXPECT_NEAR(vm.axis(i).simulated()->plant().position_mm(), 5, 0.011); }
+    for (std::size_t i = 0; i < 2; ++i) { EXPECT_NEAR(vm.device(i).plant().position_mm(), 5, 0.011); }
 }
 
 TEST_F(Rig, ALegalProgramLosesNoStep) {
