@@ -14,8 +14,11 @@ constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: what they make of
 /// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
 constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
 
-bool within_speed(double velocity, const AxisLimits& limits, double one_tick) {
-    return std::abs(velocity) <= limits.max_velocity * (1 + kRounding) + one_tick;
+/// What one tick's acceleration can do where pieces meet.
+double one_tick(const AxisLimits& limits) { return 2 * std::max(limits.max_acceleration, limits.max_deceleration); }
+
+bool within_speed(double velocity, const AxisLimits& limits) {
+    return std::abs(velocity) <= limits.max_velocity * (1 + kRounding) + one_tick(limits);
 }
 
 bool within_acceleration(double before, double after, double ticks, const AxisLimits& limits) {
@@ -28,19 +31,31 @@ bool within_travel(Position at, const AxisLimits& limits) {
     return at.count() >= limits.min_steps && at.count() <= limits.max_steps;
 }
 
+bool within_strain(const Strain& strain, const AxisLimits& limits) {
+    return strain.most() <= limits.start_velocity * (1 + kRounding) + one_tick(limits);
+}
+
+bool may_rest(const MotionPoint& end, const AxisLimits& limits) {
+    Strain strain = end.strain;
+    strain.add(-end.velocity, 0, 0);
+    return within_strain(strain, limits);
+}
+
 FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, MotionPoint& point) {
-    const double one_tick = 2 * std::max(limits.max_acceleration, limits.max_deceleration);
+    const double steepest = std::max(limits.max_acceleration, limits.max_deceleration);
     for (const Piece& piece : pieces) {
         if (piece.ticks.value <= 0 || piece.ticks.value > kMaxPieceTicks) { return FaultCode::BadProgram; }
         const double a = piece.acceleration.steps_per_tick2();
         const double before = piece.velocity.steps_per_tick() + a / 2;
         const auto ticks = static_cast<double>(piece.ticks.value);
         const double after = before + a * ticks;
-        const bool fits = within_speed(before, limits, one_tick) && within_speed(after, limits, one_tick) &&
-                          within_acceleration(before, after, ticks, limits) &&
-                          std::abs(before - point.velocity) <= limits.start_velocity * (1 + kRounding) + one_tick;
+        Strain strain = point.strain;
+        strain.add(before - point.velocity, 0, steepest);
+        const bool fits = within_speed(before, limits) && within_speed(after, limits) &&
+                          within_acceleration(before, after, ticks, limits) && within_strain(strain, limits);
         if (!fits) { return FaultCode::FrameBeyondLimits; }
-        point = {point.position + piece.covered(), after};
+        strain.add(after - before, ticks, steepest * (1 + kRounding));
+        point = {point.position + piece.covered(), after, strain};
         if (!within_travel(point.position, limits)) { return FaultCode::FrameOutsideTravel; }
     }
     return FaultCode::None;
@@ -64,10 +79,7 @@ FaultCode check_track(const AxisTrack& track, Ticks ticks, bool last, const Axis
     MotionPoint end = point;
     const std::span<const Piece> tail(track.tail.begin(), track.tail.end());
     if (const FaultCode fault = check_pieces(tail, limits, end); fault != FaultCode::None) { return fault; }
-    const double one_tick = 2 * std::max(limits.max_acceleration, limits.max_deceleration);
-    if (std::abs(end.velocity) > limits.start_velocity * (1 + kRounding) + one_tick) {
-        return FaultCode::FrameBeyondLimits;
-    }
+    if (!may_rest(end, limits)) { return FaultCode::FrameBeyondLimits; }
     from = point;
     return FaultCode::None;
 }

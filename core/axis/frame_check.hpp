@@ -3,6 +3,7 @@
 
 #include "core/faults.hpp"
 #include "core/machine.hpp"
+#include "core/motion/strain.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
@@ -11,13 +12,14 @@ namespace lockstep {
 struct MotionPoint {
     Position position;
     double velocity = 0;  // steps per tick, as the continuous motion has it
+    Strain strain;        // what sudden changes have added up to
 };
 
 /// Checks a frame's track for one axis that follows on from `from`:
 /// - its start is bit-exactly `from.position` (FrameDiscontinuous);
-/// - speed, acceleration, deceleration and sudden changes keep the limits, and the tail, or the body of a last frame,
-///   ends no faster than the start velocity (FrameBeyondLimits). What one tick's acceleration can do is tolerated
-///   where pieces meet, since pieces last whole ticks;
+/// - speed, acceleration, deceleration and sudden changes keep the limits, also those that follow each other closely,
+///   and the tail, or the body of a last frame, ends no faster than the start velocity (FrameBeyondLimits). What one
+///   tick's acceleration can do is tolerated where pieces meet, since pieces last whole ticks;
 /// - body and tail stay within the travel (FrameOutsideTravel);
 /// - the body lasts exactly `ticks`, no piece is empty (BadProgram).
 /// Returns None and moves `from` to the body's end, or says the first thing wrong and leaves `from`.

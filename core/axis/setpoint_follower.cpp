@@ -48,7 +48,7 @@ void SetpointFollower::begin(const Frame& frame, Position from) {
     held_ = checked_ = 0;
     veto_.reset();
     device_veto_.reset();
-    end_ = {from, 0};
+    end_ = {from, 0, {}};
     end_tick_ = frame.start;
     last_held_ = false;
     frames_.clear();

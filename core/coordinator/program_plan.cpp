@@ -1,13 +1,15 @@
 #include "core/coordinator/program_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "core/motion/corners.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr double kMaxSteps = 0x1p40;
-constexpr double kMaxDwellSeconds = 86'400;
 
 std::string number(double value) {
     char text[32];
@@ -86,9 +88,10 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
             if (move.lead != 0) { legs.back().moves.push_back(move); }
             at = *to;
         } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
-            const double seconds = std::min(dwell->seconds, kMaxDwellSeconds);
-            const Ticks ticks{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
-            if (ticks.value <= 0) { continue; }
+            const double seconds = std::min(dwell->seconds, kMaxDwell_s);
+            const Ticks asked{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
+            if (asked.value <= 0) { continue; }
+            const Ticks ticks = std::max(asked, least_rest(limits_));
             legs.back().moves.push_back({.line = block.line, .block = b, .from = at, .to = at, .dwell = ticks});
         } else {
             legs.back().then_pause = true;

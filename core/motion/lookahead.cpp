@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/motion/corners.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
@@ -11,59 +12,36 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// mm of path per step of the lead axis: turns speeds of one move into those of the next.
-double mm_per_lead(const PathMove& move) { return move.length_mm / static_cast<double>(move.lead); }
-
-/// Steps of axis i per mm of path.
-double slope(const PathMove& move, std::size_t i) {
-    return static_cast<double>(move.to[i] - move.from[i]) / move.length_mm;
-}
-
-/// The path speed (mm per tick) at which no axis changes its speed by more than its start velocity.
-double corner_speed(const PathMove& before, const PathMove& after, std::span<const AxisLimits> limits) {
-    double speed = kUnbounded;
-    for (std::size_t i = 0; i < limits.size(); ++i) {
-        const double change = std::abs(slope(after, i) - slope(before, i));
-        if (change > 0) { speed = std::min(speed, limits[i].start_velocity / change); }
-    }
-    return speed;
-}
-
-double start_speed(const PathMove& move) { return move.limits.start_velocity * mm_per_lead(move); }
-double top_speed(const PathMove& move) { return move.limits.max_velocity * mm_per_lead(move); }
-double remaining_mm(const PathMove& move, Displacement along) {
-    return move.length_mm - along.as_steps() * mm_per_lead(move);
-}
-
 /// How much of a squared speed the move can take away or add over a length: 2 a s.
-double brakes(const PathMove& move, double mm) { return 2 * move.limits.max_deceleration * mm_per_lead(move) * mm; }
-double gains(const PathMove& move, double mm) { return 2 * move.limits.max_acceleration * mm_per_lead(move) * mm; }
+double brakes(const PathMove& move, double mm) { return 2 * move.limits.max_deceleration * move.mm_per_lead() * mm; }
+double gains(const PathMove& move, double mm) { return 2 * move.limits.max_acceleration * move.mm_per_lead() * mm; }
 
 /// Speeds (mm per tick) at the joints of moves[first, last): joints[0] before the first, all from rest to rest.
-std::vector<double> joint_speeds(std::span<const PathMove> moves, Displacement along,
-                                 std::span<const AxisLimits> limits, const PathBounds& bounds) {
+std::vector<double> joint_speeds(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
+                                 const PathBounds& bounds) {
     const std::size_t n = moves.size();
-    std::vector<double> speed(n + 1);
-    speed[0] = std::min(start_speed(moves[0]), top_speed(moves[0]));
-    speed[n] = std::min(start_speed(moves[n - 1]), top_speed(moves[n - 1]));
+    // One move alone from rest to rest jumps away from rest and back to it: changes that do not add up.
+    std::vector<double> speed = n == 1 ? std::vector<double>(2, kUnbounded) : limit_corners(moves, along, limits);
+    speed[0] = std::min({speed[0], moves[0].start_speed(), moves[0].top_speed()});
+    speed[n] = std::min({speed[n], moves[n - 1].start_speed(), moves[n - 1].top_speed()});
     std::vector<double> brakes_before(n + 1, 0);  // the sum of what moves[0, i) can take away
     for (std::size_t i = 0; i < n; ++i) {
         brakes_before[i + 1] = brakes_before[i] + brakes(moves[i], moves[i].length_mm);
     }
     for (std::size_t i = 1; i < n; ++i) {
         const std::size_t horizon = std::min(n, i + bounds.stop_moves - 1);
-        speed[i] = std::min({corner_speed(moves[i - 1], moves[i], limits), top_speed(moves[i - 1]), top_speed(moves[i]),
+        speed[i] = std::min({speed[i], moves[i - 1].top_speed(), moves[i].top_speed(),
                              std::sqrt(brakes_before[horizon] - brakes_before[i])});
     }
     for (std::size_t i = n - 1; i >= 1; --i) {
         speed[i] = std::min(speed[i], std::sqrt(speed[i + 1] * speed[i + 1] + brakes(moves[i], moves[i].length_mm)));
     }
     for (std::size_t i = 1; i <= n; ++i) {
-        const double mm = i == 1 ? remaining_mm(moves[0], along) : moves[i - 1].length_mm;
+        const double mm = i == 1 ? moves[0].remaining_mm(along) : moves[i - 1].length_mm;
         speed[i] = std::min(speed[i], std::sqrt(speed[i - 1] * speed[i - 1] + gains(moves[i - 1], mm)));
     }
     // A first move shorter than its start speed needs to brake: enter it more slowly.
-    const double reach = speed[1] * speed[1] + brakes(moves[0], remaining_mm(moves[0], along));
+    const double reach = speed[1] * speed[1] + brakes(moves[0], moves[0].remaining_mm(along));
     speed[0] = std::min(speed[0], std::sqrt(reach));
     return speed;
 }
@@ -75,7 +53,7 @@ void plan_joined(std::span<PathMove> moves, Displacement along, std::span<const 
     const std::int64_t quantum = moves.size() == 1 ? kSubticksPerTick : 1;
     for (std::size_t i = 0; i < moves.size(); ++i) {
         PathMove& move = moves[i];
-        const double scale = mm_per_lead(move);
+        const double scale = move.mm_per_lead();
         move.profile = plan_fastest({.from = i == 0 ? along : Displacement{},
                                      .to = Displacement::steps(move.lead),
                                      .entry = speed[i] / scale,
@@ -123,15 +101,15 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
     }
     if (move.lead == 0) { return move; }
     move.length_mm = std::sqrt(square);
-    const double feed = feed_mm_per_tick > 0 ? feed_mm_per_tick / mm_per_lead(move) : kUnbounded;
-    move.limits = {kUnbounded, feed, kUnbounded, kUnbounded};
+    const double feed = feed_mm_per_tick > 0 ? feed_mm_per_tick / move.mm_per_lead() : kUnbounded;
+    move.own = {kUnbounded, feed, kUnbounded, kUnbounded};
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const double share = std::abs(move.share(i));
         if (share == 0) { continue; }
-        move.limits.start_velocity = std::min(move.limits.start_velocity, limits[i].start_velocity / share);
-        move.limits.max_velocity = std::min(move.limits.max_velocity, limits[i].max_velocity / share);
-        move.limits.max_acceleration = std::min(move.limits.max_acceleration, limits[i].max_acceleration / share);
-        move.limits.max_deceleration = std::min(move.limits.max_deceleration, limits[i].max_deceleration / share);
+        move.own.start_velocity = std::min(move.own.start_velocity, limits[i].start_velocity / share);
+        move.own.max_velocity = std::min(move.own.max_velocity, limits[i].max_velocity / share);
+        move.own.max_acceleration = std::min(move.own.max_acceleration, limits[i].max_acceleration / share);
+        move.own.max_deceleration = std::min(move.own.max_deceleration, limits[i].max_deceleration / share);
     }
     return move;
 }
@@ -141,6 +119,7 @@ Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const 
     Path path{std::move(moves)};
     for (PathMove& move : path.moves) {
         if (move.lead == 0) { continue; }
+        move.limits = move.own;
         const double fastest = static_cast<double>(move.lead) / static_cast<double>(bounds.least_move.value);
         move.limits.max_velocity = std::min(move.limits.max_velocity, fastest);
         move.limits.start_velocity = std::min(move.limits.start_velocity, move.limits.max_velocity);
@@ -176,24 +155,21 @@ Path brake_from(const Path& path, Subticks t) {
         rest.moves.push_back(move);
         return rest;
     }
-    double speed = path.moves[i].profile.velocity_at(t - path.moves[i].start) * mm_per_lead(path.moves[i]);
-    double halt_speed = kUnbounded;  // the least of the moves passed: a stop just behind a corner is not a second jump
+    double speed = path.moves[i].profile.velocity_at(t - path.moves[i].start) * path.moves[i].mm_per_lead();
     Displacement from = path.moves[i].profile.at(t - path.moves[i].start);
     Subticks clock;
     for (; i < path.moves.size() && path.moves[i].lead != 0; ++i, from = {}) {
         PathMove move = path.moves[i];
         const Displacement whole = Displacement::steps(move.lead);
         if (from >= whole) { continue; }
-        const double scale = mm_per_lead(move);
-        halt_speed = std::min(halt_speed, start_speed(move));
+        const double scale = move.mm_per_lead();
         const double entry = speed / scale;
-        const double halt = halt_speed / scale;
-        if (entry <= halt) { break; }
+        if (entry <= 0) { break; }
         const double left = (whole - from).as_steps();
         const double at_end = entry * entry - 2 * move.limits.max_deceleration * left;
-        const bool halts = at_end < halt * halt;
-        const double exit = halts ? halt : std::sqrt(at_end);
-        if (halts) { move.profile = plan_brake_to(from, entry, halt, move.limits.max_deceleration, clock); }
+        const bool halts = at_end <= 0;
+        const double exit = halts ? 0 : std::sqrt(at_end);
+        if (halts) { move.profile = plan_brake_to(from, entry, move.limits.max_deceleration, clock); }
         if (!halts || move.profile.phases.back().to > whole) {
             move.profile = plan_brake_through(from, whole, entry, exit);
         }

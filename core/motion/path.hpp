@@ -20,7 +20,8 @@ struct PathMove {
     AxisCounts to;
     std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;
-    PathLimits limits;  // of the lead axis, so that no axis breaks its own; feed included
+    PathLimits own;     // of the lead axis, so that no axis breaks its own; feed included
+    PathLimits limits;  // what the frames and the corners beside it leave of them: set by planning
     Ticks dwell;        // where lead is 0
     Subticks start;     // after the path's start
     Profile profile;
@@ -28,6 +29,14 @@ struct PathMove {
     Subticks end() const { return start + profile.duration(); }
     /// Steps of axis `i` over steps of the lead axis, with its sign.
     double share(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / static_cast<double>(lead); }
+    /// Steps of axis `i` per mm of path.
+    double slope(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / length_mm; }
+    /// mm of path per step of the lead axis: turns speeds of one move into those of the next.
+    double mm_per_lead() const { return length_mm / static_cast<double>(lead); }
+    double remaining_mm(Displacement along) const { return length_mm - along.as_steps() * mm_per_lead(); }
+    /// mm per tick.
+    double start_speed() const { return limits.start_velocity * mm_per_lead(); }
+    double top_speed() const { return limits.max_velocity * mm_per_lead(); }
     /// Where axis `i` is when the lead axis has gone `s`: exact, floor of the magnitude.
     Position axis_at(std::size_t i, Displacement s) const;
 };

@@ -162,12 +162,12 @@ Profile plan_brake_through(Displacement from, Displacement to, double entry, dou
     return profile;
 }
 
-Profile plan_brake_to(Displacement from, double entry, double exit, double deceleration, Subticks start) {
+Profile plan_brake_to(Displacement from, double entry, double deceleration, Subticks start) {
     constexpr Ticks kLeastTicks{2};
-    const Subticks steepest = start + Subticks{round_up((entry - exit) / deceleration, 1)};
+    const Subticks steepest = start + Subticks{round_up(entry / deceleration, 1)};
     const Ticks end = std::max(steepest.ceil(), start.ceil() + kLeastTicks);
     const Subticks n = subticks(end) - start;
-    const double distance = (entry + exit) / 2 * static_cast<double>(n.value) / static_cast<double>(kSubticksPerTick);
+    const double distance = entry / 2 * static_cast<double>(n.value) / static_cast<double>(kSubticksPerTick);
     Profile profile;
     (void)profile.phases.push_back({from, {from.raw + static_cast<Int128>(distance * 0x1p64)}, to_raw(entry), n});
     return profile;

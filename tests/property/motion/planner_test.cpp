@@ -6,6 +6,7 @@
 
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
+#include "core/motion/strain.hpp"
 
 namespace lockstep {
 namespace {
@@ -126,6 +127,7 @@ constexpr PathBounds kBounds{Ticks{400}, 24};
 /// Follows the pieces of all axes tick by tick and checks every limit and the distance from the path's own place.
 void expect_within_limits(const Path& path, const Machine& m, std::vector<Position> at, bool ends_on_path) {
     std::vector<double> last(m.limits.size(), 0);
+    std::vector<Strain> strain(m.limits.size());
     std::vector<Piece> pieces(m.limits.size());
     std::vector<Position> cursor = at;
     PieceSource source(path, Ticks{0}, path.duration().ceil(), cursor);
@@ -139,7 +141,9 @@ void expect_within_limits(const Path& path, const Machine& m, std::vector<Positi
             const double v0 = pieces[i].velocity.steps_per_tick() + a / 2;
             const double v1 = v0 + a * n;
             const double one_tick = 2 * std::max(l.max_acceleration, l.max_deceleration);
-            ASSERT_LE(std::abs(v0 - last[i]), l.start_velocity * (1 + 1e-6) + one_tick) << "tick " << clock.value;
+            strain[i].add(v0 - last[i], 0, 0);
+            ASSERT_LE(strain[i].most(), l.start_velocity * (1 + 1e-6) + one_tick) << "tick " << clock.value;
+            strain[i].add(v1 - v0, n, std::max(l.max_acceleration, l.max_deceleration) * (1 + 1e-6));
             ASSERT_LE(std::max(std::abs(v0), std::abs(v1)), l.max_velocity * (1 + 1e-6) + one_tick);
             const bool speeding = std::abs(v1) > std::abs(v0);
             ASSERT_LE(std::abs(a), (speeding ? l.max_acceleration : l.max_deceleration) * (1 + 1e-6))
@@ -150,7 +154,8 @@ void expect_within_limits(const Path& path, const Machine& m, std::vector<Positi
         }
     }
     for (std::size_t i = 0; i < last.size(); ++i) {
-        ASSERT_LE(std::abs(last[i]), m.limits[i].start_velocity * (1 + 1e-6) + 2 * m.limits[i].max_deceleration);
+        strain[i].add(-last[i], 0, 0);
+        ASSERT_LE(strain[i].most(), m.limits[i].start_velocity * (1 + 1e-6) + 2 * m.limits[i].max_deceleration);
         if (ends_on_path) { ASSERT_EQ(at[i].count(), path.moves.back().to[i]); }
     }
 }

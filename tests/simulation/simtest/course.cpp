@@ -48,7 +48,8 @@ double length_mm(const MachineConfig& machine, const Counts& from, const Counts&
     return std::sqrt(square);
 }
 
-/// From rest to rest at a corner's worst, half the start velocity, in every axis's slowest way.
+/// From rest to rest at a corner's worst, half the start velocity or what the acceleration allows over so short a way,
+/// in every axis's slowest way.
 double ample_seconds(const MachineConfig& machine, const Counts& from, const Stretch& stretch) {
     double seconds = stretch.seconds;
     const double length = length_mm(machine, from, stretch.to);
@@ -57,7 +58,9 @@ double ample_seconds(const MachineConfig& machine, const Counts& from, const Str
         const AxisConfig& axis = machine.axes[i];
         const double mm = std::abs(static_cast<double>(stretch.to[i] - from[i]) / axis.steps_per_mm);
         const double ramps = axis.max_velocity_mm_s * (1 / axis.max_accel_mm_s2 + 1 / axis.max_decel_mm_s2);
-        seconds += mm == 0 ? 0 : mm / axis.max_velocity_mm_s + std::min(ramps, 4 * mm / axis.start_velocity_mm_s);
+        const double slowest = std::min(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
+        const double corners = 4 * mm / axis.start_velocity_mm_s + 4 * std::sqrt(mm / slowest);
+        seconds += mm == 0 ? 0 : mm / axis.max_velocity_mm_s + std::min(ramps, corners);
     }
     return 2 * seconds;
 }

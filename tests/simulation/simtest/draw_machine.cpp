@@ -74,9 +74,9 @@ AxisConfig draw_axis(Draw& draw, const std::string& name) {
     axis.position_min_mm = draw.chance(0.5) ? 0 : -travel_mm * draw.real(0, 1.5);
     axis.position_max_mm = axis.position_min_mm + travel_mm;
     axis.plant.travel_margin_mm = draw.real(5, 30) / axis.steps_per_mm;
-    // A motor that loses nothing: corners that follow each other closely may ask more of one than each does alone.
-    axis.plant.max_torque_accel_mm_s2 = 1.5 * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
-    axis.plant.max_jump_mm_s = 3 * axis.max_velocity_mm_s;
+    // A motor hardly stronger than the limits: it loses steps where motion exceeds them.
+    axis.plant.max_torque_accel_mm_s2 = 1.02 * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
+    axis.plant.max_jump_mm_s = 1.02 * axis.start_velocity_mm_s;
     axis.homing = draw_homing(draw, axis, d);
     axis.plant.start_position_mm = draw_start(draw, axis, travel_mm);
     return axis;
