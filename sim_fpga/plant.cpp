@@ -25,7 +25,7 @@ Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
 
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     max_acceleration_ = axis.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
-    max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(max_acceleration_);
+    max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
 }
 
 /// A pulse falls where the commanded position crosses a half: half a step short of its count, seen the way it goes.

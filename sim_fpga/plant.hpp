@@ -4,12 +4,12 @@
 //
 // The motor is judged by the times of the pulses alone: every kWindow ticks or the next pulse after that, the mean
 // speed since the last judgement is taken. The rotor's speed follows it with at most A = max_torque_accel_mm_s2. While
-// the two then differ by more than max_jump_mm_s + sqrt(A), and what rounding of pulses to ticks can feign, the rotor
-// slips: every pulse is a step lost. sqrt(A), in steps and ticks, is the speed gained in the first half step from rest,
-// which pulses cannot tell from a jump. So jumps of up to max_jump, accelerations of up to A, and both together lose
-// nothing; slow enough to stop by a jump it stops or turns by one, as often as it is told to; a greater jump loses at
-// once; a greater acceleration a loses from about the speed (max_jump + sqrt(A)) * a / (a - A) on, where the rotor has
-// fallen back by that much. A dead stop loses nothing: no pulse follows it that could be lost.
+// the two then differ by more than max_jump_mm_s + sqrt(2 A), and what rounding of pulses to ticks can feign, the rotor
+// slips: every pulse is a step lost. sqrt(2 A), in steps and ticks, is the speed gained in the first step from a rest
+// just behind a pulse, which pulses cannot tell from a jump. So jumps of up to max_jump, accelerations of up to A, and
+// both together lose nothing; slow enough to stop by a jump it stops or turns by one, as often as it is told to; a
+// greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(2 A)) * a / (a - A)
+// on, where the rotor has fallen back by that much. A dead stop loses nothing: no pulse follows it that could be lost.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ private:
     bool home_toward_min_;
 
     double max_acceleration_;  // A, steps per tick^2
-    double max_gap_;           // max_jump + sqrt(A), steps per tick
+    double max_gap_;           // max_jump + sqrt(2 A), steps per tick
     double speed_ = 0;         // the rotor's, signed, steps per tick
     bool slips_ = false;
     Tick judged_{-(std::int64_t{1} << 62)};  // at rest since long ago

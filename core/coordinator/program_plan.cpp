@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/motion/corners.hpp"
-
 namespace lockstep {
 namespace {
 
@@ -89,9 +87,8 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
             at = *to;
         } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
             const double seconds = std::min(dwell->seconds, kMaxDwell_s);
-            const Ticks asked{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
-            if (asked.value <= 0) { continue; }
-            const Ticks ticks = std::max(asked, least_rest(limits_));
+            const Ticks ticks{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
+            if (ticks.value <= 0) { continue; }
             legs.back().moves.push_back({.line = block.line, .block = b, .from = at, .to = at, .dwell = ticks});
         } else {
             legs.back().then_pause = true;

@@ -101,10 +101,13 @@ std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along,
     return speed;
 }
 
-Ticks least_rest(std::span<const AxisLimits> limits) {
-    double ticks = 0;
-    for (const AxisLimits& axis : limits) { ticks = std::max(ticks, axis.start_velocity / least_acceleration(axis)); }
-    return {static_cast<std::int64_t>(std::ceil(ticks))};
+double rest_share(Ticks rest, std::span<const AxisLimits> limits) {
+    double share = 1;
+    for (const AxisLimits& axis : limits) {
+        const double paid = least_acceleration(axis) * static_cast<double>(rest.value) / axis.start_velocity;
+        share = std::min(share, (1 + paid) / 2);
+    }
+    return share;
 }
 
 }  // namespace lockstep

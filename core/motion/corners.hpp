@@ -26,7 +26,8 @@ inline constexpr double kCornerShare = 0.8;
 /// speeds and accelerations to what their corners leave.
 std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits);
 
-/// The least rest between two motions: an axis may jump to rest before it and away from it behind.
-Ticks least_rest(std::span<const AxisLimits> limits);
+/// The part of its start velocity that an axis may jump by on either side of a rest of `rest`: half at least, all of it
+/// where the rest is long enough to pay for both jumps.
+double rest_share(Ticks rest, std::span<const AxisLimits> limits);
 
 }  // namespace lockstep

@@ -63,6 +63,22 @@ void plan_joined(std::span<PathMove> moves, Displacement along, std::span<const 
     }
 }
 
+/// What frames can carry of a move, and what a short rest before or behind it allows.
+void limit_by_surroundings(std::vector<PathMove>& moves, std::size_t i, std::span<const AxisLimits> limits,
+                           const PathBounds& bounds) {
+    PathMove& move = moves[i];
+    if (move.lead == 0) { return; }
+    move.limits = move.own;
+    if (i > 0 && moves[i - 1].lead == 0) { move.limits.start_velocity *= rest_share(moves[i - 1].dwell, limits); }
+    if (i + 1 < moves.size() && moves[i + 1].lead == 0) {
+        move.limits.start_velocity =
+            std::min(move.limits.start_velocity, move.own.start_velocity * rest_share(moves[i + 1].dwell, limits));
+    }
+    const double fastest = static_cast<double>(move.lead) / static_cast<double>(bounds.least_move.value);
+    move.limits.max_velocity = std::min(move.limits.max_velocity, fastest);
+    move.limits.start_velocity = std::min(move.limits.start_velocity, move.limits.max_velocity);
+}
+
 /// What is left of a profile whose last phase is in progress, its time starting at 0.
 Profile remainder_of(const Profile& profile, Subticks t) {
     const Phase& fall = profile.phases.back();
@@ -117,13 +133,7 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
 Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
                const PathBounds& bounds) {
     Path path{std::move(moves)};
-    for (PathMove& move : path.moves) {
-        if (move.lead == 0) { continue; }
-        move.limits = move.own;
-        const double fastest = static_cast<double>(move.lead) / static_cast<double>(bounds.least_move.value);
-        move.limits.max_velocity = std::min(move.limits.max_velocity, fastest);
-        move.limits.start_velocity = std::min(move.limits.start_velocity, move.limits.max_velocity);
-    }
+    for (std::size_t i = 0; i < path.moves.size(); ++i) { limit_by_surroundings(path.moves, i, limits, bounds); }
     Subticks clock;
     for (std::size_t first = 0; first < path.moves.size();) {
         std::size_t last = first;

@@ -73,7 +73,8 @@ Profile plan_fastest(const ProfileRequest& request);
 Profile plan_brake_through(Displacement from, Displacement to, double entry, double exit);
 
 /// Constant deceleration from speed `entry` down to 0, wherever on the path that ends: it leaves out the jump to rest,
-/// since a corner may be just behind. It begins `start` after a whole tick and ends on one, with two of its own at least.
+/// since a corner may be just behind. It begins `start` after a whole tick and ends on one, with two of its own at
+/// least.
 Profile plan_brake_to(Displacement from, double entry, double deceleration, Subticks start);
 
 /// Standing still on a place for a time.

@@ -40,7 +40,7 @@ RC_GTEST_PROP(Motor, AnyProfileWithinItsTorqueAndJumpLosesNothing, ()) {
 
 RC_GTEST_PROP(Motor, AnyJumpFarBeyondLosesSteps, ()) {
     const Motor motor = any_motor();
-    const double one_step = std::sqrt(motor.accel / motor.axis.steps_per_mm);  // gained in half a step, mm/s
+    const double one_step = std::sqrt(2 * motor.accel / motor.axis.steps_per_mm);  // gained in a step, mm/s
     const double jump = 2 * (motor.jump + one_step) * number_in(1, 5);
     RC_PRE(jump < motor.fastest);
     RC_ASSERT(steps_lost(motor.axis, {{jump, jump, 0.1 + 10 / (jump * motor.axis.steps_per_mm)}}) > 0);
@@ -48,7 +48,7 @@ RC_GTEST_PROP(Motor, AnyJumpFarBeyondLosesSteps, ()) {
 
 RC_GTEST_PROP(Motor, AnyAccelerationFarBeyondLosesSteps, ()) {
     const Motor motor = any_motor();
-    const double one_step = std::sqrt(motor.accel / motor.axis.steps_per_mm);
+    const double one_step = std::sqrt(2 * motor.accel / motor.axis.steps_per_mm);
     const double speed = 8 * (motor.jump + one_step);
     RC_PRE(speed < motor.fastest / 2);
     RC_ASSERT(steps_lost(motor.axis, trapezoid(0, speed, 2 * motor.accel, 0.05)) > 0);

@@ -115,8 +115,13 @@ TEST(Corners, AStraightLineCutIntoChordsIsAsFastAsInOnePiece) {
     EXPECT_LE(seconds(through(places)), 1.015 * seconds(through({{0, 0}, {6000, 4000}}))) << "but for its first jump";
 }
 
-TEST(Corners, ARestBetweenTwoMotionsLastsUntilBothJumpsArePaidFor) {
-    EXPECT_NEAR(static_cast<double>(least_rest(kLimits).value), 5000, 1);  // 5 mm/s at 1000 mm/s^2
+TEST(Corners, BesideARestTooShortToPayForTwoJumpsEachIsSmaller) {
+    EXPECT_EQ(rest_share(Ticks{10'000}, kLimits), 1);
+    EXPECT_NEAR(rest_share(Ticks{2'500}, kLimits), 0.75, 1e-9);  // 5 mm/s at 1000 mm/s^2 take 5000 ticks
+    std::vector<PathMove> moves{make_move({0, 0}, {1000, 0}, kLimits, kScale, 0),
+                                {.from = {1000, 0}, .to = {1000, 0}, .dwell = Ticks{1}},
+                                make_move({1000, 0}, {0, 0}, kLimits, kScale, 0)};
+    EXPECT_LE(most_strain(plan_path(moves, {}, kLimits, kBounds)), kWhole);
 }
 
 TEST(Strain, CountsJumpsThatFollowEachOtherAndForgetsThemWithTime) {
