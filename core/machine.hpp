@@ -11,6 +11,9 @@ namespace lockstep {
 
 inline constexpr std::size_t kMaxAxes = 32;
 
+/// How the steps of an axis's own moves are made (core/stepgen): homing, and moves from point to point by itself.
+enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
+
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
     int sequence = 0;  // axes with lower numbers home first; equal ones together
@@ -39,6 +42,7 @@ struct AxisConfig {
     double max_decel_mm_s2 = 0;
     double position_min_mm = 0;
     double position_max_mm = 0;
+    StepMethod method = StepMethod::Ranade;
     HomingConfig homing;
     PlantConfig plant;
 };

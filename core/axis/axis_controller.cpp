@@ -87,6 +87,8 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
                 follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
             }
             return done(FaultCode::None);
+        case AxisCommandKind::MoveOwn:
+        case AxisCommandKind::Halt: return refuse(command, FaultCode::NothingToDo, out);
     }
 }
 

@@ -18,7 +18,8 @@
 
 namespace lockstep {
 
-enum class JobKind : std::uint8_t { Home, Move, Run };
+/// MoveOwn: axes to their places each by itself, not coordinated.
+enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
 
 /// What the record says of a job: enough to do it again.
 struct JobEvent {

@@ -27,6 +27,7 @@ Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {
         case CommandKind::Resume: return resume(command, out);
         case CommandKind::Reset: return reset(command, out);
         case CommandKind::EmergencyStop: return emergency(command, out);
+        case CommandKind::MoveOwn: break;
     }
     return refused(command, FaultCode::NothingToDo, "unknown command");
 }

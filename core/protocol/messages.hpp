@@ -72,7 +72,8 @@ struct AxisState {
     bool operator==(const AxisState&) const = default;
 };
 
-enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow };
+/// MoveOwn: to a place by itself, not coordinated with others. Halt: a move of its own is braked and given up.
+enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt };
 
 /// Coordinator to one axis. Repeated each slot until the axis's state says it is done.
 struct AxisCommand {
@@ -80,6 +81,8 @@ struct AxisCommand {
     std::uint64_t sequence = 0;  // rises; an axis carries out each once
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
+    std::int64_t target_steps = 0;  // MoveOwn: machine coordinates
+    Ticks ticks;                    // MoveOwn: how long it lasts; 0: as fast as the axis's limits allow
     bool operator==(const AxisCommand&) const = default;
 };
 
@@ -108,7 +111,7 @@ struct MachineState {
     bool operator==(const MachineState&) const = default;
 };
 
-enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset };
+enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset, MoveOwn };
 
 /// A client to the coordinator. Answered by a Reply with the same client and sequence; never replayed.
 struct Command {
@@ -116,7 +119,8 @@ struct Command {
     std::uint64_t sequence = 0;
     CommandKind kind = CommandKind::Stop;
     std::uint32_t axes = 0;     // Home: bit i for axis i; 0 means all
-    std::uint64_t program = 0;  // Move, Run: the program sent before in chunks
+    std::uint64_t program = 0;  // Move, Run, MoveOwn: the program sent before in chunks
+    Ticks ticks;                // MoveOwn: how long each axis's move lasts; 0: as fast as its limits allow
     bool operator==(const Command&) const = default;
 };
 

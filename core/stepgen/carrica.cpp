@@ -5,6 +5,7 @@
 
 #include "core/stepgen/adjustments.hpp"
 #include "core/stepgen/number_text.hpp"
+#include "core/units.hpp"
 
 namespace lockstep::stepgen {
 namespace {
@@ -13,37 +14,15 @@ constexpr double kOne = 0x1p60;  // a step, where speeds are steps per clock per
 
 std::int64_t rounded_up(double steps) { return static_cast<std::int64_t>(std::ceil(steps * kOne)); }
 
-/// V_ref, in 2^-60 steps per clock period.
-struct Reference {
-    std::int64_t speed;
-    std::int64_t min;
-    std::int64_t max;
-    std::int64_t change;  // per clock period
-    enum class Slope { Rising, Level, Falling } slope = Slope::Rising;
-
-    Reference(const StepMove& move, double clock_s)
-        : speed(rounded_up(move.start * clock_s)),
-          min(speed),
-          max(rounded_up(move.max * clock_s)),
-          change(rounded_up(move.acceleration * clock_s * clock_s)) {}
-
-    void clock() {
-        if (slope == Slope::Rising) { speed = std::min(max, speed + change); }
-        if (slope == Slope::Falling) { speed = std::max(min, speed - change); }
+/// The first of from ... to for which the condition holds; it holds for `to`, and for all behind the first.
+template <typename Condition>
+std::int64_t first_where(std::int64_t from, std::int64_t to, const Condition& holds) {
+    while (from < to) {
+        const std::int64_t middle = from + (to - from) / 2;
+        holds(middle) ? to = middle : from = middle + 1;
     }
-    /// After a step: once it has begun to fall, it falls or waits for the steps to come down to it.
-    void brake_for(std::int64_t remaining) {
-        const bool too_fast = static_cast<double>(remaining) <= brake_steps();
-        if (too_fast) { slope = Slope::Falling; }
-        if (!too_fast && slope == Slope::Falling) { slope = Slope::Level; }
-    }
-    /// Steps from here to V_min.
-    double brake_steps() const {
-        const double v = static_cast<double>(speed) / kOne;
-        const double v0 = static_cast<double>(min) / kOne;
-        return (v * v - v0 * v0) / (2 * static_cast<double>(change) / kOne);
-    }
-};
+    return to;
+}
 
 StepMove expressible(const StepMove& move, Adjustments& changed) {
     StepMove made = move;
@@ -66,7 +45,52 @@ double carrica_speed_gap(double steps_per_s, double clock_s) {
     return 1 / (n * clock_s) - 1 / ((n + 1) * clock_s);
 }
 
-StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& parameters) {
+std::int64_t CarricaSteps::Reference::after(std::int64_t clocks) const {
+    const Int128 gained = Int128{clocks} * change;
+    if (slope == Slope::Rising) { return static_cast<std::int64_t>(std::min<Int128>(max, speed + gained)); }
+    if (slope == Slope::Falling) { return static_cast<std::int64_t>(std::max<Int128>(min, speed - gained)); }
+    return speed;
+}
+
+bool CarricaSteps::Reference::steps_at(std::int64_t clocks) const {
+    return Int128{clocks} * after(clocks) >= static_cast<Int128>(kOne);
+}
+
+/// While it falls, n V_ref rises to a peak, and rises again only once V_min is reached: a step falls in either rise.
+std::int64_t CarricaSteps::Reference::wait() const {
+    const auto holds = [this](std::int64_t clocks) { return steps_at(clocks); };
+    const auto longest = [](std::int64_t slowest) { return static_cast<std::int64_t>(kOne) / slowest + 1; };
+    if (slope != Slope::Falling) { return first_where(1, longest(speed), holds); }
+    const std::int64_t down = (speed - min + change - 1) / change;
+    const std::int64_t peak = std::min(down, (speed + change) / (2 * change));
+    if (peak >= 1 && steps_at(peak)) { return first_where(1, peak, holds); }
+    const std::int64_t from = std::max<std::int64_t>(1, down);
+    return first_where(from, std::max(from, longest(min)), holds);
+}
+
+/// After a step: once it has begun to fall, it falls or waits for the steps to come down to it.
+void CarricaSteps::Reference::brake_for(std::int64_t remaining) {
+    const bool too_fast = static_cast<double>(remaining) <= brake_steps();
+    if (too_fast) { slope = Slope::Falling; }
+    if (!too_fast && slope == Slope::Falling) { slope = Slope::Level; }
+}
+
+/// Steps from here to V_min.
+double CarricaSteps::Reference::brake_steps() const {
+    const double v = static_cast<double>(speed) / kOne;
+    const double v0 = static_cast<double>(min) / kOne;
+    return (v * v - v0 * v0) / (2 * static_cast<double>(change) / kOne);
+}
+
+CarricaSteps::CarricaSteps(const StepMove& made, double clock_s, std::string nearest)
+    : clock_s_(clock_s), nearest_(std::move(nearest)), remaining_(made.steps) {
+    reference_.speed = reference_.min = rounded_up(made.start * clock_s);
+    reference_.max = rounded_up(made.max * clock_s);
+    reference_.change = rounded_up(made.acceleration * clock_s * clock_s);
+}
+
+std::expected<CarricaSteps, std::string> CarricaSteps::of(const StepMove& move, Fit fit,
+                                                          const CarricaParameters& parameters) {
     const double clock_s = parameters.clock_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     if (move.max * clock_s > 1) {
@@ -77,20 +101,19 @@ StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& param
     const StepMove made = expressible(move, changed);
     if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
     if (auto valid = check_length(made, clock_s); !valid) { return std::unexpected(valid.error()); }
+    return CarricaSteps(made, clock_s, changed.text());
+}
 
-    StepTrain train{.clock_s = clock_s, .nearest = changed.text()};
-    train.times_s.reserve(static_cast<std::size_t>(move.steps));
-    Reference reference(made, clock_s);
-    std::int64_t remaining = move.steps;
-    for (std::int64_t now = 1, n = 1; remaining > 0; ++now, ++n) {
-        reference.clock();
-        if (n * reference.speed < static_cast<std::int64_t>(kOne)) { continue; }  // n V_ref T_c < 1
-        train.times_s.push_back(static_cast<double>(now) * clock_s);
-        n = 0;
-        --remaining;
-        reference.brake_for(remaining);
-    }
-    return train;
+double CarricaSteps::next_s() {
+    const std::int64_t clocks = reference_.wait();
+    reference_.speed = reference_.after(clocks);
+    now_ += clocks;
+    reference_.brake_for(--remaining_);
+    return static_cast<double>(now_) * clock_s_;
+}
+
+StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& parameters) {
+    return train_of(CarricaSteps::of(move, fit, parameters), move.steps);
 }
 
 }  // namespace lockstep::stepgen

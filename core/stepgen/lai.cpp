@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/stepgen/adjustments.hpp"
-#include "core/stepgen/lai_dda.hpp"
 #include "core/stepgen/number_text.hpp"
 
 namespace lockstep::stepgen {
@@ -34,23 +33,12 @@ LaiSpeeds expressible(const StepMove& move, double period_s, Adjustments& change
     return speeds;
 }
 
-StepTrain spread(const std::vector<std::int64_t>& periods, double clock_s) {
-    StepTrain train{.clock_s = clock_s};
-    Dda dda;
-    std::int64_t now = 0;
-    for (const std::int64_t pulses : periods) {
-        dda.load(pulses);
-        for (int i = 0; i < kDdaClocks; ++i) {
-            ++now;
-            if (dda.clock()) { train.times_s.push_back(static_cast<double>(now) * clock_s); }
-        }
-    }
-    return train;
-}
-
 }  // namespace
 
-StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters) {
+LaiSteps::LaiSteps(std::int64_t steps, const LaiSpeeds& speeds, double clock_s, std::string nearest)
+    : axis_(steps, speeds), clock_s_(clock_s), nearest_(std::move(nearest)) {}
+
+std::expected<LaiSteps, std::string> LaiSteps::of(const StepMove& move, Fit fit, const LaiParameters& parameters) {
     const double period_s = parameters.period_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double most = static_cast<double>(kMaxPeriodPulses) / period_s;
@@ -61,9 +49,21 @@ StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters) {
     Adjustments changed;
     const LaiSpeeds speeds = expressible(move, period_s, changed);
     if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
-    StepTrain train = spread(plan_long_axis(move.steps, speeds), period_s / kDdaClocks);
-    train.nearest = changed.text();
-    return train;
+    return LaiSteps(move.steps, speeds, period_s / kDdaClocks, changed.text());
+}
+
+double LaiSteps::next_s() {
+    bool pulse = false;
+    while (!pulse) {
+        if (now_ % kDdaClocks == 0) { dda_.load(axis_.next()); }
+        pulse = dda_.clock();
+        ++now_;
+    }
+    return static_cast<double>(now_) * clock_s_;
+}
+
+StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters) {
+    return train_of(LaiSteps::of(move, fit, parameters), move.steps);
 }
 
 }  // namespace lockstep::stepgen

@@ -4,6 +4,7 @@
 // 6.5 ms a whole number of pulses (lai_planner.hpp), spread evenly by a DDA (lai_dda.hpp).
 #pragma once
 
+#include "core/stepgen/lai_dda.hpp"
 #include "core/stepgen/lai_planner.hpp"
 #include "core/stepgen/method.hpp"
 
@@ -11,6 +12,27 @@ namespace lockstep::stepgen {
 
 struct LaiParameters {
     double period_s = 6.5e-3;  // the sampling time of Section 3.1
+};
+
+/// When pulses fall, one after the other.
+class LaiSteps {
+public:
+    /// Error: as lai's.
+    static std::expected<LaiSteps, std::string> of(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
+
+    /// Call it for each of the move's steps once.
+    double next_s();
+    double clock_s() const { return clock_s_; }
+    const std::string& nearest() const { return nearest_; }
+
+private:
+    LaiSteps(std::int64_t steps, const LaiSpeeds& speeds, double clock_s, std::string nearest);
+
+    LaiLongAxis axis_;
+    Dda dda_;
+    double clock_s_;  // of the DDA
+    std::string nearest_;
+    std::int64_t now_ = 0;
 };
 
 /// Speeds become whole pulses per period, not above those asked; the acceleration a whole number of pulses per period

@@ -61,22 +61,27 @@ private:
 
 }  // namespace
 
-std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds) {
-    const std::int64_t lowest = std::max<std::int64_t>(1, speeds.start);
+LaiLongAxis::LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds)
+    : speeds_(speeds), lowest_(std::max<std::int64_t>(1, speeds.start)), remaining_(length) {
     const std::int64_t short_max = whole_root(speeds.start * speeds.start + speeds.change * length);
-    const std::int64_t top = std::max(lowest, std::min(speeds.max, short_max));
-    std::vector<std::int64_t> periods;
-    bool falling = false;
-    std::int64_t v = 0;
-    for (std::int64_t remaining = length; remaining > 0; remaining -= periods.back()) {
-        falling = falling || (v > 0 && remaining <= falling_distance(v, lowest, speeds.change));
-        if (falling) {
-            v = std::max(lowest, v - speeds.change);
-        } else {
-            v = v == 0 && speeds.start > 0 ? lowest : std::min(top, v + speeds.change);
-        }
-        periods.push_back(std::min(v, remaining));
+    top_ = std::max(lowest_, std::min(speeds.max, short_max));
+}
+
+std::int64_t LaiLongAxis::next() {
+    falling_ = falling_ || (speed_ > 0 && remaining_ <= falling_distance(speed_, lowest_, speeds_.change));
+    if (falling_) {
+        speed_ = std::max(lowest_, speed_ - speeds_.change);
+    } else {
+        speed_ = speed_ == 0 && speeds_.start > 0 ? lowest_ : std::min(top_, speed_ + speeds_.change);
     }
+    const std::int64_t pulses = std::min(speed_, remaining_);
+    remaining_ -= pulses;
+    return pulses;
+}
+
+std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds) {
+    std::vector<std::int64_t> periods;
+    for (LaiLongAxis axis(length, speeds); axis.remaining() > 0;) { periods.push_back(axis.next()); }
     return periods;
 }
 

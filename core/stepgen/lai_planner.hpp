@@ -29,6 +29,24 @@ struct LaiSpeeds {
     std::int64_t change = 1;  // a
 };
 
+/// The long axis's pulses, period after period.
+class LaiLongAxis {
+public:
+    LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds);
+
+    /// None once the whole length is made.
+    std::int64_t next();
+    std::int64_t remaining() const { return remaining_; }
+
+private:
+    LaiSpeeds speeds_;
+    std::int64_t lowest_;
+    std::int64_t top_;
+    std::int64_t remaining_;
+    std::int64_t speed_ = 0;
+    bool falling_ = false;
+};
+
 /// Pulses of each period; their sum is `length` (> 0).
 std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds);
 

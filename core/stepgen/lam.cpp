@@ -32,21 +32,27 @@ LamParameters expressible(const StepMove& move, const LamParameters& parameters,
 
 }  // namespace
 
-StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters) {
+LamSteps::LamSteps(std::int64_t steps, const LamParameters& made, std::string nearest)
+    : controller_(LamController::standing_at(0, made)), clock_s_(1 / made.clock_hz), nearest_(std::move(nearest)) {
+    (void)controller_.clock({.data_ready = true, .destination = steps});
+}
+
+std::expected<LamSteps, std::string> LamSteps::of(const StepMove& move, Fit fit, const LamParameters& parameters) {
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     Adjustments changed;
     const LamParameters made = expressible(move, parameters, changed);
     if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
     if (auto valid = check_length(move, 1 / made.clock_hz); !valid) { return std::unexpected(valid.error()); }
+    return LamSteps(move.steps, made, changed.text());
+}
 
-    StepTrain train{.clock_s = 1 / made.clock_hz, .nearest = changed.text()};
-    train.times_s.reserve(static_cast<std::size_t>(move.steps));
-    LamController controller = LamController::standing_at(0, made);
-    (void)controller.clock({.data_ready = true, .destination = move.steps});
-    for (std::int64_t now = 1; controller.state() != LamState::Standby; ++now) {
-        if (controller.clock({}).pulse) { train.times_s.push_back(static_cast<double>(now) / made.clock_hz); }
-    }
-    return train;
+double LamSteps::next_s() {
+    do { ++now_; } while (!controller_.clock({}).pulse);
+    return static_cast<double>(now_) * clock_s_;
+}
+
+StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters) {
+    return train_of(LamSteps::of(move, fit, parameters), move.steps);
 }
 
 }  // namespace lockstep::stepgen

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <expected>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lockstep::stepgen {
@@ -43,6 +45,17 @@ using StepResult = std::expected<StepTrain, std::string>;
 /// Nothing, or what is wrong with the move whatever the method: no steps, too many, no acceleration, a start above the
 /// maximum.
 std::expected<void, std::string> check(const StepMove& move);
+
+/// The whole train of `count` steps, from a method's own maker of them, one after the other: next_s(), clock_s() and
+/// nearest(), as StepTrain has them.
+template <typename Steps>
+StepResult train_of(std::expected<Steps, std::string> steps, std::int64_t count) {
+    if (!steps) { return std::unexpected(std::move(steps.error())); }
+    StepTrain train{.clock_s = steps->clock_s(), .nearest = steps->nearest()};
+    train.times_s.reserve(static_cast<std::size_t>(count));
+    while (std::ssize(train.times_s) < count) { train.times_s.push_back(steps->next_s()); }
+    return train;
+}
 
 /// Error where following the move by a clock of `clock_s` would take more than kMaxClocks.
 std::expected<void, std::string> check_length(const StepMove& move, double clock_s);

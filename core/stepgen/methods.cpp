@@ -29,6 +29,8 @@ constexpr std::array kMethods{
 
 std::span<const Method> methods() { return kMethods; }
 
+std::string_view name_of(StepMethod method) { return kMethods[static_cast<std::size_t>(method)].name; }
+
 const Method* find_method(std::string_view name) {
     const auto* const found = std::ranges::find(kMethods, name, &Method::name);
     return found == kMethods.end() ? nullptr : found;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/machine.hpp"
 #include "core/stepgen/method.hpp"
 
 namespace lockstep::stepgen {
@@ -16,6 +17,9 @@ struct Method {
 };
 
 std::span<const Method> methods();
+
+/// "ranade" and the like.
+std::string_view name_of(StepMethod method);
 
 /// Nothing where no method has that name.
 const Method* find_method(std::string_view name);

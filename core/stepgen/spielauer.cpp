@@ -12,35 +12,6 @@ namespace {
 constexpr double kCorrection = 0.08;
 constexpr std::int64_t kCorrected = 5;  // waits at either end
 
-double corrected(double count, std::int64_t i, std::int64_t n) {
-    if (i >= 1 && i <= kCorrected) { count *= 1 + kCorrection / static_cast<double>(i); }
-    if (n - i <= kCorrected) { count *= 1 + kCorrection / static_cast<double>(n - i); }
-    return count;
-}
-
-/// The waits before they are rounded.
-std::vector<double> waits(const StepMove& move, const SpielauerPlan& plan, const SpielauerParameters& parameters) {
-    const double f = parameters.timer_hz;
-    const double alpha = parameters.step_length;
-    const double a = move.acceleration;
-    const double d = move.deceleration;
-    const double v = plan.peak;
-    const auto next = [&](double c, double acceleration) { return c / (1 + acceleration / (alpha * f * f) * c * c); };
-
-    std::vector<double> waits;
-    waits.reserve(static_cast<std::size_t>(move.steps));
-    double c = f * std::sqrt(2 * alpha / a);
-    for (std::int64_t i = 0; i < plan.rising; ++i, c = next(c, a)) { waits.push_back(c); }
-    waits.insert(waits.end(), static_cast<std::size_t>(plan.cruising), alpha * f / v);
-    const double longest = f * std::sqrt(2 * alpha / d);
-    c = f * (v - std::sqrt(std::max(0.0, v * v - 2 * d * alpha))) / d;
-    for (std::int64_t i = 0; i < plan.falling; ++i, c = next(c, -d)) {
-        if (c <= 0 || c > longest) { c = longest; }
-        waits.push_back(c);
-    }
-    return waits;
-}
-
 }  // namespace
 
 SpielauerPlan plan_spielauer(const StepMove& move, double step_length) {
@@ -60,18 +31,11 @@ SpielauerPlan plan_spielauer(const StepMove& move, double step_length) {
     return plan;
 }
 
-std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters) {
-    std::vector<std::int64_t> counts;
-    counts.reserve(static_cast<std::size_t>(move.steps));
-    for (const double wait : waits(move, plan_spielauer(move, parameters.step_length), parameters)) {
-        const auto i = static_cast<std::int64_t>(counts.size());
-        const double count = parameters.corrected ? corrected(wait, i, move.steps) : wait;
-        counts.push_back(std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(count))));
-    }
-    return counts;
-}
+SpielauerSteps::SpielauerSteps(const StepMove& move, const SpielauerParameters& parameters)
+    : move_(move), parameters_(parameters), plan_(plan_spielauer(move, parameters.step_length)) {}
 
-StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& parameters) {
+std::expected<SpielauerSteps, std::string> SpielauerSteps::of(const StepMove& move, Fit fit,
+                                                              const SpielauerParameters& parameters) {
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double fastest = parameters.timer_hz * parameters.step_length;
     if (move.max > fastest) {
@@ -81,15 +45,63 @@ StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& p
     Adjustments changed;
     if (move.start > 0) { changed.add("knows no start speed", "starts and ends at rest"); }
     if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
+    SpielauerSteps steps(move, parameters);
+    steps.nearest_ = changed.text();
+    return steps;
+}
 
-    StepTrain train{.clock_s = 1 / parameters.timer_hz, .nearest = changed.text()};
-    train.times_s.reserve(static_cast<std::size_t>(move.steps));
-    std::int64_t now = 0;
-    for (const std::int64_t count : spielauer_counts(move, parameters)) {
-        now += count;
-        train.times_s.push_back(static_cast<double>(now) / parameters.timer_hz);
+double SpielauerSteps::followed(double wait, double acceleration) const {
+    const double f = parameters_.timer_hz;
+    return wait / (1 + acceleration / (parameters_.step_length * f * f) * wait * wait);
+}
+
+/// The next wait before it is rounded.
+double SpielauerSteps::next_wait() {
+    const double f = parameters_.timer_hz;
+    const double alpha = parameters_.step_length;
+    const double d = move_.deceleration;
+    const double v = plan_.peak;
+    const std::int64_t i = made_++;
+    if (i < plan_.rising) {
+        return wait_ = i == 0 ? f * std::sqrt(2 * alpha / move_.acceleration) : followed(wait_, move_.acceleration);
     }
-    return train;
+    const std::int64_t falling = i - plan_.rising - plan_.cruising;
+    if (falling < 0) { return alpha * f / v; }
+    const double longest = f * std::sqrt(2 * alpha / d);
+    wait_ = falling == 0 ? f * (v - std::sqrt(std::max(0.0, v * v - 2 * d * alpha))) / d : followed(wait_, -d);
+    if (wait_ <= 0 || wait_ > longest) { wait_ = longest; }
+    return wait_;
+}
+
+double SpielauerSteps::corrected(double count) const {
+    const std::int64_t i = made_ - 1;  // of the wait in hand
+    const std::int64_t left = move_.steps - i;
+    if (i >= 1 && i <= kCorrected) { count *= 1 + kCorrection / static_cast<double>(i); }
+    if (left <= kCorrected) { count *= 1 + kCorrection / static_cast<double>(left); }
+    return count;
+}
+
+std::int64_t SpielauerSteps::next_count() {
+    const double wait = next_wait();
+    const double count = parameters_.corrected ? corrected(wait) : wait;
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(count)));
+}
+
+double SpielauerSteps::next_s() {
+    now_ += next_count();
+    return static_cast<double>(now_) / parameters_.timer_hz;
+}
+
+std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters) {
+    std::vector<std::int64_t> counts;
+    counts.reserve(static_cast<std::size_t>(move.steps));
+    SpielauerSteps steps(move, parameters);
+    while (std::ssize(counts) < move.steps) { counts.push_back(steps.next_count()); }
+    return counts;
+}
+
+StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& parameters) {
+    return train_of(SpielauerSteps::of(move, fit, parameters), move.steps);
 }
 
 }  // namespace lockstep::stepgen

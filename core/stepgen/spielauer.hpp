@@ -41,6 +41,36 @@ struct SpielauerPlan {
 /// Speeds and accelerations in units of length; the start speed is not looked at.
 SpielauerPlan plan_spielauer(const StepMove& move, double step_length = 1);
 
+/// The timer's counts, step after step.
+class SpielauerSteps {
+public:
+    /// The move must pass check() (method.hpp).
+    explicit SpielauerSteps(const StepMove& move, const SpielauerParameters& parameters = {});
+    /// The same where the method can make it. Error: as spielauer's.
+    static std::expected<SpielauerSteps, std::string> of(const StepMove& move, Fit fit,
+                                                         const SpielauerParameters& parameters = {});
+
+    /// How long the next step is waited for. Call these two for each of the move's steps once.
+    std::int64_t next_count();
+    /// When the next step falls.
+    double next_s();
+    double clock_s() const { return 1 / parameters_.timer_hz; }
+    const std::string& nearest() const { return nearest_; }
+
+private:
+    double next_wait();
+    double corrected(double count) const;
+    double followed(double wait, double acceleration) const;
+
+    StepMove move_;
+    SpielauerParameters parameters_;
+    SpielauerPlan plan_;
+    std::string nearest_;
+    std::int64_t made_ = 0;
+    double wait_ = 0;  // the last one of a ramp, before it is rounded
+    std::int64_t now_ = 0;
+};
+
 /// The timer counts of each step, in order.
 std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters = {});
 

@@ -9,6 +9,7 @@ constexpr double kDefaultLatchShare = 0.2;  // of the search velocity
 constexpr double kDefaultPulloff_mm = 2;
 constexpr double kDefaultPulloffShare = 0.1;  // of the travel, where that is less
 constexpr double kDefaultTravelMargin_mm = 2;
+constexpr const char* kMethodNames = "RANADE, SPIELAUER, LAI, LAM and CARRICA";
 constexpr double kDefaultPlantReserve = 1.5;  // what the motor can do over what the axis is asked
 
 /// Reads keys into their places; notes what must be there and is not.
@@ -22,6 +23,7 @@ public:
         if (!present) { missing_.push_back({{axis_, key}, key + " is missing; it has no default"}); }
         place = value;
     }
+    void refuse(const std::string& key, const std::string& why) { missing_.push_back({{axis_, key}, why}); }
 
 private:
     std::vector<Problem>& missing_;
@@ -84,6 +86,16 @@ PlantConfig read_plant(const proto::Plant& message, const AxisConfig& axis) {
     };
 }
 
+StepMethod read_method(proto::Method method) {
+    switch (method) {
+        case proto::SPIELAUER: return StepMethod::Spielauer;
+        case proto::LAI: return StepMethod::Lai;
+        case proto::LAM: return StepMethod::Lam;
+        case proto::CARRICA: return StepMethod::Carrica;
+        default: return StepMethod::Ranade;
+    }
+}
+
 AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     AxisConfig axis;
     reader.require(message.has_name(), message.name(), axis.name, "name");
@@ -96,6 +108,10 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     axis.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : axis.max_accel_mm_s2;
     reader.require(message.has_position_min_mm(), message.position_min_mm(), axis.position_min_mm, "position_min_mm");
     reader.require(message.has_position_max_mm(), message.position_max_mm(), axis.position_max_mm, "position_max_mm");
+    if (!proto::Method_IsValid(message.method())) {  // protobuf lets any number stand for a name
+        reader.refuse("method", "method is " + std::to_string(message.method()) + "; it is one of " + kMethodNames);
+    }
+    axis.method = read_method(message.method());
     axis.homing = read_homing(message.homing(), axis);
     axis.plant = read_plant(message.plant(), axis);
     return axis;

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "services/documents/machine_proto.hpp"
 
 namespace lockstep {
@@ -34,6 +36,11 @@ void write_plant(const PlantConfig& plant, proto::Plant& message) {
     message.set_max_jump_mm_s(plant.max_jump_mm_s);
 }
 
+proto::Method method_to_proto(StepMethod method) {
+    constexpr std::array kMethods{proto::RANADE, proto::SPIELAUER, proto::LAI, proto::LAM, proto::CARRICA};
+    return kMethods[static_cast<std::size_t>(method)];
+}
+
 void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_name(axis.name);
     message.set_steps_per_mm(axis.steps_per_mm);
@@ -43,6 +50,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_max_decel_mm_s2(axis.max_decel_mm_s2);
     message.set_position_min_mm(axis.position_min_mm);
     message.set_position_max_mm(axis.position_max_mm);
+    message.set_method(method_to_proto(axis.method));
     write_homing(axis.homing, *message.mutable_homing());
     write_plant(axis.plant, *message.mutable_plant());
 }

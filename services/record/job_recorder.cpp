@@ -10,7 +10,7 @@
 namespace lockstep {
 
 std::string_view name_of(JobKind kind) {
-    constexpr std::array<std::string_view, 3> kNames{"home", "move", "run"};
+    constexpr std::array<std::string_view, 4> kNames{"home", "move", "run", "own-move"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 

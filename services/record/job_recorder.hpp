@@ -22,7 +22,7 @@ private:
     std::string config_;
 };
 
-/// "home", "move", "run"; "done", "stopped", "failed": as the record and the reports have them.
+/// "home", "move", "run", "own-move"; "done", "stopped", "failed": as the record and the reports have them.
 std::string_view name_of(JobKind kind);
 std::string_view name_of(JobOutcome outcome);
 

@@ -5,7 +5,7 @@ namespace lockstep {
 
 // The enumerations on the wire have core's order.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
-static_assert(lockstep_wire_AXIS_STOP_NOW == static_cast<int>(AxisCommandKind::StopNow));
+static_assert(lockstep_wire_AXIS_HALT == static_cast<int>(AxisCommandKind::Halt));
 
 lockstep_wire_AxisState to_wire(const AxisState& state) {
     return {.axis = state.axis,
@@ -66,16 +66,24 @@ lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
     return {.coordinator = command.coordinator,
             .sequence_number = command.sequence,
             .axis = command.axis,
-            .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind)};
+            .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind),
+            .target_steps = command.target_steps,
+            .ticks = command.ticks.value};
 }
 
 FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
-    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::StopNow);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Halt);
+    check.far("target_steps", wire.target_steps);
+    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return AxisCommand{
-        .coordinator = wire.coordinator, .sequence = wire.sequence_number, .axis = wire.axis, .kind = kind};
+    return AxisCommand{.coordinator = wire.coordinator,
+                       .sequence = wire.sequence_number,
+                       .axis = wire.axis,
+                       .kind = kind,
+                       .target_steps = wire.target_steps,
+                       .ticks = {wire.ticks}};
 }
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-static_assert(lockstep_wire_COMMAND_RESET == static_cast<int>(CommandKind::Reset));
+static_assert(lockstep_wire_COMMAND_MOVE_OWN == static_cast<int>(CommandKind::MoveOwn));
 static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refused));
 
 /// The longest beginning of at most `most` bytes that does not end within a UTF-8 character.
@@ -23,18 +23,21 @@ lockstep_wire_Command to_wire(const Command& command) {
             .sequence_number = command.sequence,
             .kind = static_cast<lockstep_wire_CommandKind>(command.kind),
             .axes = command.axes,
-            .program = command.program};
+            .program = command.program,
+            .ticks = command.ticks.value};
 }
 
 FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     Checks check("command");
-    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Reset);
+    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::MoveOwn);
+    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Command{.client = wire.client,
                    .sequence = wire.sequence_number,
                    .kind = kind,
                    .axes = wire.axes,
-                   .program = wire.program};
+                   .program = wire.program,
+                   .ticks = {wire.ticks}};
 }
 
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {

@@ -122,14 +122,20 @@ TEST(HostileMachineState, IsRefused) {
 
 TEST(HostileCommands, AreRefused) {
     auto axis_command = to_wire(AxisCommand{});
-    overwrite(axis_command.kind, 3);
+    overwrite(axis_command.kind, 5);
     expect_refused(axis_command, "kind");
+    axis_command = to_wire(AxisCommand{});
+    axis_command.target_steps = INT64_MAX;
+    expect_refused(axis_command, "target_steps");
     axis_command = to_wire(AxisCommand{});
     axis_command.axis = 32;
     expect_refused(axis_command, "axis");
     auto command = to_wire(Command{});
-    overwrite(command.kind, 8);
+    overwrite(command.kind, 9);
     expect_refused(command, "kind");
+    command = to_wire(Command{});
+    command.ticks = -1;
+    expect_refused(command, "ticks");
 }
 
 TEST(HostileChunk, IsRefused) {

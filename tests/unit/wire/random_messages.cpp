@@ -44,7 +44,9 @@ AxisCommand RandomMessages::axis_command() {
     return {.coordinator = bits(),
             .sequence = bits(),
             .axis = index(kMaxAxes),
-            .kind = static_cast<AxisCommandKind>(index(3))};
+            .kind = static_cast<AxisCommandKind>(index(5)),
+            .target_steps = far(),
+            .ticks = {between(0, INT32_MAX)}};
 }
 
 MachineState RandomMessages::machine_state() {
@@ -69,9 +71,10 @@ MachineState RandomMessages::machine_state() {
 Command RandomMessages::command() {
     return {.client = bits(),
             .sequence = bits(),
-            .kind = static_cast<CommandKind>(index(8)),
+            .kind = static_cast<CommandKind>(index(9)),
             .axes = static_cast<std::uint32_t>(bits()),
-            .program = bits()};
+            .program = bits(),
+            .ticks = {between(0, INT32_MAX)}};
 }
 
 ProgramChunk RandomMessages::chunk() {
