@@ -70,6 +70,7 @@ struct MachineConfig {
     std::int64_t tick_ns = 1000;
     ProtocolTiming timing;
     NetworkConfig network;
+    StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
     std::vector<AxisConfig> axes;
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

@@ -78,7 +78,9 @@ EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
     while (source.next(pieces)) {
         for (std::size_t i = 0; i < pieces.size(); ++i) { (void)frame.axes[i].tail.push_back(pieces[i]); }
     }
-    while (path_.moves[ending.move].block != tail.moves.back().block) { ++ending.move; }
+    const PathMove& rests_in = tail.moves.back();
+    const auto is_it = [&](const PathMove& m) { return m.block == rests_in.block && m.part == rests_in.part; };
+    while (!is_it(path_.moves[ending.move])) { ++ending.move; }
     ending.along = tail.moves.back().profile.phases.back().to;
     return ending;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/coordinator/lai_path.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -83,6 +85,11 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
             PathMove move = make_move(at, *to, limits_, steps_per_mm_, linear->rapid ? 0 : linear->feed_mm_s * tick_s);
             move.line = block.line;
             move.block = b;
+            if (machine_.coordination == StepMethod::Lai) {
+                if (auto fits = check_lai_move(move, machine_.tick_ns); !fits) {
+                    return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()});
+                }
+            }
             if (move.lead != 0) { legs.back().moves.push_back(move); }
             at = *to;
         } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
@@ -100,6 +107,9 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
 }
 
 Path ProgramPlanner::path(std::vector<PathMove> moves, Displacement along) const {
+    if (machine_.coordination == StepMethod::Lai) {
+        return plan_lai_path(moves, along, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
+    }
     return plan_path(std::move(moves), along, limits_, bounds_of(machine_));
 }
 

@@ -108,7 +108,7 @@ PathBounds bounds_of(const MachineConfig& machine) {
 
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,
                    std::span<const double> steps_per_mm, double feed_mm_per_tick) {
-    PathMove move{.from = from, .to = to};
+    PathMove move{.from = from, .to = to, .feed_mm_per_tick = feed_mm_per_tick};
     double square = 0;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         move.lead = std::max(move.lead, std::abs(to[i] - from[i]));
@@ -173,6 +173,7 @@ Path brake_from(const Path& path, Subticks t) {
         const Displacement whole = Displacement::steps(move.lead);
         if (from >= whole) { continue; }
         const double scale = move.mm_per_lead();
+        if (from == Displacement{}) { speed = std::min(speed, path.moves[i].profile.velocity_at({}) * scale); }
         const double entry = speed / scale;
         if (entry <= 0) { break; }
         const double left = (whole - from).as_steps();

@@ -16,10 +16,12 @@ using AxisCounts = StaticVector<std::int64_t, kMaxAxes>;
 struct PathMove {
     std::int32_t line = 0;    // of the program
     std::uint32_t block = 0;  // of the program
+    std::uint32_t part = 0;   // of the block, where it is planned in several
     AxisCounts from;          // steps
     AxisCounts to;
     std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;
+    double feed_mm_per_tick = 0;  // asked; 0: as fast as the axes allow
     PathLimits own;     // of the lead axis, so that no axis breaks its own; feed included
     PathLimits limits;  // what the frames and the corners beside it leave of them: set by planning
     Ticks dwell;        // where lead is 0

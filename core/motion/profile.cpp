@@ -173,6 +173,13 @@ Profile plan_brake_to(Displacement from, double entry, double deceleration, Subt
     return profile;
 }
 
+Profile plan_steady(Displacement from, Displacement to, Ticks ticks) {
+    const Subticks n = subticks(ticks);
+    Profile profile;
+    (void)profile.phases.push_back({from, to, static_cast<std::int64_t>((to - from).raw / n.value), n});
+    return profile;
+}
+
 Profile plan_dwell(Displacement at, Ticks ticks) {
     Profile profile;
     (void)profile.phases.push_back({at, at, 0, subticks(ticks)});

@@ -77,6 +77,9 @@ Profile plan_brake_through(Displacement from, Displacement to, double entry, dou
 /// least.
 Profile plan_brake_to(Displacement from, double entry, double deceleration, Subticks start);
 
+/// From one place to another at one speed.
+Profile plan_steady(Displacement from, Displacement to, Ticks ticks);
+
 /// Standing still on a place for a time.
 Profile plan_dwell(Displacement at, Ticks ticks);
 

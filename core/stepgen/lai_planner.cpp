@@ -17,48 +17,6 @@ std::int64_t falling_distance(std::int64_t v, std::int64_t lowest, std::int64_t 
     return (falls + 1) * v - change * falls * (falls + 1) / 2;
 }
 
-class ShortAxis {
-public:
-    ShortAxis(std::int64_t length, std::int64_t long_length, const LaiSpeeds& speeds, LaiRounding rounding,
-              LaiCompensation compensation)
-        : length_(length),
-          long_length_(long_length),
-          change_(speeds.change),
-          rounding_(rounding),
-          compensation_(compensation) {}
-
-    /// Its pulses while the long axis, `before` on its way, makes `pulses`.
-    std::int64_t follow(std::int64_t before, std::int64_t pulses) { return make(wanted(before, pulses)); }
-    /// Its pulses once the long axis has arrived.
-    std::int64_t finish() { return make(remaining()); }
-    std::int64_t remaining() const { return length_ - done_; }
-
-private:
-    /// m * along, halves up.
-    std::int64_t share(std::int64_t along) const { return (2 * length_ * along + long_length_) / (2 * long_length_); }
-
-    std::int64_t wanted(std::int64_t before, std::int64_t pulses) const {
-        return rounding_ == LaiRounding::InEachPeriod ? share(pulses) : share(before + pulses) - done_;
-    }
-    std::int64_t make(std::int64_t v) {
-        if (compensation_.derivative) {
-            v = std::clamp(v, std::max<std::int64_t>(0, speed_ - change_), speed_ + change_);
-        }
-        if (compensation_.remaining) { v = std::min(v, whole_root(remaining())); }
-        speed_ = v;
-        done_ += v;
-        return v;
-    }
-
-    std::int64_t length_;
-    std::int64_t long_length_;
-    std::int64_t change_;
-    LaiRounding rounding_;
-    LaiCompensation compensation_;
-    std::int64_t speed_ = 0;
-    std::int64_t done_ = 0;
-};
-
 }  // namespace
 
 LaiLongAxis::LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds)
@@ -79,6 +37,30 @@ std::int64_t LaiLongAxis::next() {
     return pulses;
 }
 
+LaiShortAxis::LaiShortAxis(std::int64_t length, std::int64_t long_length, std::int64_t change, LaiRounding rounding,
+                           LaiCompensation compensation)
+    : length_(length), long_length_(long_length), change_(change), rounding_(rounding), compensation_(compensation) {}
+
+std::int64_t LaiShortAxis::follow(std::int64_t pulses) {
+    const std::int64_t wanted =
+        rounding_ == LaiRounding::InEachPeriod ? share(pulses) : share(long_done_ + pulses) - done_;
+    long_done_ += pulses;
+    return make(wanted);
+}
+
+/// m * along, halves up.
+std::int64_t LaiShortAxis::share(std::int64_t along) const {
+    return (2 * length_ * along + long_length_) / (2 * long_length_);
+}
+
+std::int64_t LaiShortAxis::make(std::int64_t v) {
+    if (compensation_.derivative) { v = std::clamp(v, std::max<std::int64_t>(0, speed_ - change_), speed_ + change_); }
+    if (compensation_.remaining) { v = std::min(v, whole_root(remaining())); }
+    speed_ = v;
+    done_ += v;
+    return v;
+}
+
 std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds) {
     std::vector<std::int64_t> periods;
     for (LaiLongAxis axis(length, speeds); axis.remaining() > 0;) { periods.push_back(axis.next()); }
@@ -89,18 +71,15 @@ std::vector<PeriodPulses> plan_two_axes(PeriodPulses lengths, const LaiSpeeds& s
                                         LaiCompensation compensation) {
     const bool x_leads = std::abs(lengths.x) >= std::abs(lengths.y);
     const std::int64_t long_length = std::max(std::abs(lengths.x), std::abs(lengths.y));
-    ShortAxis follower(std::min(std::abs(lengths.x), std::abs(lengths.y)), long_length, speeds, rounding, compensation);
+    LaiShortAxis follower(std::min(std::abs(lengths.x), std::abs(lengths.y)), long_length, speeds.change, rounding,
+                          compensation);
     std::vector<PeriodPulses> periods;
     const auto add = [&](std::int64_t leading, std::int64_t following) {
         const std::int64_t x = x_leads ? leading : following;
         const std::int64_t y = x_leads ? following : leading;
         periods.push_back({lengths.x < 0 ? -x : x, lengths.y < 0 ? -y : y});
     };
-    std::int64_t along = 0;
-    for (const std::int64_t pulses : plan_long_axis(long_length, speeds)) {
-        add(pulses, follower.follow(along, pulses));
-        along += pulses;
-    }
+    for (const std::int64_t pulses : plan_long_axis(long_length, speeds)) { add(pulses, follower.follow(pulses)); }
     const bool compensated = compensation.derivative || compensation.remaining;
     while (compensated && follower.remaining() > 0) { add(0, follower.finish()); }
     return periods;

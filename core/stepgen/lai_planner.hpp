@@ -59,6 +59,32 @@ struct LaiCompensation {
 };
 inline constexpr LaiCompensation kUncompensated{false, false};
 
+/// The pulses of an axis that follows the long one with slope length / long_length.
+class LaiShortAxis {
+public:
+    LaiShortAxis(std::int64_t length, std::int64_t long_length, std::int64_t change, LaiRounding rounding,
+                 LaiCompensation compensation);
+
+    /// While the long axis makes its next `pulses`.
+    std::int64_t follow(std::int64_t pulses);
+    /// Once the long axis has arrived.
+    std::int64_t finish() { return make(remaining()); }
+    std::int64_t remaining() const { return length_ - done_; }
+
+private:
+    std::int64_t share(std::int64_t along) const;
+    std::int64_t make(std::int64_t v);
+
+    std::int64_t length_;
+    std::int64_t long_length_;
+    std::int64_t change_;
+    LaiRounding rounding_;
+    LaiCompensation compensation_;
+    std::int64_t speed_ = 0;
+    std::int64_t long_done_ = 0;
+    std::int64_t done_ = 0;
+};
+
 struct PeriodPulses {
     std::int64_t x = 0;  // signed
     std::int64_t y = 0;

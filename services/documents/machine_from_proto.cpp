@@ -96,6 +96,10 @@ StepMethod read_method(proto::Method method) {
     }
 }
 
+std::string method_name(proto::Method method) {
+    return proto::Method_IsValid(method) ? proto::Method_Name(method) : std::to_string(method);
+}
+
 AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     AxisConfig axis;
     reader.require(message.has_name(), message.name(), axis.name, "name");
@@ -125,6 +129,13 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.tick_ns = message.has_tick_ns() ? message.tick_ns() : draft.machine.tick_ns;
     draft.machine.timing = read_timing(message.timing());
     draft.machine.network = read_network(message.network());
+    draft.machine.coordination = read_method(message.coordination());
+    const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
+    if (!coordinates) {
+        Reader(draft.missing)
+            .refuse("coordination", "coordination is " + method_name(message.coordination()) +
+                                        "; of several axes together only RANADE and LAI can move");
+    }
     for (const proto::Axis& axis : message.axis()) {
         draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));
     }

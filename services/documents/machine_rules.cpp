@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/coordinator/lai_path.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
 
@@ -80,6 +81,10 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
                      "the machine has " + std::to_string(machine.axes.size()) +
                          " axes; write one axis { ... } for each, 1 to " + std::to_string(kMaxAxes));
+    if (machine.coordination == StepMethod::Lai && problems.empty()) {
+        const auto suits = suits_lai_path(machine);
+        problems.require(suits.has_value(), "coordination", suits ? "" : suits.error());
+    }
     return problems.take();
 }
 

@@ -63,6 +63,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     message.set_tick_ns(machine.tick_ns);
     write_timing(machine.timing, *message.mutable_timing());
     write_network(machine.network, *message.mutable_network());
+    message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     return message;
 }

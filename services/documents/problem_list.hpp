@@ -35,6 +35,7 @@ public:
         require(holds || !can_be_judged, *keys.begin(), message);
     }
 
+    bool empty() const { return problems_.empty(); }
     std::vector<Problem> take() { return std::move(problems_); }
 
 private:

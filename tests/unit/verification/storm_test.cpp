@@ -5,6 +5,7 @@
 #include <random>
 
 #include "clients/verification/verification.hpp"
+#include "core/coordinator/lai_path.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
 namespace lockstep::verification {
@@ -28,12 +29,13 @@ protected:
         return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
     }
 
+    void expect_exact(const MachineConfig& machine);
+
     std::mt19937_64 random{GetParam()};
 };
 
-TEST_P(Storm, StillExact) {
-    const auto log = test::test_directory() / "storm.lcm";
-    const MachineConfig machine = test::example("two-axis");
+void Storm::expect_exact(const MachineConfig& machine) {
+    const auto log = test::test_directory() / ("storm" + std::to_string(GetParam()) + ".lcm");
     const NetworkBehaviour rough{.delay_min = Ticks{50},
                                  .delay_max = Ticks{static_cast<std::int64_t>(random() % 60'000)} + Ticks{50},
                                  .duplicated = 0.05,
@@ -50,6 +52,15 @@ TEST_P(Storm, StillExact) {
     const auto findings = verify_log(log);
     ASSERT_TRUE(findings.has_value()) << findings.error();
     EXPECT_FALSE(findings->difference) << to_text(*findings);
+}
+
+TEST_P(Storm, StillExact) { expect_exact(test::example("two-axis")); }
+
+TEST_P(Storm, StillExactWhereMovesAreCoordinatedByLaisPlanner) {
+    MachineConfig machine = test::example("two-axis");
+    machine.coordination = StepMethod::Lai;
+    ASSERT_TRUE(suits_lai_path(machine).has_value());
+    expect_exact(machine);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, Storm, testing::Range(std::uint64_t{1}, std::uint64_t{41}));
 

@@ -1,0 +1,198 @@
+#include "core/coordinator/lai_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <tuple>
+
+#include "core/stepgen/lai_planner.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 6'500'000;
+constexpr double kHair = 1e-9;             // a speed this close to a whole number of pulses is one
+constexpr double kLeastPulses = 2;         // of start velocity per period, of acceleration per period and period
+constexpr std::int64_t kStopPeriods = 80;  // from more than so many changes of speed no tail is short enough
+constexpr std::int64_t kMostPulses = 255;  // what the paper's DDA holds
+
+std::int64_t whole(double pulses) { return static_cast<std::int64_t>(std::floor(pulses * (1 + kHair))); }
+
+double in_ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
+
+/// Pulses per period by which the plan changes an axis's speed from one to the next: half of what it could, since
+/// rounding may add one, and tails brake with the other half.
+std::int64_t change_of(const AxisLimits& axis, double period) {
+    const double acceleration = std::min(axis.max_acceleration, axis.max_deceleration);
+    return std::max<std::int64_t>(1, whole(std::min(acceleration * period * period, axis.start_velocity * period) / 2));
+}
+
+class LaiPlanner {
+public:
+    LaiPlanner(std::span<const AxisLimits> limits, std::span<const double> steps_per_mm, std::int64_t tick_ns,
+               const PathBounds& bounds)
+        : limits_(limits), steps_per_mm_(steps_per_mm), period_{kPeriod_ns / tick_ns}, bounds_(bounds) {}
+
+    /// The rest of a period that was held in, by itself, from rest to rest.
+    void finish_period(const PathMove& move, Displacement along) {
+        append(plan_path({move}, along, limits_, bounds_).moves.front());
+    }
+    void dwell(const PathMove& move) { append(plan_path({move}, {}, limits_, bounds_).moves.front()); }
+
+    /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
+    void straight(const PathMove& move, std::uint32_t part) {
+        AxisCounts at = move.from;
+        std::vector<std::optional<stepgen::LaiShortAxis>> followers = followers_of(move);
+        stepgen::LaiLongAxis lead(move.lead, speeds_of(move));
+        while (lead.remaining() > 0) {
+            const std::int64_t pulses = lead.next();
+            AxisCounts to = at;
+            for (std::size_t i = 0; i < followers.size(); ++i) {
+                const std::int64_t made = followers[i] ? followers[i]->follow(pulses) : pulses;
+                to[i] += move.to[i] < move.from[i] ? -made : made;
+            }
+            append(period(move, part++, at, to));
+            at = to;
+        }
+    }
+
+    Path take() { return std::move(path_); }
+
+private:
+    void append(PathMove move) {
+        move.start = path_.duration();
+        path_.moves.push_back(move);
+    }
+
+    /// One for each axis but the long one.
+    std::vector<std::optional<stepgen::LaiShortAxis>> followers_of(const PathMove& move) const {
+        std::vector<std::optional<stepgen::LaiShortAxis>> followers(limits_.size());
+        bool led = false;
+        for (std::size_t i = 0; i < limits_.size(); ++i) {
+            const std::int64_t length = std::abs(move.to[i] - move.from[i]);
+            if (!led && length == move.lead) {
+                led = true;
+            } else {
+                followers[i].emplace(length, move.lead, 0, stepgen::LaiRounding::FromTheStart, stepgen::kUncompensated);
+            }
+        }
+        return followers;
+    }
+
+    /// Of the long axis, so that no axis breaks its limits, rounding to whole pulses included.
+    stepgen::LaiSpeeds speeds_of(const PathMove& move) const {
+        std::int64_t change = kMostPulses;
+        double top = std::min(static_cast<double>(kMostPulses), move.own.max_velocity * period());
+        for (std::size_t i = 0; i < limits_.size(); ++i) {
+            const double share = std::abs(move.share(i));
+            if (share == 0) { continue; }
+            change = std::min(change, whole(static_cast<double>(change_of(limits_[i], period())) / share));
+            if (share < 1) { top = std::min(top, (limits_[i].max_velocity * period() - 1) / share); }
+        }
+        return {.start = 0, .max = std::clamp<std::int64_t>(whole(top), 1, kStopPeriods * change), .change = change};
+    }
+
+    /// One period: a straight move at one speed.
+    PathMove period(const PathMove& whole_move, std::uint32_t part, const AxisCounts& from,
+                    const AxisCounts& to) const {
+        PathMove move = make_move(from, to, limits_, steps_per_mm_, whole_move.feed_mm_per_tick);
+        move.line = whole_move.line;
+        move.block = whole_move.block;
+        move.part = part;
+        move.limits = move.own;
+        for (std::size_t i = 0; i < limits_.size(); ++i) {  // what changes from period to period leave to stop with
+            const double share = std::abs(move.share(i));
+            const double used = static_cast<double>(change_of(limits_[i], period())) / (period() * period());
+            if (share == 0) { continue; }
+            move.limits.max_deceleration =
+                std::min(move.limits.max_deceleration, (limits_[i].max_deceleration - used) / share);
+        }
+        move.profile = plan_steady({}, Displacement::steps(move.lead), period_);
+        return move;
+    }
+
+    double period() const { return static_cast<double>(period_.value); }
+
+    std::span<const AxisLimits> limits_;
+    std::span<const double> steps_per_mm_;
+    Ticks period_;
+    PathBounds bounds_;
+    Path path_;
+};
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+/// Whether an axis has the least of something, in its user's unit.
+std::expected<void, std::string> at_least(const AxisConfig& axis, const char* key, double value, double least) {
+    if (value >= least * (1 - kHair)) { return {}; }
+    return std::unexpected("axis " + axis.name +
+                           ": coordination LAI changes speed by whole pulses per 6.5 ms, which takes " + key +
+                           " of at least " + number(least) + "; it is " + number(value) +
+                           " (more steps_per_mm help too, or coordination: RANADE)");
+}
+
+}  // namespace
+
+std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
+    if (machine.axes.size() < 2) {
+        return std::unexpected(std::string("coordination LAI is for two and more axes; the machine has one"));
+    }
+    if (kPeriod_ns % machine.tick_ns != 0) {
+        return std::unexpected("coordination LAI needs a tick_ns that divides 6500000; it is " +
+                               std::to_string(machine.tick_ns));
+    }
+    const std::int64_t least_ns = bounds_of(machine).least_move.value * machine.tick_ns;
+    if (kPeriod_ns < least_ns) {
+        return std::unexpected("coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " +
+                               number(in_ms(least_ns)) + " ms; lower timing.frame_slots or timing.slot_us");
+    }
+    const double period_s = static_cast<double>(kPeriod_ns) * 1e-9;
+    for (const AxisConfig& axis : machine.axes) {
+        const double speed = kLeastPulses / axis.steps_per_mm / period_s;
+        const double acceleration = speed / period_s;
+        for (const auto& [key, value, least] : {std::tuple{"start_velocity_mm_s", axis.start_velocity_mm_s, speed},
+                                                std::tuple{"max_velocity_mm_s", axis.max_velocity_mm_s, speed},
+                                                std::tuple{"max_accel_mm_s2", axis.max_accel_mm_s2, acceleration},
+                                                std::tuple{"max_decel_mm_s2", axis.max_decel_mm_s2, acceleration}}) {
+            if (auto fits = at_least(axis, key, value, least); !fits) { return fits; }
+        }
+    }
+    return {};
+}
+
+std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
+    const double pulses = move.own.max_velocity * static_cast<double>(kPeriod_ns / tick_ns);
+    if (move.lead == 0 || pulses >= 1 - kHair) { return {}; }
+    const double slowest = move.mm_per_lead() / (static_cast<double>(kPeriod_ns) * 1e-9);
+    return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +
+                           number(slowest) + " mm/s here");
+}
+
+Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,
+                   std::span<const double> steps_per_mm, std::int64_t tick_ns, const PathBounds& bounds) {
+    LaiPlanner planner(limits, steps_per_mm, tick_ns, bounds);
+    std::size_t next = 0;
+    if (along > Displacement{}) { planner.finish_period(moves[next++], along); }
+    while (next < moves.size()) {
+        const PathMove& first = moves[next];
+        std::size_t last = next;
+        while (last + 1 < moves.size() && moves[last + 1].block == first.block) { ++last; }
+        if (first.lead == 0) {
+            planner.dwell(first);
+        } else {
+            PathMove whole_move = make_move(first.from, moves[last].to, limits, steps_per_mm, first.feed_mm_per_tick);
+            whole_move.line = first.line;
+            whole_move.block = first.block;
+            planner.straight(whole_move, first.part);
+        }
+        next = last + 1;
+    }
+    return planner.take();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,151 @@
+// Coordinated moves by Lai's velocity planner: whole pulses in every period, exactly at the end, never past a limit.
+#include "core/coordinator/lai_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/axis/frame_check.hpp"
+#include "core/motion/interpolate.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kTick_ns = 1000;
+constexpr Ticks kPeriod{6500};
+constexpr PathBounds kBounds{Ticks{400}, 28};
+
+/// Two pulses per period to start with; a change of one pulse per period takes half the acceleration.
+AxisLimits axis_of(double steps_per_s, double steps_per_s2) {
+    return {400e-6, steps_per_s * 1e-6, steps_per_s2 * 1e-12, steps_per_s2 * 1e-12, -1'000'000, 1'000'000};
+}
+const std::vector<AxisLimits> kLimits(2, axis_of(5000, 60'000));
+const std::vector<double> kScale{80, 400};
+
+Path path_through(const std::vector<AxisCounts>& places, double feed = 0) {
+    std::vector<PathMove> moves;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        moves.push_back(make_move(places[i - 1], places[i], kLimits, kScale, feed));
+        moves.back().block = static_cast<std::uint32_t>(i);
+    }
+    return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kBounds);
+}
+
+/// Runs the path to `end` as one frame, the tail behind it, and asks both axes.
+void expect_accepted(const Path& path, Ticks end) {
+    std::vector<Position> at{start_of(path, 0, 0), start_of(path, 1, 0)};
+    std::vector<AxisTrack> tracks{{at[0], {}, {}}, {at[1], {}, {}}};
+    std::vector<MotionPoint> from{{at[0], 0, {}}, {at[1], 0, {}}};
+    std::vector<Piece> pieces(2);
+    PieceSource body(path, Ticks{0}, end, at);
+    while (body.next(pieces)) {
+        for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].body.push_back(pieces[i])); }
+    }
+    const Path tail = brake_from(path, subticks(end));
+    PieceSource rest(tail, Ticks{0}, tail.duration().ceil(), at);
+    while (rest.next(pieces)) {
+        for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].tail.push_back(pieces[i])); }
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(check_track(tracks[i], end, false, kLimits[i], from[i]), FaultCode::None)
+            << "axis " << i << ", tail from tick " << end.value << " of " << path.duration().ceil().value;
+    }
+}
+
+TEST(LaiPath, ThePapersMoveEndsAtMinus93) {
+    const Path path = path_through({{0, 0}, {107, -93}});
+    EXPECT_EQ(path.moves.back().to, (AxisCounts{107, -93}));
+}
+
+TEST(LaiPath, EveryPeriodHasWholePulsesAndThePapersLength) {
+    const Path path = path_through({{0, 0}, {107, -93}});
+    AxisCounts at{0, 0};
+    for (const PathMove& period : path.moves) {
+        EXPECT_EQ(period.from, at);
+        EXPECT_EQ(period.profile.duration(), subticks(kPeriod));
+        at = period.to;
+    }
+}
+
+TEST(LaiPath, TheSpeedChangesByOnePulsePerPeriodWhereThatIsWhatTheAxisCanDo) {
+    const Path path = path_through({{0, 0}, {107, 0}});
+    std::int64_t before = 0;
+    for (const PathMove& period : path.moves) {
+        EXPECT_LE(std::abs(period.lead - before), 1);
+        before = period.lead;
+    }
+    EXPECT_EQ(std::max_element(path.moves.begin(), path.moves.end(),
+                               [](const PathMove& a, const PathMove& b) { return a.lead < b.lead; })
+                  ->lead,
+              10);  // floor(sqrt(107))
+}
+
+TEST(LaiPath, ShortAxesAreOnTheLineToTheNearestStep) {
+    std::mt19937_64 random(7);
+    const auto length = [&] { return static_cast<std::int64_t>(random() % 4001) - 2000; };
+    for (int run = 0; run < 200; ++run) {
+        const AxisCounts to{length(), length()};
+        if (to[0] == 0 && to[1] == 0) { continue; }
+        const std::size_t lead = std::abs(to[0]) >= std::abs(to[1]) ? 0 : 1;
+        const Path path = path_through({{0, 0}, to});
+        for (const PathMove& period : path.moves) {
+            const double share = static_cast<double>(to[1 - lead]) / static_cast<double>(to[lead]);
+            const double off = static_cast<double>(period.to[1 - lead]) - share * static_cast<double>(period.to[lead]);
+            EXPECT_LE(std::abs(off), 0.5 + 1e-9) << to[0] << ", " << to[1];
+        }
+    }
+}
+
+TEST(LaiPath, EveryFrameAndEveryTailKeepsTheLimits) {
+    const Path path = path_through({{0, 0}, {40, 31}, {37, 60}, {-20, 60}, {-20, 58}, {20, 0}});
+    ASSERT_LT(path.moves.size(), kMaxBodyPieces);
+    for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end); }
+}
+
+TEST(LaiPath, WhatIsLeftOfAHeldMoveIsMadeFromRestAndEndsWhereItShould) {
+    const Path whole = path_through({{0, 0}, {107, -93}, {0, 0}});
+    for (std::size_t held = 1; held < whole.moves.size(); ++held) {
+        const std::vector<PathMove> left(whole.moves.begin() + static_cast<std::ptrdiff_t>(held), whole.moves.end());
+        const Displacement along{Displacement::steps(left.front().lead).raw / 3};
+        const Path rest = plan_lai_path(left, along, kLimits, kScale, kTick_ns, kBounds);
+        EXPECT_EQ(rest.moves.front().from, left.front().from);
+        EXPECT_EQ(rest.moves.front().to, left.front().to);
+        EXPECT_EQ(rest.moves.back().to, (AxisCounts{0, 0}));
+        for (std::size_t i = 1; i < rest.moves.size(); ++i) { EXPECT_EQ(rest.moves[i].from, rest.moves[i - 1].to); }
+    }
+}
+
+MachineConfig machine_of(double start_mm_s, double accel_mm_s2) {
+    MachineConfig machine{.name = "lai", .coordination = StepMethod::Lai};
+    machine.axes.assign(2, {.name = "X",
+                            .steps_per_mm = 80,
+                            .start_velocity_mm_s = start_mm_s,
+                            .max_velocity_mm_s = 50,
+                            .max_accel_mm_s2 = accel_mm_s2,
+                            .max_decel_mm_s2 = accel_mm_s2});
+    return machine;
+}
+
+TEST(LaiPath, AMachineThatCannotChangeSpeedByWholePulsesIsRefused) {
+    EXPECT_TRUE(suits_lai_path(machine_of(5, 800)).has_value());
+    EXPECT_NE(suits_lai_path(machine_of(3, 800)).error().find("start_velocity_mm_s of at least 3.84615"),
+              std::string::npos);
+    EXPECT_NE(suits_lai_path(machine_of(5, 500)).error().find("max_accel_mm_s2 of at least 591.716"),
+              std::string::npos);
+    MachineConfig one = machine_of(5, 800);
+    one.axes.pop_back();
+    EXPECT_FALSE(suits_lai_path(one).has_value());
+}
+
+TEST(LaiPath, AFeedBelowOnePulsePerPeriodIsRefused) {
+    const auto checked = [](double feed_mm_s) {
+        return check_lai_move(make_move({0, 0}, {800, 0}, kLimits, kScale, feed_mm_s * 1e-6), kTick_ns);
+    };
+    EXPECT_TRUE(checked(2).has_value());
+    EXPECT_NE(checked(1).error().find("at least 1.92308 mm/s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lockstep
