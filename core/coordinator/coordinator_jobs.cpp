@@ -1,6 +1,7 @@
 // Homing and motion: what happens while a job is in progress, and when its axes have come to rest.
 #include "core/coordinator/coordinator.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/motion/interpolate.hpp"
@@ -41,10 +42,12 @@ void Coordinator::advance(CoordinatorOutputs& out) {
         return;
     }
     if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
+    if (in_own_move()) { return advance_own(out); }
     const bool listened = now_slot_ - *first_slot_ > rules::silence_slots(machine_.timing);
     bool orders_open = false;
     for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
-    if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open) {
+    const bool all_rest = std::ranges::all_of(views_, [](const AxisView& v) { return v.state && v.state->at_rest; });
+    if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open && all_rest) {
         enter(MachinePhase::Idle, out);
     }
 }
