@@ -93,7 +93,7 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
 }
 
 void AxisController::begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
-    if (mode_ != Mode::Rest) { return refuse(command, FaultCode::Busy, out); }
+    if (mode_ != Mode::Rest || device.moving) { return refuse(command, FaultCode::Busy, out); }
     if (phase_ == AxisPhase::Fault) { return refuse(command, FaultCode::InFault, out); }
     fault_ = FaultCode::None;
     homed_ = false;
@@ -176,7 +176,7 @@ AxisState AxisController::state(Slot slot) const {
             .held = follower_.held(),
             .veto = follower_.veto(),
             .ran = ran_,
-            .at_rest = mode_ == Mode::Rest,
+            .at_rest = mode_ == Mode::Rest && !device_.moving,  // it may run out what another process began
             .homed = homed_,
             .phase = phase_,
             .fault = static_cast<std::uint16_t>(fault_),

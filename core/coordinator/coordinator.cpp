@@ -52,7 +52,8 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         const bool same = view.state && view.state->identity == state.identity;
         if (same && state.stamp < view.state->stamp) { continue; }
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
-        if (view.state && !same && moving_) { fail(FaultCode::AxisLost, state.axis, out); }
+        const bool needed = moving_ || phase_ == MachinePhase::Homing;
+        if (view.state && !same && needed) { fail(FaultCode::AxisLost, state.axis, out); }
         if (!same) { orders_[state.axis].reset(); }
         view = {state, now_slot_};
     }
@@ -76,6 +77,7 @@ void Coordinator::watch_axes(CoordinatorOutputs& out) {
         if (view.state && !present(i)) {
             out.notices.push_back({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, i});
             views_[i].state.reset();
+            orders_[i].reset();  // what comes back may be another process: it must not do what this one has done
             if (phase_ == MachinePhase::Idle) { enter(MachinePhase::Waiting, out); }
             if (phase_ != MachinePhase::Waiting) { fail(FaultCode::AxisLost, i, out); }
         } else if (view.state && view.state->config_hash != config_hash_) {
