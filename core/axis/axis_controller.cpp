@@ -48,7 +48,9 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
 
 void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
     const Slot now = rules::slot_of(now_, slot_);
-    for (const AxisState& peer : inputs.peers) { follower_.hear(peer); }
+    for (const AxisState& peer : inputs.peers) {
+        if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
+    }
     for (const MachineState& state : inputs.coordinator) {
         if (!adopts(state.coordinator, now, out)) { continue; }
         coordinator_heard_ = now;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/motion/interpolate.hpp"
 
@@ -50,7 +51,8 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         if (state.axis >= views_.size()) { continue; }
         AxisView& view = views_[state.axis];
         const bool same = view.state && view.state->identity == state.identity;
-        if (same && state.stamp < view.state->stamp) { continue; }
+        if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
+        if (view.state && !same && std::exchange(view.stranger, state.identity) != state.identity) { continue; }
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
         const bool needed = moving_ || phase_ == MachinePhase::Homing;
         if (view.state && !same && needed) { fail(FaultCode::AxisLost, state.axis, out); }
