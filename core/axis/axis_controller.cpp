@@ -1,11 +1,5 @@
 #include "core/axis/axis_controller.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "core/motion/interpolate.hpp"
-#include "core/motion/profile.hpp"
-
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
@@ -31,6 +25,7 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     }
     hear(inputs, out);
     take_frames(inputs, out);
+    if (mode_ == Mode::Local) { feed_local(out); }
     if (mode_ == Mode::Following) {
         const auto veto_before = follower_.veto();
         for (DeviceOrder& order : follower_.decide(slot)) { out.orders.push_back(std::move(order)); }
@@ -89,8 +84,8 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
                 follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
             }
             return done(FaultCode::None);
-        case AxisCommandKind::MoveOwn:
-        case AxisCommandKind::Halt: return refuse(command, FaultCode::NothingToDo, out);
+        case AxisCommandKind::MoveOwn: return begin_own_move(command, device, out);
+        case AxisCommandKind::Halt: return halt_local(out);
     }
 }
 
