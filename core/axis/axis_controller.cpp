@@ -32,7 +32,6 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
         if (follower_.veto() != veto_before) {
             out.notices.push_back({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
         }
-        if (follower_.held() == 0 && follower_.veto()) { end_following(out); }  // the device has not been told of it
     }
     if (!state_slot_ || slot > *state_slot_) {
         state_slot_ = slot;

@@ -124,6 +124,7 @@ private:
     void say_progress_of_own(MachineState& state) const;
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
                      CoordinatorOutputs& out);
+    Epoch next_epoch();
     void begin_leg(CoordinatorOutputs& out);
     void settle(const EpochEnd& end, CoordinatorOutputs& out);
     void interrupted(const EpochEnd& end, CoordinatorOutputs& out);
@@ -161,7 +162,7 @@ private:
     std::optional<Job> job_;
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t jobs_ = 0;
-    Epoch epochs_ = 0;
+    Epoch epoch_ = 0;  // the newest
     std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;
     std::vector<std::uint64_t> program_order_;
     std::map<Identity, Reply> replies_;  // the last one to each client, for commands that come again

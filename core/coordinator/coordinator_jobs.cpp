@@ -65,6 +65,15 @@ void Coordinator::begin_leg(CoordinatorOutputs& out) {
     begin_epoch(leg.moves, {}, {}, {leg.moves.front().block, {}}, out);
 }
 
+/// Above all that any axis has taken frames of, whoever sent them.
+Epoch Coordinator::next_epoch() {
+    epoch_ = std::max(epoch_, first_epoch(identity_));
+    for (const AxisView& view : views_) {
+        if (view.state && is_epoch_of(view.state->epoch, identity_)) { epoch_ = std::max(epoch_, view.state->epoch); }
+    }
+    return ++epoch_;
+}
+
 /// `at` empty: from rest on whole steps, where the axes stand.
 void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at,
                               PathPlace place, CoordinatorOutputs& out) {
@@ -74,7 +83,7 @@ void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, s
             at.push_back(start_of(path, i, views_[i].state->position.count()));
         }
     }
-    const Epoch epoch = (identity_ << 8) + ++epochs_;
+    const Epoch epoch = next_epoch();
     runner_.begin(epoch, std::move(path), std::move(at), now_slot_);
     moving_ = true;
     intent_ = Intent::GoOn;
