@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/protocol/rules.inc"
 #include "core/units.hpp"
 
 namespace lockstep {
@@ -55,8 +56,10 @@ struct ProtocolTiming {
     int send_ahead_slots = 30;  // A >= V + m + 5
     int frame_slots = 23;       // >= m + s + 2
 
-    constexpr int check_slots() const { return 4 + stall_slots; }                              // V
-    constexpr int send_deadline_slots() const { return check_slots() + freshness_slots + 3; }  // V + m + 3
+    constexpr int check_slots() const { return RULE_CHECK_AHEAD(stall_slots); }  // V
+    constexpr int send_deadline_slots() const {                                  // V + m + 3
+        return RULE_SEND_DEADLINE(check_slots(), freshness_slots);
+    }
 };
 
 struct NetworkConfig {

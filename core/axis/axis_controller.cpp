@@ -1,11 +1,5 @@
 #include "core/axis/axis_controller.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "core/motion/interpolate.hpp"
-#include "core/motion/profile.hpp"
-
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
@@ -31,13 +25,13 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     }
     hear(inputs, out);
     take_frames(inputs, out);
+    if (mode_ == Mode::Local) { feed_local(out); }
     if (mode_ == Mode::Following) {
         const auto veto_before = follower_.veto();
         for (DeviceOrder& order : follower_.decide(slot)) { out.orders.push_back(std::move(order)); }
         if (follower_.veto() != veto_before) {
             out.notices.push_back({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
         }
-        if (follower_.held() == 0 && follower_.veto()) { end_following(out); }  // the device has not been told of it
     }
     if (!state_slot_ || slot > *state_slot_) {
         state_slot_ = slot;
@@ -48,7 +42,9 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
 
 void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
     const Slot now = rules::slot_of(now_, slot_);
-    for (const AxisState& peer : inputs.peers) { follower_.hear(peer); }
+    for (const AxisState& peer : inputs.peers) {
+        if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
+    }
     for (const MachineState& state : inputs.coordinator) {
         if (!adopts(state.coordinator, now, out)) { continue; }
         coordinator_heard_ = now;
@@ -87,13 +83,13 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
                 follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
             }
             return done(FaultCode::None);
-        case AxisCommandKind::MoveOwn:
-        case AxisCommandKind::Halt: return refuse(command, FaultCode::NothingToDo, out);
+        case AxisCommandKind::MoveOwn: return begin_own_move(command, device, out);
+        case AxisCommandKind::Halt: return halt_local(out);
     }
 }
 
 void AxisController::begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
-    if (mode_ != Mode::Rest) { return refuse(command, FaultCode::Busy, out); }
+    if (mode_ != Mode::Rest || device.moving) { return refuse(command, FaultCode::Busy, out); }
     if (phase_ == AxisPhase::Fault) { return refuse(command, FaultCode::InFault, out); }
     fault_ = FaultCode::None;
     homed_ = false;
@@ -176,7 +172,7 @@ AxisState AxisController::state(Slot slot) const {
             .held = follower_.held(),
             .veto = follower_.veto(),
             .ran = ran_,
-            .at_rest = mode_ == Mode::Rest,
+            .at_rest = mode_ == Mode::Rest && !device_.moving,  // it may run out what another process began
             .homed = homed_,
             .phase = phase_,
             .fault = static_cast<std::uint16_t>(fault_),

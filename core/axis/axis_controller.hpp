@@ -4,6 +4,7 @@
 // for the device, its state once a slot, and a record of what was run. It does no I/O and reads no clock.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/axis/device.hpp"
 #include "core/axis/fsm.hpp"
 #include "core/axis/homing.hpp"
+#include "core/axis/own_move.hpp"
 #include "core/axis/setpoint_follower.hpp"
 
 namespace lockstep {
@@ -79,8 +81,14 @@ public:
 private:
     struct LocalRun {
         LocalMove move;
-        HeldFrame frame;
+        OwnMove frames;                    // those to come
+        std::deque<HeldFrame> held;        // those loaded and not yet recorded
+        std::optional<HeldFrame> waiting;  // made, but the device's ring has no room for it
+        std::int64_t target = 0;           // the device's count at its end
         int tries = 0;
+        bool halted = false;
+
+        const HeldFrame* find(FrameNumber number) const;
     };
     enum class Mode : std::uint8_t { Rest, Following, Local };
 
@@ -91,7 +99,6 @@ private:
     void follow_speed(const DeviceStatus& device);
     void end_run(const DeviceStatus& device, AxisOutputs& out);
     void end_following(AxisOutputs& out);
-    void end_local(const DeviceStatus& device, AxisOutputs& out);
 
     void hear(const AxisInputs& inputs, AxisOutputs& out);
     bool adopts(Identity coordinator, Slot now, AxisOutputs& out);
@@ -104,8 +111,20 @@ private:
     void take_frames(const AxisInputs& inputs, AxisOutputs& out);
     void begin_following(Epoch epoch, AxisOutputs& out);
     void load(const HeldFrame& frame, AxisOutputs& out) const;
+
+    // axis_own_moves.cpp
+    void begin_own_move(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);
+    FaultCode refusal_of(const AxisCommand& command, std::int64_t steps) const;
     void take_homing_step(const HomingStep& step, AxisOutputs& out);
     void start_local(const LocalMove& move, int tries, AxisOutputs& out);
+    void feed_local(AxisOutputs& out);
+    void halt_local(AxisOutputs& out);
+    void end_local(const DeviceStatus& device, AxisOutputs& out);
+    bool goes_on(const LocalRun& ended, const DeviceStatus& device, AxisOutputs& out);
+    void abandon_local();
+    void end_own_move(const DeviceStatus& device, AxisOutputs& out);
+    bool is_homing() const { return homing_.stage() != HomingStage::Idle; }
+    OwnMove own_move(const LocalMove& move, Tick start) const;
 
     void happen(AxisEvent event);
     void fail(FaultCode fault, AxisOutputs& out);
@@ -137,6 +156,7 @@ private:
     FrameNumber ran_ = 0;       // bodies of the epoch begun so far
     bool was_in_tail_ = false;
     std::optional<LocalRun> local_;
+    std::size_t ring_room_ = 0;  // of the device's segment ring, in this loop
     double last_speed_ = 0;
 
     DeviceStatus device_;

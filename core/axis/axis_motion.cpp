@@ -1,16 +1,14 @@
-// What the device has done since the last look, and the moves an axis makes on its own.
+// What the device has done since the last look.
 #include "core/axis/axis_controller.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/interpolate.hpp"
-#include "core/motion/profile.hpp"
-
 namespace lockstep {
 
 void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     device_ = device;
+    ring_room_ = device.free_segments;
     if (mode_ == Mode::Rest) { run_ = std::max(run_, device.run); }  // a device may have outlived another process
     if (mode_ != Mode::Rest && device.run == run_) {
         record_progress(device, out);
@@ -31,7 +29,7 @@ void AxisController::record_progress(const DeviceStatus& device, AxisOutputs& ou
     if (!local) { ran_ = device.frame; }
     for (; recorded_ < device.frame; ++recorded_) {
         const FrameNumber k = recorded_ + 1;
-        const HeldFrame* frame = local ? &local_->frame : follower_.find(k);
+        const HeldFrame* frame = local ? local_->find(k) : follower_.find(k);
         if (k < device.frame) {
             record(*frame, false, {}, out);
         } else if (device.finished) {
@@ -41,7 +39,8 @@ void AxisController::record_progress(const DeviceStatus& device, AxisOutputs& ou
         }
     }
     was_in_tail_ = device.in_tail;
-    if (!local) { follower_.forget_before(recorded_ + 1); }
+    if (!local) { return follower_.forget_before(recorded_ + 1); }
+    while (!local_->held.empty() && local_->held.front().number <= recorded_) { local_->held.pop_front(); }
 }
 
 void AxisController::record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out) {
@@ -90,13 +89,11 @@ void AxisController::end_run(const DeviceStatus& device, AxisOutputs& out) {
     if (!was_local && !device.stopped_by_limit && !device.stopped_by_host) { happen(AxisEvent::MotionEnds); }
     if (device.stopped_by_host) {
         homed_ = false;
-        homing_.abandon();
-        mode_ = Mode::Rest;
+        abandon_local();
         happen(AxisEvent::HostStops);
         fail(FaultCode::EmergencyStopped, out);
     } else if (device.capture_overflow || (device.bad_segment && !(was_local && device.frame == 0))) {
-        homing_.abandon();
-        mode_ = Mode::Rest;
+        abandon_local();
         fail(FaultCode::DeviceFault, out);
     } else if (was_local) {
         end_local(device, out);
@@ -113,71 +110,6 @@ void AxisController::end_following(AxisOutputs& out) {
     mode_ = Mode::Rest;
     follower_.close();
     out.notices.push_back({AxisNotice::Kind::EpochEnded, FaultCode::None, follower_.epoch()});
-}
-
-void AxisController::end_local(const DeviceStatus& device, AxisOutputs& out) {
-    const LocalRun ended = *local_;
-    local_.reset();
-    mode_ = Mode::Rest;
-    if (device.bad_segment) {  // this process stalled and the start was missed: nothing has moved
-        if (ended.tries >= kMaxTries) { return fail(FaultCode::DeviceFault, out); }
-        return start_local(ended.move, ended.tries + 1, out);
-    }
-    if (device.stopped_by_trigger) { happen(AxisEvent::SwitchStops); }
-    if (device.stopped_by_limit) { happen(AxisEvent::LimitStops); }
-    if (homing_.stage() == HomingStage::Park) { happen(AxisEvent::MotionEnds); }
-    take_homing_step(homing_.next({.by_trigger = device.stopped_by_trigger,
-                                   .by_limit = device.stopped_by_limit,
-                                   .home_closed = device.home,
-                                   .count = device.position.count(),
-                                   .trigger_count = device.trigger_count}),
-                     out);
-}
-
-void AxisController::take_homing_step(const HomingStep& step, AxisOutputs& out) {
-    out.notices.push_back({AxisNotice::Kind::HomingStage, step.fault, static_cast<std::uint64_t>(homing_.stage())});
-    if (step.zeroed) {
-        zero_count_ = step.zero_count;
-        homed_ = true;
-        happen(AxisEvent::Zeroed);
-    } else if (phase_ == AxisPhase::Stop && step.fault == FaultCode::None) {
-        happen(AxisEvent::HomingBegins);
-    }
-    if (step.fault != FaultCode::None) {
-        homed_ = false;
-        fail(step.fault, out);
-        return done(step.fault);
-    }
-    if (step.move && step.move->steps != 0) { return start_local(*step.move, 0, out); }
-    if (step.move) { return take_homing_step(homing_.next({.count = device_.position.count()}), out); }
-    if (step.done) {
-        out.notices.push_back({AxisNotice::Kind::Homed, FaultCode::None, 0});
-        done(FaultCode::None);
-    }
-}
-
-void AxisController::start_local(const LocalMove& move, int tries, AxisOutputs& out) {
-    PathLimits limits{std::min(limits_.start_velocity, move.speed_steps_per_tick), move.speed_steps_per_tick,
-                      limits_.max_acceleration, limits_.max_deceleration};
-    const int direction = move.steps < 0 ? -1 : 1;
-    const Profile profile = plan_fastest(
-        {{}, Displacement::steps(move.steps * direction), limits.start_velocity, limits.start_velocity, limits});
-    LocalRun run{.move = move, .tries = tries};
-    run.frame.number = 1;
-    run.frame.start = now_ + slot_ * (2 + tries);
-    run.frame.ticks = profile.duration().ceil();
-    run.frame.last = true;
-    run.frame.track.from = rest_position(device_.position.count() - zero_count_, direction < 0);
-    for (const Piece& piece : pieces_of(profile, run.frame.track.from, direction)) {
-        (void)run.frame.track.body.push_back(piece);  // three phases at most
-    }
-    mode_ = Mode::Local;
-    recorded_ = 0;
-    was_in_tail_ = false;
-    out.orders.emplace_back(device::BeginRun{++run_, move.trigger});
-    load(run.frame, out);
-    out.orders.emplace_back(device::Arm{1});
-    local_ = std::move(run);
 }
 
 }  // namespace lockstep

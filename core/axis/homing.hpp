@@ -19,6 +19,7 @@ struct LocalMove {
     std::int64_t steps = 0;  // signed
     double speed_steps_per_tick = 0;
     Trigger trigger = Trigger::None;
+    Ticks ticks = {};  // how long it lasts; 0: as fast as the axis's limits allow
 };
 
 /// How a local move came to its end.

@@ -14,8 +14,6 @@ namespace {
 
 using stepgen::number;
 
-constexpr Ticks kLeastTicksPerStep{3};  // what StepPieces asks for
-
 /// What a move in a given time lacks, in the units of its user.
 std::string text_of(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns, const OwnMoveRequest& move) {
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
@@ -94,9 +92,9 @@ std::optional<Piece> OwnPieces::Planned::next(Ticks most) {
 
 std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {
     while (left > 0 && !breach) {
-        const std::optional<Ticks> step = next_step();
-        if (!step) { break; }
-        if (auto before = pieces.add(*step)) { return before; }
+        const std::optional<double> step_s = next_step_s();
+        if (!step_s) { break; }
+        if (auto before = pieces.add(*step_s / tick_s)) { return before; }
         if (pieces.last_step() - pieces.begin() >= most) { return pieces.cut(); }
     }
     if (auto rest = pieces.cut()) { return rest; }
@@ -106,13 +104,13 @@ std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {
 }
 
 /// None where it would break the limits.
-std::optional<Ticks> OwnPieces::Stepped::next_step() {
+std::optional<double> OwnPieces::Stepped::next_step_s() {
     const double at_s = source.next_s();
     breach = watch.step(at_s - before_s).has_value();
     before_s = at_s;
     if (breach) { return std::nullopt; }
     --left;
-    return std::max(Ticks{std::llround(at_s / tick_s)}, pieces.last_step() + kLeastTicksPerStep);
+    return at_s;
 }
 
 }  // namespace lockstep

@@ -61,7 +61,7 @@ private:
         bool breach = false;
 
         std::optional<Piece> next(Ticks most);
-        std::optional<Ticks> next_step();
+        std::optional<double> next_step_s();
         bool done() const { return at_rest; }
         bool broken() const { return breach; }
     };

@@ -1,6 +1,15 @@
 #include "core/axis/setpoint_follower.hpp"
 
 namespace lockstep {
+namespace {
+
+/// At rest an axis may set out from its whole step as well as from the very fraction it came to rest on.
+Position start_from(Position asked, Position rest) {
+    const bool whole = asked == rest_position(rest.count(), false) || asked == rest_position(rest.count(), true);
+    return whole ? asked : rest;
+}
+
+}  // namespace
 
 SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machine)
     : axis_(axis),
@@ -23,18 +32,17 @@ void SetpointFollower::hear(const MachineState& coordinator) {
 FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> rest) {
     if (frame.axes.size() != axes_) { return FaultCode::ConfigMismatch; }
     const AxisTrack& track = frame.axes[axis_];
-    if (frame.epoch > epoch_ && frame.number == 1 && rest && !open_) {
-        // At rest an axis may set out from its whole step as well as from the very fraction it came to rest on.
-        const std::int64_t count = rest->count();
-        const bool whole = track.from == rest_position(count, false) || track.from == rest_position(count, true);
-        begin(frame, whole ? track.from : *rest);
-    }
+    const bool first = !open_ && rest && frame.epoch > epoch_ && frame.number == 1;
     const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_;
-    if (!next || frames_.size() == kMaxFrames) { return FaultCode::None; }
-    if (held_ > 0 && frame.start != end_tick_) { return FaultCode::FrameDiscontinuous; }
+    if ((!first && !next) || frames_.size() == kMaxFrames) { return FaultCode::None; }
+    const bool follows = first ? is_epoch_of(frame.epoch, frame.coordinator) : frame.start == end_tick_;
+    if (!follows) { return FaultCode::FrameDiscontinuous; }
     if (frame.start.value % slot_.value != 0 || frame.ticks.value <= 0) { return FaultCode::BadProgram; }
-    const FaultCode fault = check_track(track, frame.ticks, frame.last, limits_, end_);
+    MotionPoint end = first ? MotionPoint{start_from(track.from, *rest), 0, {}} : end_;
+    const FaultCode fault = check_track(track, frame.ticks, frame.last, limits_, end);
     if (fault != FaultCode::None) { return fault; }
+    if (first) { begin(frame.epoch); }
+    end_ = end;
     held_ = frame.number;
     last_held_ = frame.last;
     end_tick_ = frame.start + frame.ticks;
@@ -42,14 +50,12 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     return FaultCode::None;
 }
 
-void SetpointFollower::begin(const Frame& frame, Position from) {
+void SetpointFollower::begin(Epoch epoch) {
     open_ = true;
-    epoch_ = frame.epoch;
+    epoch_ = epoch;
     held_ = checked_ = 0;
     veto_.reset();
     device_veto_.reset();
-    end_ = {from, 0, {}};
-    end_tick_ = frame.start;
     last_held_ = false;
     frames_.clear();
 }

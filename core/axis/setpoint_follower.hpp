@@ -61,7 +61,7 @@ public:
     const HeldFrame* find(FrameNumber number) const;
 
 private:
-    void begin(const Frame& frame, Position from);
+    void begin(Epoch epoch);
     bool every_other_holds(FrameNumber k, Slot start) const;
     std::optional<Slot> start_slot(FrameNumber k) const;
     void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }

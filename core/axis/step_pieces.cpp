@@ -1,7 +1,7 @@
 #include "core/axis/step_pieces.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 #include "core/motion/interpolate.hpp"
 
@@ -21,32 +21,42 @@ bool StepPieces::take(Ticks at) {
     return true;
 }
 
-std::optional<Piece> StepPieces::add(Ticks at) {
-    if (take(at)) { return std::nullopt; }
-    const auto before = cut();
-    (void)take(at);  // alone it fits: its range is wider than one unit
+std::optional<Piece> StepPieces::add(double ticks) {
+    const Ticks at = std::max(Ticks{std::llround(ticks)}, last_ + kLeastTicks);
+    std::optional<Piece> before;
+    if (!take(at)) {
+        before = cut(1 / std::max(1.0, ticks - asked_));
+        (void)take(at);  // alone it fits: its range is wider than one unit
+    }
+    asked_ = ticks;
     return before;
 }
 
 std::optional<Piece> StepPieces::cut() {
     if (steps_ == 0) { return std::nullopt; }
-    const Piece piece{last_ - begin_, {static_cast<std::int64_t>(slowest_)}, {}};
-    beyond_ += piece.covered().raw - steps_ * kOneStep;
-    speed_ = piece.velocity.raw;
-    start_anew();
-    return piece;
+    return cut(static_cast<double>(slowest_) * 0x1p-64);
 }
 
-void StepPieces::start_anew() {
+/// A step that was asked for at the middle of its tick shall be made there, and so on. Then the next piece, that goes
+/// on at `next_speed`, begins where the motion asked for then is, and fits as many steps as there are of that speed.
+Piece StepPieces::cut(double next_speed) {
+    const Int128 ticks = (last_ - begin_).value;
+    const double since_step = static_cast<double>(last_.value) - (asked_ - 0.5);
+    const auto beyond = static_cast<Int128>(since_step * next_speed * 0x1p64);
+    const Int128 way = steps_ * kOneStep - beyond_;
+    const Int128 speed = std::clamp((way + beyond) / ticks, slowest_, fastest_);
+    made_ = static_cast<std::int64_t>(speed);
+    beyond_ = speed * ticks - way;
     begin_ = last_;
     steps_ = 0;
     slowest_ = 0;
     fastest_ = kFastest;
+    return {{static_cast<std::int64_t>(ticks)}, {made_}, {}};
 }
 
 Piece StepPieces::last_half() const {
     const Int128 way = kHalfStep - beyond_;
-    const auto ticks = static_cast<std::int64_t>(std::max<Int128>(1, (way + speed_ - 1) / speed_));
+    const auto ticks = static_cast<std::int64_t>(std::max<Int128>(1, (way + made_ - 1) / made_));
     return solve_piece({}, Position{way}, {ticks}, 0);
 }
 

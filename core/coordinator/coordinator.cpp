@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/motion/interpolate.hpp"
 
@@ -50,9 +51,11 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         if (state.axis >= views_.size()) { continue; }
         AxisView& view = views_[state.axis];
         const bool same = view.state && view.state->identity == state.identity;
-        if (same && state.stamp < view.state->stamp) { continue; }
+        if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
+        if (view.state && !same && std::exchange(view.stranger, state.identity) != state.identity) { continue; }
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
-        if (view.state && !same && moving_) { fail(FaultCode::AxisLost, state.axis, out); }
+        const bool needed = in_motion() || phase_ == MachinePhase::Homing;
+        if (view.state && !same && needed) { fail(FaultCode::AxisLost, state.axis, out); }
         if (!same) { orders_[state.axis].reset(); }
         view = {state, now_slot_};
     }
@@ -76,6 +79,7 @@ void Coordinator::watch_axes(CoordinatorOutputs& out) {
         if (view.state && !present(i)) {
             out.notices.push_back({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, i});
             views_[i].state.reset();
+            orders_[i].reset();  // what comes back may be another process: it must not do what this one has done
             if (phase_ == MachinePhase::Idle) { enter(MachinePhase::Waiting, out); }
             if (phase_ != MachinePhase::Waiting) { fail(FaultCode::AxisLost, i, out); }
         } else if (view.state && view.state->config_hash != config_hash_) {
@@ -102,9 +106,9 @@ void Coordinator::fail(FaultCode fault, std::size_t axis, CoordinatorOutputs& ou
     fault_ = fault;
     fault_axis_ = axis;
     out.notices.push_back({CoordinatorNotice::Kind::Fault, fault, axis});
-    if (moving_) {
+    if (in_motion()) {
         intent_ = Intent::Abort;
-        runner_.stop(now_slot_);
+        moving_ ? runner_.stop(now_slot_) : halt_own();
         return enter(MachinePhase::Stopping, out);
     }
     end_job(JobOutcome::Failed, out);
@@ -137,6 +141,7 @@ MachineState Coordinator::state() const {
                    .outcome = job_ ? std::nullopt : outcome_,
                    .config_hash = config_hash_};
     for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }
+    if (in_own_move()) { say_progress_of_own(s); }
     if (moving_ && job_) {
         const Path& path = runner_.path();
         const Subticks into = std::clamp(subticks(now_ - runner_.start()), Subticks{}, path.duration());

@@ -87,6 +87,11 @@ private:
         std::vector<PathMove> remaining;
         std::vector<Position> positions;
         int fruitless = 0;  // epochs in a row that ran no frame
+        // Own moves, by axis:
+        std::vector<std::int64_t> from;
+        std::vector<std::int64_t> to;
+        Tick begun;
+        double planned_s = 0;
     };
     enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
 
@@ -95,6 +100,9 @@ private:
     Reply answer(const Command& command, CoordinatorOutputs& out);
     Reply home(const Command& command, CoordinatorOutputs& out);
     Reply run(const Command& command, CoordinatorOutputs& out);
+    Reply move_own(const Command& command, CoordinatorOutputs& out);
+    Reply interrupt_own(const Command& command, Intent intent, CoordinatorOutputs& out);
+    std::optional<Reply> refuse_own(const Command& command, std::size_t axis, std::int64_t steps) const;
     Reply interrupt(const Command& command, Intent intent, CoordinatorOutputs& out);
     Reply resume(const Command& command, CoordinatorOutputs& out);
     Reply reset(const Command& command, CoordinatorOutputs& out);
@@ -107,8 +115,16 @@ private:
     void advance(CoordinatorOutputs& out);
     void advance_homing(CoordinatorOutputs& out);
     void send_homing_group(CoordinatorOutputs& out);
+    void begin_own(Job job, Ticks ticks, CoordinatorOutputs& out);
+    void advance_own(CoordinatorOutputs& out);
+    void halt_own();
+    bool in_own_move() const { return job_ && job_->kind == JobKind::MoveOwn; }
+    bool in_motion() const { return moving_ || in_own_move(); }
+    double planned_seconds(std::size_t axis, std::int64_t steps, Ticks asked) const;
+    void say_progress_of_own(MachineState& state) const;
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
                      CoordinatorOutputs& out);
+    Epoch next_epoch();
     void begin_leg(CoordinatorOutputs& out);
     void settle(const EpochEnd& end, CoordinatorOutputs& out);
     void interrupted(const EpochEnd& end, CoordinatorOutputs& out);
@@ -146,7 +162,7 @@ private:
     std::optional<Job> job_;
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t jobs_ = 0;
-    Epoch epochs_ = 0;
+    Epoch epoch_ = 0;  // the newest
     std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;
     std::vector<std::uint64_t> program_order_;
     std::map<Identity, Reply> replies_;  // the last one to each client, for commands that come again

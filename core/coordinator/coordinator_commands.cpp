@@ -27,7 +27,7 @@ Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {
         case CommandKind::Resume: return resume(command, out);
         case CommandKind::Reset: return reset(command, out);
         case CommandKind::EmergencyStop: return emergency(command, out);
-        case CommandKind::MoveOwn: break;
+        case CommandKind::MoveOwn: return move_own(command, out);
     }
     return refused(command, FaultCode::NothingToDo, "unknown command");
 }
@@ -99,6 +99,7 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
 }
 
 Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorOutputs& out) {
+    if (in_own_move()) { return interrupt_own(command, intent, out); }
     const bool resting = phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused;
     if (intent == Intent::Stop && resting && !moving_) {
         const Reply reply = accepted(command);
@@ -123,7 +124,7 @@ Reply Coordinator::resume(const Command& command, CoordinatorOutputs& out) {
 }
 
 Reply Coordinator::reset(const Command& command, CoordinatorOutputs& out) {
-    if (moving_ || phase_ == MachinePhase::Homing) {
+    if (in_motion() || phase_ == MachinePhase::Homing) {
         return refused(command, FaultCode::Busy, "the machine is in motion");
     }
     if (job_) { end_job(JobOutcome::Stopped, out); }

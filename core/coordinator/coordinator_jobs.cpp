@@ -1,6 +1,7 @@
 // Homing and motion: what happens while a job is in progress, and when its axes have come to rest.
 #include "core/coordinator/coordinator.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/motion/interpolate.hpp"
@@ -41,10 +42,12 @@ void Coordinator::advance(CoordinatorOutputs& out) {
         return;
     }
     if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
+    if (in_own_move()) { return advance_own(out); }
     const bool listened = now_slot_ - *first_slot_ > rules::silence_slots(machine_.timing);
     bool orders_open = false;
     for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
-    if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open) {
+    const bool all_rest = std::ranges::all_of(views_, [](const AxisView& v) { return v.state && v.state->at_rest; });
+    if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open && all_rest) {
         enter(MachinePhase::Idle, out);
     }
 }
@@ -62,6 +65,15 @@ void Coordinator::begin_leg(CoordinatorOutputs& out) {
     begin_epoch(leg.moves, {}, {}, {leg.moves.front().block, {}}, out);
 }
 
+/// Above all that any axis has taken frames of, whoever sent them.
+Epoch Coordinator::next_epoch() {
+    epoch_ = std::max(epoch_, first_epoch(identity_));
+    for (const AxisView& view : views_) {
+        if (view.state && is_epoch_of(view.state->epoch, identity_)) { epoch_ = std::max(epoch_, view.state->epoch); }
+    }
+    return ++epoch_;
+}
+
 /// `at` empty: from rest on whole steps, where the axes stand.
 void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at,
                               PathPlace place, CoordinatorOutputs& out) {
@@ -71,7 +83,7 @@ void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, s
             at.push_back(start_of(path, i, views_[i].state->position.count()));
         }
     }
-    const Epoch epoch = (identity_ << 8) + ++epochs_;
+    const Epoch epoch = next_epoch();
     runner_.begin(epoch, std::move(path), std::move(at), now_slot_);
     moving_ = true;
     intent_ = Intent::GoOn;

@@ -18,6 +18,7 @@ namespace lockstep {
 struct AxisView {
     std::optional<AxisState> state;
     Slot heard = 0;
+    Identity stranger = 0;  // another process that has spoken for the axis once: believed when it does so again
     bool present(Slot now, const ProtocolTiming& timing) const {
         return state && now - heard <= rules::silence_slots(timing);
     }

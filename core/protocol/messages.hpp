@@ -13,7 +13,7 @@
 
 namespace lockstep {
 
-/// A sequence of frames that starts from rest. Never reused: it is the coordinator's start time plus a counter.
+/// A sequence of frames that starts from rest. Never reused: it is the coordinator's start time and a counter.
 using Epoch = std::uint64_t;
 /// Frames of an epoch are numbered from 1 without gaps.
 using FrameNumber = std::uint64_t;
@@ -21,6 +21,14 @@ using FrameNumber = std::uint64_t;
 using Slot = std::int64_t;
 /// Who speaks: made anew at every start of a process.
 using Identity = std::uint64_t;
+
+/// The epochs of a coordinator are numbered upwards from here.
+constexpr Epoch first_epoch(Identity coordinator) { return coordinator << 8; }
+/// Whether a coordinator can have come to an epoch: no other number is believed, lest it put an axis beyond all
+/// epochs to come.
+constexpr bool is_epoch_of(Epoch epoch, Identity coordinator) {
+    return epoch - first_epoch(coordinator) < Epoch{1} << 24;
+}
 
 inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the planner keeps moves long enough
 inline constexpr std::size_t kMaxTailPieces = 60;   // the planner keeps stops short enough

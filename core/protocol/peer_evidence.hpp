@@ -18,8 +18,8 @@ public:
 
     /// Whether a state stamped in the window of the frame that starts at `start` says that it holds k of `epoch`.
     bool holds(Epoch epoch, FrameNumber k, Slot start, const ProtocolTiming& timing) const {
-        const Slot last = rules::check_slot(start, timing) - 1;
-        for (Slot stamp = last - timing.freshness_slots; stamp <= last; ++stamp) {
+        const Slot last = rules::last_evidence_slot(start, timing);
+        for (Slot stamp = rules::first_evidence_slot(start, timing); stamp <= last; ++stamp) {
             const Entry& e = entries_[index(stamp)];
             if (e.heard && e.stamp == stamp && e.epoch == epoch && e.held >= k) { return true; }
         }

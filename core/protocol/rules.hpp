@@ -6,39 +6,59 @@
 // stamped in [Y-1-m, Y-1] that holds k; else it vetoes k. The device runs k at start(k) if it is armed, k-1 was run
 // and no veto came since; else it runs the tail of k-1 by itself. Nobody has to notice anything for the machine to
 // stop.
+//
+// The rules themselves stand in rules.inc, which the protocol's model (tests/model) reads too: what is searched
+// exhaustively there is what runs here.
+//
+// Clocks. A hop's two slots hold everything between what one process says and what another does about it: the speaker's
+// and the listener's loop period, the network's delay, and the error of both clocks, since each counts slots, samples
+// and stamps by its own:
+//
+//     kHopSlots * slot >= 2 * loop_period + network_delay + 2 * clock_error
+//
+// Within it clocks that differ by a whole slot (an error of half a slot each) are as good as one: the rest of the hop
+// is then one slot. Where delay and loops alone take the two slots, clocks that differ by a slot need one slot more
+// before the start, V = 5 + s: the one late clock, or the one early start, takes a slot from the two hops of a veto.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "core/machine.hpp"
 #include "core/protocol/messages.hpp"
+#include "core/protocol/rules.inc"
 
 namespace lockstep::rules {
 
 /// A message sent in one slot is used in the next or the one after.
-inline constexpr Slot kHopSlots = 2;
+inline constexpr Slot kHopSlots = RULE_HOP;
 /// A veto must reach an axis over two hops before the frame starts: no check is made later than this before the start.
-inline constexpr Slot kLastCheckSlots = 2 * kHopSlots;
+inline constexpr Slot kLastCheckSlots = RULE_LAST_CHECK;
 
 constexpr Slot slot_of(Tick tick, Ticks slot) { return tick.value / slot.value; }
 constexpr Tick start_of(Slot number, Ticks slot) { return {number * slot.value}; }
 
 /// Y(k): when an axis decides, from a frame's start.
-constexpr Slot check_slot(Slot start, const ProtocolTiming& t) { return start - t.check_slots(); }
+constexpr Slot check_slot(Slot start, const ProtocolTiming& t) { return RULE_CHECK_SLOT(start, t.check_slots()); }
 
 enum class CheckTime { Early, Due, TooLate };
 
 /// Whether a frame that starts at `start` is to be checked at `now`. A late check decides as a punctual one would,
 /// since the evidence is fixed by its stamps.
 constexpr CheckTime check_time(Slot now, Slot start, const ProtocolTiming& t) {
-    if (now < check_slot(start, t)) { return CheckTime::Early; }
-    return now <= start - kLastCheckSlots ? CheckTime::Due : CheckTime::TooLate;
+    if (RULE_IS_EARLY(now, start, t.check_slots())) { return CheckTime::Early; }
+    return RULE_IS_TOO_LATE(now, start) ? CheckTime::TooLate : CheckTime::Due;
 }
 
-/// Whether a state with this stamp is evidence for a frame that starts at `start`.
+/// The stamps between which, both included, a state is evidence for a frame that starts at `start`.
+constexpr Slot first_evidence_slot(Slot start, const ProtocolTiming& t) {
+    return RULE_FIRST_EVIDENCE(start, t.check_slots(), t.freshness_slots);
+}
+constexpr Slot last_evidence_slot(Slot start, const ProtocolTiming& t) {
+    return RULE_LAST_EVIDENCE(start, t.check_slots());
+}
 constexpr bool is_evidence(Slot stamp, Slot start, const ProtocolTiming& t) {
-    const Slot last = check_slot(start, t) - 1;
-    return stamp >= last - t.freshness_slots && stamp <= last;
+    return RULE_IS_EVIDENCE(stamp, start, t.check_slots(), t.freshness_slots);
 }
 
 /// Whether frame k may be armed for all this axis knows: the check itself.
@@ -48,25 +68,28 @@ struct Evidence {
     bool every_other_holds = false;   // evidence from every other axis that it holds k
 };
 constexpr bool may_arm(FrameNumber k, const Evidence& e) {
-    return e.held >= k && !(e.veto && *e.veto <= k) && e.every_other_holds;
+    constexpr FrameNumber kBeyondEveryFrame = std::numeric_limits<FrameNumber>::max();
+    return RULE_MAY_ARM(k, e.held, e.veto.value_or(kBeyondEveryFrame), e.every_other_holds);
 }
 
 /// What is vetoed when k fails its check in time, and when its check comes too late: a late veto of k itself would
 /// reach only some.
-constexpr FrameNumber veto_when_failed(FrameNumber k) { return k; }
-constexpr FrameNumber veto_when_too_late(FrameNumber k) { return k + 1; }
+constexpr FrameNumber veto_when_failed(FrameNumber k) { return RULE_VETO_WHEN_FAILED(k); }
+constexpr FrameNumber veto_when_too_late(FrameNumber k) { return RULE_VETO_WHEN_TOO_LATE(k); }
 
 /// Whether an axis may still veto a frame that starts at `start` for reasons of its own (a switch, a fault).
-constexpr bool axis_may_veto(Slot now, Slot start) { return now <= start - kLastCheckSlots; }
+constexpr bool axis_may_veto(Slot now, Slot start) { return RULE_AXIS_MAY_VETO(now, start); }
 /// Whether the coordinator may veto it (a stop, a hold): before any axis has decided.
 constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) {
-    return now < check_slot(start, t);
+    return RULE_COORDINATOR_MAY_VETO(now, start, t.check_slots());
 }
 
 /// When a frame is first sent, and the last slot in which it is sent at all.
-constexpr Slot first_send_slot(Slot start, const ProtocolTiming& t) { return start - t.send_ahead_slots; }
+constexpr Slot first_send_slot(Slot start, const ProtocolTiming& t) {
+    return RULE_FIRST_SEND(start, t.send_ahead_slots);
+}
 constexpr bool may_send(Slot now, Slot start, const ProtocolTiming& t) {
-    return now <= start - t.send_deadline_slots();
+    return RULE_MAY_SEND(now, start, t.check_slots(), t.freshness_slots);
 }
 
 /// How long an axis or a coordinator may be unheard before it counts as gone for a machine at rest. A machine in
@@ -76,7 +99,7 @@ constexpr Slot silence_slots(const ProtocolTiming& t) { return 3 * Slot{t.freshn
 /// The lowest of two vetoes.
 constexpr std::optional<FrameNumber> merge(std::optional<FrameNumber> a, std::optional<FrameNumber> b) {
     if (!a) { return b; }
-    return b && *b < *a ? b : a;
+    return b && RULE_VETO_WINS(*b, *a) ? b : a;
 }
 
 }  // namespace lockstep::rules

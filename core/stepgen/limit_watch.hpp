@@ -6,10 +6,12 @@
 
 namespace lockstep::stepgen {
 
-/// The speed at a step is one step over the wait for it. Between any two steps it changes by at most
-///   start + acceleration (or deceleration) x the time between them,
-/// from rest at the beginning, and to rest at the last step. So every ramp may jump by the start velocity once,
-/// wherever and in however many pieces: also what whole pulses, counts and clock periods make of a smooth ramp.
+/// The mean speed of a wait is one step over it, and the axis has it at some instant of that wait. So no lawful motion,
+/// one that speeds up by at most a, slows down by at most d, and jumps by at most the start velocity, has
+///   mean speeds of two waits that differ by more than start + a (or d) x the time from the one's begin to the other's
+///   end,
+/// rest before the first wait and after the last one included. A train of steps for which that holds everywhere passes:
+/// what whole pulses, counts and clock periods make of a smooth ramp may jump too, but never further than one start.
 class LimitWatch {
 public:
     /// Steps/s, steps/s^2.
@@ -28,11 +30,13 @@ public:
     /// The next step, after a wait in s.
     std::optional<Breach> step(double wait_s) {
         const double speed = 1 / wait_s;
-        slowest_ += limits_.acceleration * wait_s;
-        fastest_ -= limits_.deceleration * wait_s;
+        const double gain = limits_.acceleration * wait_s;
+        const double loss = limits_.deceleration * wait_s;
+        slowest_ += gain;
+        fastest_ -= loss;
         const auto breach = compare(speed);
-        slowest_ = std::min(slowest_, speed);
-        fastest_ = std::max(fastest_, speed);
+        slowest_ = std::min(slowest_, speed + gain);
+        fastest_ = std::max(fastest_, speed - loss);
         return breach;
     }
     /// After the last one.
@@ -49,8 +53,8 @@ private:
     static constexpr double kRounding = 1e-6;
 
     Limits limits_;
-    double slowest_ = 0;  // the least that any speed so far may have become by now, at full acceleration
-    double fastest_ = 0;  // the most, at full deceleration
+    double slowest_ = 0;  // the least that the speeds so far may all have grown to by now
+    double fastest_ = 0;  // the most that they may all have fallen to
 };
 
 }  // namespace lockstep::stepgen

@@ -16,8 +16,10 @@ namespace lockstep::stepgen {
 
 class StepSource {
 public:
-    /// The nearest that the method makes of the move, with its paper's parameters. Error: it makes nothing of it, or
-    /// the method is Ranade's, whose moves are pieces and not steps (core/motion/profile.hpp).
+    /// The nearest that the method makes of the move as its paper has it, so that it keeps limits that suit it
+    /// (suits.hpp): spielauer, lai and lam start slowly whatever the start speed, lai changes its speed by one pulse
+    /// per period, carrica's least speed lies two steps' acceleration below the start speed. Error: it makes nothing of
+    /// it, or the method is Ranade's, whose moves are pieces and not steps (core/motion/profile.hpp).
     static std::expected<StepSource, std::string> of(StepMethod method, const StepMove& move);
 
     /// When the next step falls, in s from the start of the move. Call it for each of the move's steps once.

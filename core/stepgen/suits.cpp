@@ -24,10 +24,14 @@ Suits brakes_as_it_accelerates(const SpeedLimits& limits) {
                     " steps/s^2 must equal the acceleration, " + number(limits.acceleration));
 }
 
-/// One pulse per period and period is the gentlest change there is.
-Suits changes_by_whole_pulses(const SpeedLimits& limits) {
+/// Lai's acceleration: one pulse per period and period.
+double one_pulse() {
     const double period_s = LaiParameters{}.period_s;
-    const double least = 1 / (period_s * period_s);
+    return 1 / (period_s * period_s);
+}
+
+Suits changes_by_whole_pulses(const SpeedLimits& limits) {
+    const double least = one_pulse();
     const double most = std::min(limits.acceleration, limits.deceleration);
     if (least <= most) { return {}; }
     return unsuited("it changes its speed by whole pulses per 6.5 ms, " + number(least) +
@@ -55,7 +59,8 @@ Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t st
 }
 
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
-    const double ramps = limits.max * limits.max * (1 / limits.acceleration + 1 / limits.deceleration) / 2;
+    const double own = method == StepMethod::Lai ? one_pulse() : limits.acceleration;
+    const double ramps = limits.max * limits.max * (1 / own + 1 / limits.deceleration) / 2;
     const double longest = std::min(static_cast<double>(kLongestTried), 1.5 * ramps + 100);
     std::int64_t before = 1;
     for (std::int64_t steps = 1; static_cast<double>(steps) <= longest;) {  // 1, 2, 3, 5, 8 ...

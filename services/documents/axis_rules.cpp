@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/program.hpp"
+#include "core/stepgen/methods.hpp"
+#include "core/stepgen/suits.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
@@ -32,6 +36,7 @@ public:
         check_homing_speeds();
         check_homing_places();
         check_plant();
+        check_method();
         return problems_.take();
     }
 
@@ -173,6 +178,18 @@ private:
             at > limit_min() && at < limit_max(),
             "plant.start_position_mm is " + number_text(at) + ", not between the limit switches at " +
                 number_text(limit_min()) + " and " + number_text(limit_max()));
+    }
+
+    /// Tried out, so only where the numbers it is tried with are sound.
+    void check_method() {
+        const auto is_sound = [this](std::string_view key) { return problems_.is_sound(key); };
+        constexpr std::array<std::string_view, 5> kLimits{"steps_per_mm", "start_velocity_mm_s", "max_velocity_mm_s",
+                                                          "max_accel_mm_s2", "max_decel_mm_s2"};
+        if (!std::ranges::all_of(kLimits, is_sound)) { return; }
+        const auto suits = stepgen::suits(axis_.method, stepgen::speed_limits_of(axis_, machine_.tick_ns));
+        problems_.require(suits.has_value(), "method",
+                          "method is " + std::string(stepgen::name_of(axis_.method)) + "; " +
+                              (suits ? "" : suits.error()) + "; change the limits, or choose another method");
     }
 
     double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }

@@ -198,8 +198,8 @@ void VirtualMachine::listen() {
     for (Reply& reply : mail.replies) { replies_.push_back(std::move(reply)); }
 }
 
-std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std::uint64_t program) {
-    command_ = {kClient, command_.sequence + 1, kind, axes, program};
+std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std::uint64_t program, Ticks ticks) {
+    command_ = {kClient, command_.sequence + 1, kind, axes, program, ticks};
     repeat_command();
     return command_.sequence;
 }

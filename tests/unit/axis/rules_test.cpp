@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/protocol/peer_evidence.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -27,6 +29,14 @@ TEST(Rules, EvidenceIsFixedByItsStampNotByWhenItIsLookedAt) {
     EXPECT_TRUE(rules::is_evidence(92, kStart, kTiming));  // Y - 1 - m
     EXPECT_TRUE(rules::is_evidence(94, kStart, kTiming));  // Y - 1
     EXPECT_FALSE(rules::is_evidence(95, kStart, kTiming));
+}
+
+TEST(Rules, TheWindowOfEvidenceEndsOneSlotBeforeTheCheck) {
+    EXPECT_EQ(rules::first_evidence_slot(kStart, kTiming), 92);  // Y - 1 - m
+    EXPECT_EQ(rules::last_evidence_slot(kStart, kTiming), 94);   // Y - 1
+    for (Slot stamp = 80; stamp < 110; ++stamp) {
+        EXPECT_EQ(rules::is_evidence(stamp, kStart, kTiming), stamp >= 92 && stamp <= 94) << stamp;
+    }
 }
 
 TEST(Rules, AFrameIsArmedOnlyIfHeldByAllAndVetoedByNone) {
@@ -64,6 +74,44 @@ TEST(Rules, TheLowestVetoWins) {
     EXPECT_EQ(rules::merge(std::nullopt, 4), 4u);
     EXPECT_EQ(rules::merge(3, 4), 3u);
     EXPECT_EQ(rules::merge(3, std::nullopt), 3u);
+}
+
+constexpr Epoch kEpoch = 7;
+
+AxisState says_held(Slot stamp, FrameNumber held, Epoch epoch = kEpoch) {
+    return {.stamp = stamp, .epoch = epoch, .held = held};
+}
+
+TEST(PeerEvidence, OneStateInTheWindowIsEnough) {
+    for (Slot stamp = 80; stamp < 110; ++stamp) {
+        PeerEvidence peer;
+        peer.hear(says_held(stamp, 3));
+        EXPECT_EQ(peer.holds(kEpoch, 3, kStart, kTiming), rules::is_evidence(stamp, kStart, kTiming)) << stamp;
+    }
+}
+
+TEST(PeerEvidence, AFrameIsHeldWithAllBeforeIt) {
+    PeerEvidence peer;
+    peer.hear(says_held(93, 3));
+    EXPECT_TRUE(peer.holds(kEpoch, 2, kStart, kTiming));
+    EXPECT_FALSE(peer.holds(kEpoch, 4, kStart, kTiming));
+}
+
+TEST(PeerEvidence, AnotherEpochIsEvidenceOfNothing) {
+    PeerEvidence peer;
+    peer.hear(says_held(93, 3, kEpoch - 1));
+    EXPECT_FALSE(peer.holds(kEpoch, 3, kStart, kTiming));
+}
+
+TEST(PeerEvidence, LateDoubledOrOutOfOrderStatesCountByTheirStamps) {
+    PeerEvidence peer;
+    peer.hear(says_held(99, 3));
+    peer.hear(says_held(93, 3));
+    peer.hear(says_held(93, 3));
+    EXPECT_TRUE(peer.holds(kEpoch, 3, kStart, kTiming));
+    peer.hear(says_held(93 + PeerEvidence::kMemory, 4));  // in the same place of the memory
+    peer.hear(says_held(93, 3));
+    EXPECT_FALSE(peer.holds(kEpoch, 3, kStart, kTiming));
 }
 
 }  // namespace

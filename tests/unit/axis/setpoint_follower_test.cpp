@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kSlot = 1000;  // ticks
 constexpr Slot kStart = 100;
-constexpr Epoch kEpoch = 7;
+constexpr Epoch kEpoch = first_epoch(1) + 7;
 
 MachineConfig machine() {
     MachineConfig m{
@@ -191,6 +191,21 @@ TEST_F(Follower, FramesAgainOrOutOfOrderChangeNothing) {
     EXPECT_EQ(follower.offer(frame(3, end), std::nullopt), FaultCode::None);
     EXPECT_EQ(follower.offer(frame(1, kHome), std::nullopt), FaultCode::None);
     EXPECT_EQ(follower.held(), 1u);
+}
+
+TEST_F(Follower, AFirstFrameThatIsRefusedBeginsNothing) {
+    EXPECT_EQ(follower.offer(frame(1, Position::steps(5)), kHome), FaultCode::FrameDiscontinuous);
+    EXPECT_FALSE(follower.open());
+    EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
+    EXPECT_TRUE(follower.open()) << "the same frame, unharmed, is taken";
+}
+
+TEST_F(Follower, AnEpochNoCoordinatorComesToDoesNotShutTheAxisOut) {
+    Frame absurd = frame(1, kHome);
+    absurd.epoch = ~Epoch{0} / 3;
+    EXPECT_EQ(follower.offer(absurd, kHome), FaultCode::FrameDiscontinuous);
+    EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
+    EXPECT_EQ(follower.epoch(), kEpoch);
 }
 
 TEST_F(Follower, ANewEpochBeginsOnlyFromRest) {

@@ -73,6 +73,19 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
                     Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"}));
 
+INSTANTIATE_TEST_SUITE_P(
+    Method, MachineRefused,
+    testing::Values(Refusal{axis_with("method: STEPPER"), 11, 1, "STEPPER"},
+                    Refusal{axis_with("method: 9"), 10, 3, "method is 9; it is one of RANADE, SPIELAUER"},
+                    Refusal{axis_with("method: CARRICA max_decel_mm_s2: 1000"), 10, 3,
+                            "80000 steps/s^2 must equal the acceleration, 120000"},
+                    Refusal{axis_with("method: LAM"), 10, 3, "method is lam; in a move of"},
+                    Refusal{axis_with("method: LAI"), 10, 3, "its speed jumps by"},
+                    Refusal{axis_with("method: LAI max_decel_mm_s2: 290"), 10, 3, "23668.6 steps/s^2 at least"},
+                    Refusal{with("150", "500", axis_with("method: LAI")), 10, 3, "1 to 255 whole pulses"},
+                    Refusal{with("\"m\"", "\"m\" tick_ns: 40000", axis_with("method: SPIELAUER")), 10, 3,
+                            "a third of a step per tick"}));
+
 INSTANTIATE_TEST_SUITE_P(Axis, MachineRefused,
                          testing::Values(Refusal{with("\"X\"", "\"1st\""), 3, 3, "a letter, then"},
                                          Refusal{with("\"X\"", "\"X23456789012345678\""), 3, 3, "at most 16"},

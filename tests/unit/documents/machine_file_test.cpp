@@ -44,6 +44,18 @@ TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     EXPECT_EQ(parse(with("max_mm: 200", "max_mm: 10")).axes.at(0).homing.pulloff_mm, 1);
 }
 
+TEST(MachineFile, OwnMovesAreMadeByTheMethodThatIsNamed) {
+    EXPECT_EQ(parse(kShortest).axes.at(0).method, StepMethod::Ranade);
+    EXPECT_EQ(parse(axis_with("method: RANADE")).axes.at(0).method, StepMethod::Ranade);
+    EXPECT_EQ(parse(axis_with("method: SPIELAUER")).axes.at(0).method, StepMethod::Spielauer);
+    EXPECT_EQ(parse(axis_with("method: CARRICA")).axes.at(0).method, StepMethod::Carrica);
+    EXPECT_EQ(parse(with("150", "50", axis_with("method: LAI"))).axes.at(0).method, StepMethod::Lai);
+    EXPECT_EQ(parse(with("10\n  max_velocity_mm_s: 150", "14\n  max_velocity_mm_s: 20", axis_with("method: LAM")))
+                  .axes.at(0)
+                  .method,
+              StepMethod::Lam);
+}
+
 TEST(MachineFile, PlantDefaultsLeaveTheMotorAReserve) {
     const PlantConfig plant = parse(axis_with("max_decel_mm_s2: 2000")).axes.at(0).plant;
     EXPECT_EQ(plant.start_position_mm, 100);
@@ -59,7 +71,8 @@ TEST(MachineFile, ZeroIsAValueAndNotAnAbsence) {
 
 TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
     for (const auto& text : {std::string(kShortest), with("80", "53.333333333333336"), machine_with("tick_ns: 250"),
-                             axis_with("homing { toward_min: false park_mm: 0.1 }")}) {
+                             axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
+                             axis_with("method: CARRICA")}) {
         const MachineConfig machine = parse(text);
         EXPECT_EQ(machine_text(parse(machine_text(machine))), machine_text(machine));
         EXPECT_EQ(config_hash(parse(machine_text(machine))), config_hash(machine));

@@ -64,8 +64,8 @@ protected:
     void wait(double seconds) {
         (void)vm.advance_until([] { return false; }, Ticks{static_cast<std::int64_t>(seconds * 1e6)});
     }
-    Reply ask(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0) {
-        const auto sequence = vm.command(kind, axes, program);
+    Reply ask(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0, Ticks ticks = {}) {
+        const auto sequence = vm.command(kind, axes, program, ticks);
         (void)vm.advance_until([&] { return vm.reply_to(sequence) != nullptr; }, Ticks{1'000'000});
         const Reply* reply = vm.reply_to(sequence);
         if (reply != nullptr) { job_ = std::max(job_, reply->job); }

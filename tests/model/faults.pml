@@ -1,0 +1,312 @@
+/* What may go wrong: one class a run, in any slot or never. All axes are alike, so the victim is axis 0, and the link
+ * that breaks the one between 0 and 1. A class says whose words are hit, who stalls, and what is promised all the same:
+ * Q, everything is run, or P, all run the same. */
+
+#define NEVER 255
+#define LONG_AGO 3
+byte since = NEVER; /* slots since the fault began, LONG_AGO at most */
+byte stalled = 0;   /* for how many slots by now */
+bit mid_step = 0;   /* the stall began in this slot, after the decisions and before their effects */
+bit kept = 0;       /* effects wait for the stall's end */
+Words late;         /* what the stalled one was about to say */
+
+/* ---- clocks: one axis may count one slot more or less than all others ---- */
+
+#ifdef CLOCK_OFF
+byte clock_ahead[N], clock_behind[N];
+#define CLOCK(i) (slot + clock_ahead[i] - clock_behind[i])
+inline set_clocks() {
+    if :: i = 0 :: i = 1 :: N == 3 -> i = 2 fi;
+    if :: clock_ahead[i] = 1 :: clock_behind[i] = 1 fi;
+    i = 0
+}
+#else
+#define CLOCK(i) slot
+inline set_clocks() { skip }
+#endif
+
+/* ---- promises ---- */
+
+#define BESIDE(a, b) ((a) <= (b) + 1 && (b) <= (a) + 1)
+#if N == 2
+#define OTHERS_RUN_THE_SAME 1
+#define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames))
+#else
+#define OTHERS_RUN_THE_SAME (axis[1].ran == axis[2].ran)
+#define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames) && axis[2].ran == (frames))
+#endif
+#define P ALL_RUN(axis[0].ran)
+#ifdef STOP
+#define Q P
+#else
+#define Q ALL_RUN(FRAMES)
+#endif
+#define P_BUT_FOR_THE_VICTIM (OTHERS_RUN_THE_SAME && BESIDE(axis[0].ran, axis[1].ran))
+
+/* ---- classes ---- */
+
+/* The slot in which the oldest evidence for a frame has reached whom it reaches fast, and no one else. */
+#define IS_MID_ROUND ((slot - RULE_FIRST_EVIDENCE(START(1), V, M) - RULE_HOP) % FRAME == 0)
+
+#if defined(NO_FAULT)
+#define PROMISE Q
+#define MAY_BEGIN 0
+
+#elif defined(COORDINATOR_CRASH)
+#define SPEAKER_FAILS
+#define HIT_FROM_COORDINATOR(i) 1
+#define COORDINATOR_RUNS (since == NEVER || since == 0)
+
+#elif defined(AXIS_CRASH) /* its device lives on */
+#define PROMISE P_BUT_FOR_THE_VICTIM
+#define SPEAKER_FAILS
+#define HIT(j, i) ((j) == 0)
+#define HIT_TO_COORDINATOR(j) ((j) == 0)
+#define AXIS_RUNS(i) ((i) != 0 || since == NEVER || since == 0)
+
+#elif defined(AXIS_DEAF)
+#define HIT(j, i) ((i) == 0)
+#define HIT_FROM_COORDINATOR(i) ((i) == 0)
+
+#elif defined(AXIS_MUTE)
+#define HIT(j, i) ((j) == 0)
+#define HIT_TO_COORDINATOR(j) ((j) == 0)
+
+#elif defined(COORDINATOR_LINK)
+#define HIT_FROM_COORDINATOR(i) ((i) == 0)
+#define HIT_TO_COORDINATOR(j) ((j) == 0)
+
+#elif defined(COORDINATOR_TO_AXIS)
+#define HIT_FROM_COORDINATOR(i) ((i) == 0)
+
+#elif defined(AXIS_TO_COORDINATOR)
+#define HIT_TO_COORDINATOR(j) ((j) == 0)
+
+#elif defined(AXIS_LINK)
+#define HIT(j, i) ((j) + (i) == 1)
+
+#elif defined(AXIS_LINK_ONE_WAY)
+#define HIT(j, i) ((j) == 0 && (i) == 1)
+
+#elif defined(AXIS_LOSS) /* one message, for any of its receivers */
+#define SPEAKER_FAILS
+#define HIT(j, i) ((j) == 0)
+#define HIT_TO_COORDINATOR(j) ((j) == 0)
+
+#elif defined(COORDINATOR_LOSS)
+#define SPEAKER_FAILS
+#define HIT_FROM_COORDINATOR(i) 1
+
+#elif defined(CUT_OFF) /* at one instant, both ways */
+#define HIT(j, i) ((j) == 0 || (i) == 0)
+#define HIT_TO_COORDINATOR(j) ((j) == 0)
+#define HIT_FROM_COORDINATOR(i) ((i) == 0)
+#define IN_FLIGHT(age) 0
+#ifdef MID_ROUND
+#define MAY_BEGIN IS_MID_ROUND
+#elif defined(BETWEEN_ROUNDS)
+#define MAY_BEGIN !IS_MID_ROUND
+#else
+#define PROMISE P_BUT_FOR_THE_VICTIM
+#endif
+
+#elif defined(AXIS_STALL)
+#define AXIS_STALLS
+#define LONGEST_STALL S
+#define MAY_WAIT(i) ((i) != 0) /* a late check is a stall, too */
+#define PROMISE Q
+
+#elif defined(AXIS_LONG_STALL)
+#define AXIS_STALLS
+#define PROMISE P_BUT_FOR_THE_VICTIM
+
+#elif defined(COORDINATOR_STALL)
+#define COORDINATOR_STALLS
+#define LONGEST_STALL S
+#define PROMISE Q
+
+#elif defined(COORDINATOR_LONG_STALL)
+#define COORDINATOR_STALLS
+
+#elif defined(AXIS_VETO) /* for reasons of its own */
+#define OWN_REASONS
+
+#else
+#error "name a fault class"
+#endif
+
+#ifdef AXIS_STALLS
+#define AXIS_RUNS(i) ((i) != 0 || !stalled || mid_step)
+#endif
+#ifdef COORDINATOR_STALLS /* within its multicast, too */
+#define SPEAKER_FAILS
+#define HIT_FROM_COORDINATOR(i) 1
+#define COORDINATOR_RUNS (!stalled || mid_step)
+#endif
+
+#ifndef PROMISE
+#define PROMISE P
+#endif
+#ifndef COORDINATOR_RUNS
+#define COORDINATOR_RUNS 1
+#endif
+#ifndef AXIS_RUNS
+#define AXIS_RUNS(i) 1
+#endif
+#ifndef MAY_WAIT
+#define MAY_WAIT(i) 1
+#endif
+#ifndef MAY_BEGIN
+#define MAY_BEGIN 1
+#endif
+
+/* ---- paths: the words of `age` slots ago arrive (PASSES), may arrive (MAYBE), or else are lost ---- */
+
+#ifndef HIT
+#define HIT(j, i) 0
+#endif
+#ifndef HIT_FROM_COORDINATOR
+#define HIT_FROM_COORDINATOR(i) 0
+#endif
+#ifndef HIT_TO_COORDINATOR
+#define HIT_TO_COORDINATOR(j) 0
+#endif
+#ifdef SPEAKER_FAILS /* each receiver by itself may hear the words of that slot */
+#define MAY_ARRIVE(hit, age) ((hit) && since == (age))
+#define ARRIVES(hit, age) (!(hit) || since != (age))
+#else /* the path fails: each receiver by itself may hear what was under way */
+#ifndef IN_FLIGHT
+#define IN_FLIGHT(age) (since < (age))
+#endif
+#define MAY_ARRIVE(hit, age) ((hit) && IN_FLIGHT(age))
+#define ARRIVES(hit, age) (!(hit) || since == NEVER)
+#endif
+#define PASSES(j, i, age) ARRIVES(HIT(j, i), age)
+#define MAYBE(j, i, age) MAY_ARRIVE(HIT(j, i), age)
+#define FROM_COORDINATOR_PASSES(i, age) ARRIVES(HIT_FROM_COORDINATOR(i), age)
+#define FROM_COORDINATOR_MAYBE(i, age) MAY_ARRIVE(HIT_FROM_COORDINATOR(i), age)
+#define TO_COORDINATOR_PASSES(j, age) ARRIVES(HIT_TO_COORDINATOR(j), age)
+#define TO_COORDINATOR_MAYBE(j, age) MAY_ARRIVE(HIT_TO_COORDINATOR(j), age)
+
+/* ---- when ---- */
+
+inline begin_fault() {
+    since = 0;
+#if defined(AXIS_STALLS) || defined(COORDINATOR_STALLS)
+    stalled = 1;
+    if :: mid_step = 1 :: skip fi
+#endif
+}
+
+inline go_on_stalling() {
+    mid_step = 0;
+    if
+#ifdef LONGEST_STALL
+    :: stalled && stalled < LONGEST_STALL -> stalled++
+#else
+    :: stalled
+#endif
+    :: stalled -> stalled = 0
+    :: else
+    fi
+}
+
+inline meet_fault() {
+    if
+    :: since == NEVER && MAY_BEGIN -> begin_fault()
+    :: since == NEVER
+    :: else ->
+        if :: since < LONG_AGO -> since++ :: else fi;
+        go_on_stalling()
+    fi
+}
+
+/* ---- stalls: what was decided takes effect late ---- */
+
+inline say_late(words) {
+    words.frames = words.frames | late.frames;
+    late.frames = 0;
+    late.veto = 0;
+    kept = 0
+}
+
+#ifdef AXIS_STALLS
+inline act() {
+    if
+    :: i == 0 && mid_step ->
+        late.frames = axis[i].now.frames;
+        late.veto = axis[i].now.veto;
+        kept = 1;
+        fall_silent()
+    :: else ->
+        tell_device();
+        if :: i == 0 && kept -> say_late(axis[i].now) :: else fi
+    fi
+}
+
+/* The stall may go on right after the effects. */
+inline stand_still() {
+    fall_silent();
+    if
+    :: kept ->
+        axis[i].armed = axis[i].cleared;
+        axis[i].device_veto = late.veto;
+        axis[i].now.veto = late.veto;
+        say_late(axis[i].now)
+    :: true
+    fi
+}
+#elif defined(AXIS_CRASH)
+inline act() { /* or dies before */
+    if :: tell_device() :: i == 0 && since == 0 fi
+}
+inline stand_still() { fall_silent() }
+#else
+inline act() { tell_device() }
+inline stand_still() { fall_silent() }
+#endif
+
+inline resend_late() {
+#ifdef COORDINATOR_STALLS
+    if
+    :: mid_step -> late.frames = coordinator_now.frames
+    :: !stalled -> say_late(coordinator_now)
+    :: else
+    fi
+#else
+    skip
+#endif
+}
+
+/* ---- vetoes that are nobody's fault ---- */
+
+inline lowest_open(may_veto) {
+    k = 1;
+    do :: k <= FRAMES && !(may_veto) -> k++ :: else -> break od
+}
+
+inline veto_for_own_reasons() {
+#ifdef OWN_REASONS
+    if
+    :: i == 0 && since == 0 ->
+        lowest_open(RULE_AXIS_MAY_VETO(CLOCK(i), START(k)));
+        LOWEST(axis[i].veto, k)
+    :: else
+    fi
+#else
+    skip
+#endif
+}
+
+inline may_stop() {
+#ifdef STOP
+    if
+    :: true ->
+        lowest_open(RULE_COORDINATOR_MAY_VETO(slot, START(k), V));
+        LOWEST(coordinator_veto, k)
+    :: true
+    fi
+#else
+    skip
+#endif
+}

@@ -1,0 +1,327 @@
+/* The setpoint protocol, hold, arm, veto, for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
+ *
+ * What a process decides it decides by core/protocol/rules.inc, the file the code decides by. A message sent in one
+ * slot is used in the next or the one after (up to DELAY), differently by each receiver, as the search likes. One fault
+ * class is compiled in (faults.pml). README.md says how model and code correspond. */
+
+#include "core/protocol/rules.inc"
+
+#ifndef N
+#define N 2
+#endif
+#ifndef FRAMES
+#define FRAMES 2
+#endif
+#ifndef S
+#define S 1
+#endif
+#ifndef DELAY
+#define DELAY RULE_HOP
+#endif
+
+#include "tests/model/ablations.pml"
+
+/* The shortest times that the configuration allows. */
+#ifndef M
+#define M RULE_LEAST_FRESHNESS(S)
+#endif
+#ifndef V
+#define V RULE_CHECK_AHEAD(S)
+#endif
+#ifndef A
+#define A RULE_LEAST_SEND_AHEAD(V, M)
+#endif
+#define FRAME RULE_LEAST_FRAME(M, S)
+#define START(k) (A + 2 + ((k) - 1) * FRAME)
+#define END (START(FRAMES) + 2) /* every device has decided on every frame, also on a clock one slot behind */
+
+#define NO_VETO (FRAMES + 1)
+#define NOBODY 255
+#define BIT(k) (1 << ((k) - 1)) /* sets of frames */
+
+/* What is said in a slot: an axis's state comes down to which frames it is evidence for, and its veto. */
+typedef Words {
+    byte frames; /* a set: an axis's evidence, the coordinator's frames */
+    byte veto
+};
+
+typedef Axis {
+    byte held; /* every frame up to this one */
+    bit open;  /* it follows the epoch: it has taken frame 1 */
+    byte checked;
+    byte veto;
+    byte heard[N]; /* evidence: the frames that each other is known to hold, by stamp */
+    byte cleared;  /* the highest frame whose check succeeded */
+    byte armed, device_veto, ran; /* the device: what it has been told, and the highest frame it has begun */
+    Words now, sent[2]            /* said in this slot, in the last, in the one before that */
+};
+
+Axis axis[N];
+Words coordinator_now, coordinator_sent[2];
+byte coordinator_veto = NO_VETO;
+byte slot = 0;
+byte i, j, k; /* scratch, zero between slots */
+
+#define LOWEST(into, other) if :: RULE_VETO_WINS(other, into) -> into = other :: else fi
+
+#include "tests/model/faults.pml"
+
+/* ---- the coordinator: EpochRunner::send and stop ---- */
+
+#define SENDS(k) (slot >= RULE_FIRST_SEND(START(k), A) && RULE_MAY_SEND(slot, START(k), V, M) && !RULE_IS_VETOED(k, coordinator_veto))
+
+/* The lowest veto heard is repeated. */
+inline coordinator_hears() {
+#ifndef WITHOUT_COORDINATOR_REPEATING
+    for (j : 0 .. N - 1) {
+        if
+        :: TO_COORDINATOR_PASSES(j, 2) || TO_COORDINATOR_MAYBE(j, 2) -> LOWEST(coordinator_veto, axis[j].sent[1].veto)
+        :: !TO_COORDINATOR_PASSES(j, 2)
+        fi;
+        if
+        :: TO_COORDINATOR_PASSES(j, 1) || TO_COORDINATOR_MAYBE(j, 1) ->
+            LOWEST(coordinator_veto, axis[j].sent[0].veto)
+        :: DELAY == 2 && RULE_VETO_WINS(axis[j].sent[0].veto, coordinator_veto)
+        :: !TO_COORDINATOR_PASSES(j, 1)
+        fi
+    }
+#else
+    skip
+#endif
+}
+
+inline coordinator_speaks() {
+    coordinator_hears();
+    coordinator_now.frames = 0;
+    coordinator_now.veto = NO_VETO;
+    if
+    :: COORDINATOR_RUNS ->
+        may_stop();
+        for (k : 1 .. FRAMES) {
+            if :: SENDS(k) -> coordinator_now.frames = coordinator_now.frames | BIT(k) :: else fi
+        }
+        coordinator_now.veto = coordinator_veto
+    :: else
+    fi;
+    resend_late()
+}
+
+/* ---- an axis: SetpointFollower::hear, offer, decide, and the state it publishes ---- */
+
+#define UNHEARD(words, i, j) ((words.frames & ~axis[i].heard[j]) >> axis[i].checked)
+#define NEWS(words, i, j) (UNHEARD(words, i, j) || (axis[i].open && RULE_VETO_WINS(words.veto, axis[i].veto)))
+
+inline hear(words) { /* i hears what j said */
+    axis[i].heard[j] = axis[i].heard[j] | words.frames;
+    if :: axis[i].open -> LOWEST(axis[i].veto, words.veto) :: else fi
+}
+
+/* Hearing the same words twice changes nothing, so those of two slots ago may simply be heard again. */
+inline hear_axis() {
+    if
+    :: PASSES(j, i, 2) || MAYBE(j, i, 2) -> hear(axis[j].sent[1])
+    :: !PASSES(j, i, 2)
+    fi;
+    if
+    :: (PASSES(j, i, 1) || MAYBE(j, i, 1)) && NEWS(axis[j].sent[0], i, j) -> hear(axis[j].sent[0])
+    :: DELAY == 2 || !PASSES(j, i, 1) || !NEWS(axis[j].sent[0], i, j)
+    fi
+}
+
+inline take(words) { /* frames are taken in order */
+    if :: axis[i].held < FRAMES && (words.frames & BIT(axis[i].held + 1)) -> axis[i].held++ :: else fi;
+    if :: axis[i].held < FRAMES && (words.frames & BIT(axis[i].held + 1)) -> axis[i].held++ :: else fi
+}
+
+inline hear_coordinator(words) {
+    if :: axis[i].open -> LOWEST(axis[i].veto, words.veto) :: else fi;
+    take(words)
+}
+
+#define COORDINATOR_NEWS(words) ((words.frames >> axis[i].held) || (axis[i].open && RULE_VETO_WINS(words.veto, axis[i].veto)))
+
+inline listen_to_coordinator() {
+    if
+    :: (FROM_COORDINATOR_PASSES(i, 2) || FROM_COORDINATOR_MAYBE(i, 2)) -> hear_coordinator(coordinator_sent[1])
+    :: !FROM_COORDINATOR_PASSES(i, 2)
+    fi;
+    if
+    :: (FROM_COORDINATOR_PASSES(i, 1) || FROM_COORDINATOR_MAYBE(i, 1)) && COORDINATOR_NEWS(coordinator_sent[0]) ->
+        hear_coordinator(coordinator_sent[0])
+    :: DELAY == 2 || !FROM_COORDINATOR_PASSES(i, 1) || !COORDINATOR_NEWS(coordinator_sent[0])
+    fi
+}
+
+inline listen() {
+    for (j : 0 .. N - 1) {
+        if :: j != i -> hear_axis() :: else fi
+    }
+    listen_to_coordinator()
+}
+
+#define OTHER_HOLDS(j, k) ((j) == i || (axis[i].heard[j] & BIT(k)))
+#if N == 2
+#define OTHERS_HOLD(k) (OTHER_HOLDS(0, k) && OTHER_HOLDS(1, k))
+#else
+#define OTHERS_HOLD(k) (OTHER_HOLDS(0, k) && OTHER_HOLDS(1, k) && OTHER_HOLDS(2, k))
+#endif
+
+inline check() {
+    axis[i].checked = k;
+    if
+    :: RULE_IS_TOO_LATE(CLOCK(i), START(k)) -> LOWEST(axis[i].veto, RULE_VETO_WHEN_TOO_LATE(k))
+    :: else ->
+        if
+        :: RULE_MAY_ARM(k, axis[i].held, axis[i].veto, OTHERS_HOLD(k)) -> axis[i].cleared = k
+        :: else -> LOWEST(axis[i].veto, RULE_VETO_WHEN_FAILED(k))
+        fi
+    fi
+}
+
+/* Every check that is due is made, or left for a later slot while that is in time. */
+inline decide() {
+    do
+    :: axis[i].checked < FRAMES && axis[i].checked <= axis[i].held &&
+           !RULE_IS_EARLY(CLOCK(i), START(axis[i].checked + 1), V) ->
+        k = axis[i].checked + 1;
+        if
+        :: check()
+        :: MAY_WAIT(i) && !RULE_IS_TOO_LATE(CLOCK(i) + 1, START(k)) -> break
+        fi
+    :: else -> break
+    od
+}
+
+#define EVIDENCE(k) (axis[i].held >= (k) && RULE_IS_EVIDENCE(CLOCK(i), START(k), V, M) -> BIT(k) : 0)
+
+#ifdef JUDGES_SILENCE_LATER
+#define SAYS_STILL_THERE(k) BIT(FRAMES + (k))
+#define STILL_THERE(k) \
+    (CLOCK(i) >= RULE_CHECK_SLOT(START(k), V) && CLOCK(i) < START(k) - 2 -> SAYS_STILL_THERE(k) : 0)
+inline judge_silence() {
+    for (k : 1 .. FRAMES) {
+        if
+        :: CLOCK(i) == START(k) - 1 ->
+            for (j : 0 .. N - 1) {
+                if :: j != i && !(axis[i].heard[j] & SAYS_STILL_THERE(k)) -> LOWEST(axis[i].veto, k) :: else fi
+            }
+        :: else
+        fi
+    }
+}
+#else
+#define STILL_THERE(k) 0
+inline judge_silence() { skip }
+#endif
+
+inline speak() {
+    axis[i].now.frames = 0;
+    axis[i].now.veto = NO_VETO;
+    if
+    :: axis[i].open ->
+        for (k : 1 .. FRAMES) { axis[i].now.frames = axis[i].now.frames | EVIDENCE(k) | STILL_THERE(k) }
+        axis[i].now.veto = axis[i].veto
+    :: else
+    fi
+}
+
+inline forget() { /* evidence for what is decided is of no use */
+    for (j : 0 .. N - 1) { axis[i].heard[j] = (axis[i].heard[j] >> axis[i].checked) << axis[i].checked }
+}
+
+inline tell_device() {
+    axis[i].armed = axis[i].cleared;
+    axis[i].device_veto = axis[i].veto
+}
+
+inline fall_silent() {
+    axis[i].now.frames = 0;
+    axis[i].now.veto = NO_VETO
+}
+
+inline axis_steps() {
+    listen();
+    if
+    :: AXIS_RUNS(i) ->
+        axis[i].open = axis[i].held > 0;
+        if :: axis[i].open -> veto_for_own_reasons(); decide(); judge_silence() :: else fi;
+        speak();
+        act()
+    :: else -> stand_still()
+    fi;
+    forget()
+}
+
+/* ---- the device: SimulatedDevice at the start of a frame ---- */
+
+inline device_steps() {
+    for (k : 1 .. FRAMES) {
+        if
+        :: CLOCK(i) == START(k) && RULE_DEVICE_RUNS(k, axis[i].ran, axis[i].armed, axis[i].device_veto) ->
+            axis[i].ran = k
+        :: else
+        fi
+    }
+}
+
+inline next_slot() {
+    for (i : 0 .. N - 1) {
+        axis[i].sent[1].frames = axis[i].sent[0].frames;
+        axis[i].sent[1].veto = axis[i].sent[0].veto;
+        axis[i].sent[0].frames = axis[i].now.frames;
+        axis[i].sent[0].veto = axis[i].now.veto;
+        axis[i].now.frames = 0;
+        axis[i].now.veto = 0
+    }
+    coordinator_sent[1].frames = coordinator_sent[0].frames;
+    coordinator_sent[1].veto = coordinator_sent[0].veto;
+    coordinator_sent[0].frames = coordinator_now.frames;
+    coordinator_sent[0].veto = coordinator_now.veto;
+    coordinator_now.frames = 0;
+    coordinator_now.veto = 0;
+    i = 0;
+    j = 0;
+    k = 0;
+    slot++
+}
+
+/* What a counterexample shows of each slot. */
+inline print_slot() {
+    printf("slot %d, fault since %d, coordinator: frames %d veto %d\n", slot, since, coordinator_now.frames,
+           coordinator_now.veto);
+    for (i : 0 .. N - 1) {
+        printf("    axis %d: held %d checked %d armed %d vetoes %d ran %d, heard", i, axis[i].held, axis[i].checked,
+               axis[i].armed, axis[i].veto, axis[i].ran);
+        for (j : 0 .. N - 1) { printf(" %d", axis[i].heard[j]) }
+        printf(", says: frames %d veto %d\n", axis[i].now.frames, axis[i].now.veto)
+    }
+}
+
+inline begin() {
+    for (i : 0 .. N - 1) {
+        axis[i].veto = NO_VETO;
+        axis[i].device_veto = NO_VETO;
+        axis[i].sent[0].veto = NO_VETO;
+        axis[i].sent[1].veto = NO_VETO
+    }
+    coordinator_sent[0].veto = NO_VETO;
+    coordinator_sent[1].veto = NO_VETO;
+    i = 0
+}
+
+init {
+    atomic { begin(); set_clocks() }
+    do
+    :: slot < END ->
+        atomic {
+            meet_fault();
+            coordinator_speaks();
+            for (i : 0 .. N - 1) { axis_steps() }
+            for (i : 0 .. N - 1) { device_steps() }
+            print_slot();
+            next_slot()
+        }
+    :: else -> break
+    od;
+    assert(PROMISE)
+}
