@@ -26,11 +26,15 @@ LaiLongAxis::LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds)
 }
 
 std::int64_t LaiLongAxis::next() {
-    falling_ = falling_ || (speed_ > 0 && remaining_ <= falling_distance(speed_, lowest_, speeds_.change));
+    const std::int64_t falling = falling_distance(speed_, lowest_, speeds_.change);
+    const std::int64_t faster = std::min(top_, speed_ + speeds_.change);
+    falling_ = falling_ || (speed_ > 0 && remaining_ <= falling);
     if (falling_) {
         speed_ = std::max(lowest_, speed_ - speeds_.change);
-    } else {
-        speed_ = speed_ == 0 && speeds_.start > 0 ? lowest_ : std::min(top_, speed_ + speeds_.change);
+    } else if (speed_ == 0) {
+        speed_ = speeds_.start > 0 ? lowest_ : faster;
+    } else if (remaining_ - faster >= falling_distance(faster - speeds_.change, lowest_, speeds_.change)) {
+        speed_ = faster;
     }
     const std::int64_t pulses = std::min(speed_, remaining_);
     remaining_ -= pulses;

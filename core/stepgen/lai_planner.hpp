@@ -9,6 +9,8 @@
 //   compensated  its change per period is limited to `change` (14, 15), and its speed to floor(sqrt(remaining)) (17).
 //
 // Left open there and chosen here:
+// - With a change above 1, V_max of (10) may leave too little to fall from: the axis gains speed only where what then
+//   remains is enough. With 1 that is always so.
 // - What falling has left over is made at the lowest speed, max(V_0, 1). For 107 pulses: 1, 2 ... 10 ... 2, 1 and seven
 //   single pulses.
 // - How m v becomes whole pulses. Rounded in each period for itself, halves up, (107, -93) ends at -94 as in Fig. 8.

@@ -9,6 +9,7 @@
 
 #include "core/axis/frame_check.hpp"
 #include "core/motion/interpolate.hpp"
+#include "core/stepgen/lai_planner.hpp"
 
 namespace lockstep {
 namespace {
@@ -114,6 +115,20 @@ TEST(LaiPath, WhatIsLeftOfAHeldMoveIsMadeFromRestAndEndsWhereItShould) {
         EXPECT_EQ(rest.moves.front().to, left.front().to);
         EXPECT_EQ(rest.moves.back().to, (AxisCounts{0, 0}));
         for (std::size_t i = 1; i < rest.moves.size(); ++i) { EXPECT_EQ(rest.moves[i].from, rest.moves[i - 1].to); }
+    }
+}
+
+TEST(LaiPath, NoPeriodChangesTheSpeedByMoreThanItMay) {
+    for (std::int64_t change = 1; change < 9; ++change) {
+        for (std::int64_t length = 1; length < 1000; ++length) {
+            std::int64_t before = 0;
+            for (const std::int64_t pulses :
+                 stepgen::plan_long_axis(length, {.start = 0, .max = 60, .change = change})) {
+                ASSERT_LE(std::abs(pulses - before), change) << length << " by " << change;
+                before = pulses;
+            }
+            ASSERT_LE(before, change) << length << " by " << change;
+        }
     }
 }
 

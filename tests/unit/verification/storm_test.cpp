@@ -48,6 +48,7 @@ void Storm::expect_exact(const MachineConfig& machine) {
         for (int i = 0; i < 20 && !is_over(recorded); ++i) { interfere(recorded); }
         recorded.command(CommandKind::Stop);
         recorded.advance_ms(2000);
+        for (const auto& axis : recorded.vm().axis_states()) { EXPECT_EQ(axis->refused_frames, 0U); }
     }
     const auto findings = verify_log(log);
     ASSERT_TRUE(findings.has_value()) << findings.error();
