@@ -76,7 +76,7 @@ Findings LogCheck::finish() {
     }
     if (findings_.local_runs > 0) {
         findings_.notes.push_back(std::to_string(findings_.local_runs) +
-                                  " moves of axes on their own (homing) were compared with their records alone");
+                                  " runs of axes on their own (homing, own moves) were compared with their records alone");
     }
     return std::move(findings_);
 }
