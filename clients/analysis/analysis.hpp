@@ -24,7 +24,7 @@ namespace lockstep::analysis {
 struct JobLog {
     std::int64_t coordinator = 0;
     std::uint64_t job = 0;
-    std::string kind;     // home, move, run
+    std::string kind;     // home, move, run, own-move
     std::string outcome;  // done, stopped, failed; empty: the log ends before the job does
     std::optional<std::int64_t> begun_us;
     std::optional<std::int64_t> ended_us;

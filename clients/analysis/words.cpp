@@ -80,14 +80,14 @@ std::string axis_table(const Analysis& analysis) {
 
 std::string job_table(const Analysis& analysis) {
     if (analysis.jobs.empty()) { return ""; }
-    std::string text = fmt::format("\n{:>5}  {:<5} {:<32} {:<10} {:>10}\n", "job", "kind", "program", "outcome", "s");
+    std::string text = fmt::format("\n{:>5}  {:<8} {:<32} {:<10} {:>10}\n", "job", "kind", "program", "outcome", "s");
     for (const JobLog& job : analysis.jobs) {
         const std::string lasted =
             job.begun_us && job.ended_us
                 ? fmt::format("{:.2f}", static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6)
                 : "-";
         text +=
-            fmt::format("{:>5}  {:<5} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.program ? job.program->name : "",
+            fmt::format("{:>5}  {:<8} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.program ? job.program->name : "",
                         job.outcome.empty() ? "not ended" : job.outcome, lasted);
     }
     return text;

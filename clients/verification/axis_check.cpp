@@ -19,6 +19,12 @@ bool starts_from_rest(const Run& run) {
     return run.from == rest_position(count, false) || run.from == rest_position(count, true);
 }
 
+/// Frames of an axis's own move follow each other as those of an epoch do.
+bool goes_on(const Run& before, const Run& run) {
+    return !before.cut && before.epoch == 0 && before.frame + (run.tail ? 0 : 1) == run.frame && !before.tail &&
+           before.to() == run.from && before.start + before.ticks() == run.start;
+}
+
 }  // namespace
 
 AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded)
@@ -94,8 +100,10 @@ bool AxisCheck::begin_next_run() {
         differ("axis " + name_ + ": " + name_of(run) + " is recorded to end at " + std::to_string(run.stop_count) +
                    ", its pieces end at " + std::to_string(run.to().count()),
                {}, run.start);
-    } else if (run.epoch == 0 && !starts_from_rest(run)) {
+    } else if (run.epoch == 0 && run.frame <= 1 && !run.tail && !starts_from_rest(run)) {
         differ("axis " + name_ + ": " + name_of(run) + " does not start from rest on a whole step", {}, run.start);
+    } else if (run.epoch == 0 && (run.frame > 1 || run.tail) && follows && !goes_on(*last_run_, run)) {
+        differ("axis " + name_ + ": " + name_of(run) + " does not go on from the frame before it", {}, run.start);
     }
     return findings_.going();
 }

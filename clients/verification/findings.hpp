@@ -22,7 +22,7 @@ struct Difference {
 struct Findings {
     std::int64_t steps = 0;                 // compared and equal
     std::int64_t runs = 0;                  // of jobs, equal to what is planned for them
-    std::int64_t local_runs = 0;            // of axes on their own: homing
+    std::int64_t local_runs = 0;            // of axes on their own: homing, own moves
     std::int64_t jobs = 0;                  // moves and programs, from begin to end
     std::optional<Tick> last_tick;          // of the steps compared
     std::optional<Difference> difference;   // the first

@@ -63,7 +63,7 @@ void JobCheck::begin(const job_t& record) {
     }
     job_ =
         Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
-    if (record.program.empty()) { return; }
+    if (record.program.empty() || record.kind == "own-move") { return; }  // axes on their own make no epoch
     const auto machine = parse_machine(record.config);
     const auto program = program_from_text(record.program);
     if (!machine || !program) {

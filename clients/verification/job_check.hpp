@@ -36,7 +36,7 @@ private:
         std::int64_t coordinator = 0;
         std::int64_t number = 0;
         std::string label;                // "job 2, run plate.gcode"
-        std::optional<JobReplay> replay;  // none for homing
+        std::optional<JobReplay> replay;  // none for homing and own moves
         std::string broken;               // why what was run is not the whole plan; empty: it is
         std::string broken_axis;
     };

@@ -75,8 +75,9 @@ Findings LogCheck::finish() {
         findings_.notes.push_back("and " + std::to_string(damages_ - kDamagesNoted) + " more damaged places");
     }
     if (findings_.local_runs > 0) {
-        findings_.notes.push_back(std::to_string(findings_.local_runs) +
-                                  " moves of axes on their own (homing) were compared with their records alone");
+        findings_.notes.push_back(
+            std::to_string(findings_.local_runs) +
+            " runs of axes on their own (homing, own moves) were compared with their records alone");
     }
     return std::move(findings_);
 }

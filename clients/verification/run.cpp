@@ -51,8 +51,9 @@ std::expected<Run, std::string> to_run(const run_t& message) {
 }
 
 std::string name_of(const Run& run) {
-    if (run.epoch == 0) { return "run " + std::to_string(run.sequence) + ", the axis's own (homing)"; }
-    return (run.tail ? "tail of frame " : "frame ") + std::to_string(run.frame);
+    const std::string frame = (run.tail ? "tail of frame " : "frame ") + std::to_string(run.frame);
+    if (run.epoch != 0) { return frame; }
+    return "run " + std::to_string(run.sequence) + ", " + frame + " of the axis's own move";
 }
 
 StepMaker::StepMaker(Run run) : run_(std::move(run)), engine_(run_.start, run_.from), count_(run_.from.count()) {}

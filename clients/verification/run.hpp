@@ -36,7 +36,7 @@ struct Run {
 /// The error says what cannot be: pieces that no engine executes, numbers beyond counting.
 std::expected<Run, std::string> to_run(const run_t& message);
 
-/// "frame 12", "tail of frame 12", or "run 3 of its own" outside any epoch.
+/// "frame 12", "tail of frame 12", or "run 3, frame 1 of the axis's own move" outside any epoch.
 std::string name_of(const Run& run);
 
 /// The steps of a run, one by one, as the tick-exact engine makes them.

@@ -153,7 +153,10 @@ void AxisController::load(const HeldFrame& frame, AxisOutputs& out) const {
 }
 
 void AxisController::happen(AxisEvent event) {
-    if (const auto next = next_phase(phase_, event)) { phase_ = *next; }
+    const auto row = find_transition(phase_, event);
+    if (!row) { return; }
+    ++transitions_[*row];
+    phase_ = kAxisTransitions[*row].to;
 }
 
 void AxisController::fail(FaultCode fault, AxisOutputs& out) {

@@ -66,6 +66,8 @@ struct AxisOutputs {
     std::vector<AxisNotice> notices;
 };
 
+using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;
+
 class AxisController {
 public:
     /// `identity` is new at every start of the process.
@@ -75,6 +77,8 @@ public:
 
     AxisPhase phase() const { return phase_; }
     bool homed() const { return homed_; }
+    /// How often each row of kAxisTransitions has been taken.
+    const TransitionCounts& transitions() const { return transitions_; }
     /// Machine coordinates are the device's counts minus this.
     std::int64_t zero_count() const { return zero_count_; }
 
@@ -148,6 +152,7 @@ private:
 
     Mode mode_ = Mode::Rest;
     AxisPhase phase_ = AxisPhase::Initialize;
+    TransitionCounts transitions_{};
     FaultCode fault_ = FaultCode::None;
     bool homed_ = false;
     std::int64_t zero_count_ = 0;

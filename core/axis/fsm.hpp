@@ -84,18 +84,31 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Fault, AxisEvent::ResetUnhomed, AxisPhase::Initialize},
 };
 
-/// The state that follows; nothing where the event means nothing in this state.
-constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
-    for (const AxisTransition& t : kAxisTransitions) {
-        if (t.from == from && t.event == event) { return t.to; }
+/// The row of kAxisTransitions; nothing where the event means nothing in this state.
+constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent event) {
+    for (std::size_t row = 0; row < kAxisTransitions.size(); ++row) {
+        if (kAxisTransitions[row].from == from && kAxisTransitions[row].event == event) { return row; }
     }
     return std::nullopt;
+}
+
+/// The state that follows; nothing where the event means nothing in this state.
+constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
+    const auto row = find_transition(from, event);
+    return row ? std::optional(kAxisTransitions[*row].to) : std::nullopt;
 }
 
 constexpr std::string_view name_of(AxisPhase phase) {
     constexpr std::array<std::string_view, 7> kNames{"Initialize", "Standby", "Accelerate", "Cruise",
                                                      "Decelerate", "Stop",    "Fault"};
     return kNames[static_cast<std::size_t>(phase)];
+}
+
+constexpr std::string_view name_of(AxisEvent event) {
+    constexpr std::array<std::string_view, kAxisEvents> kNames{
+        "SpeedRises", "SpeedSteady", "SpeedFalls",   "MotionEnds", "SwitchStops", "LimitStops",  "HostStops",
+        "Zeroed",     "Released",    "HomingBegins", "Fails",      "ResetHomed",  "ResetUnhomed"};
+    return kNames[static_cast<std::size_t>(event)];
 }
 
 }  // namespace lockstep

@@ -12,19 +12,25 @@ std::int64_t Homing::toward_switch(double mm) const {
 
 HomingStep Homing::begin(bool home_closed) {
     pull_offs_ = 0;
-    if (home_closed) { return pull_off(); }
-    stage_ = HomingStage::Search;
-    const double reach = (axis_.position_max_mm - axis_.position_min_mm) * 1.1 + 2 * axis_.homing.pulloff_mm;
+    return search(home_closed ? HomingStage::Release : HomingStage::Search);
+}
+
+HomingStep Homing::search(HomingStage stage) {
+    stage_ = stage;
+    const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
+    const std::int64_t reach = toward_switch(travel_mm * 1.1 + 2 * axis_.homing.pulloff_mm);
     const double speed = axis_.homing.search_velocity_mm_s * axis_.steps_per_mm * tick_s_;
-    return {.move = LocalMove{toward_switch(reach), speed, Trigger::HomeCloses}};
+    if (stage == HomingStage::Release) { return {.move = LocalMove{-reach, speed, Trigger::HomeOpens}}; }
+    return {.move = LocalMove{reach, speed, Trigger::HomeCloses}};
 }
 
 HomingStep Homing::next(const LocalEnd& end) {
     switch (stage_) {
         case HomingStage::Search: return end.by_trigger ? pull_off() : fail(FaultCode::HomeSwitchNotFound);
+        case HomingStage::Release: return end.by_trigger ? pull_off() : fail(FaultCode::HomeSwitchStuck);
         case HomingStage::PullOff: {
             if (end.by_limit) { return fail(FaultCode::LimitHit); }
-            if (end.home_closed) { return pull_off(); }
+            if (end.home_closed) { return search(HomingStage::Release); }
             stage_ = HomingStage::Latch;
             const double speed = axis_.homing.latch_velocity_mm_s * axis_.steps_per_mm * tick_s_;
             return {.move = LocalMove{toward_switch(2 * axis_.homing.pulloff_mm), speed, Trigger::HomeCloses}};

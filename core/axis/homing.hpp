@@ -1,5 +1,6 @@
-// The homing sequence: search the switch, stop and zero, pull off, latch slowly, park. No network between the switch
-// and the stop: the device itself ends a move at the switch.
+// The homing sequence: search the switch, stop and zero, pull off, latch slowly, park. An axis that stands behind its
+// switch first moves away until it opens. No network between the switch and the stop: the device itself ends a move at
+// the switch.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace lockstep {
 
-enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park };
+enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park, Release };
 
 /// One move of an axis on its own, in steps from where it stands.
 struct LocalMove {
@@ -44,7 +45,7 @@ class Homing {
 public:
     Homing(const AxisConfig& axis, std::int64_t tick_ns);
 
-    /// Begins with the search, or off the switch where it is closed already.
+    /// Begins with the search, or away from the switch where it is closed already.
     HomingStep begin(bool home_closed);
     /// After each move's end.
     HomingStep next(const LocalEnd& end);
@@ -53,6 +54,7 @@ public:
     HomingStage stage() const { return stage_; }
 
 private:
+    HomingStep search(HomingStage stage);
     HomingStep pull_off();
     HomingStep zero_and_park(const LocalEnd& end);
     HomingStep fail(FaultCode fault);

@@ -54,15 +54,15 @@ std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis,
 std::expected<OwnPieces, std::string> OwnPieces::stepped(const AxisConfig& axis, std::int64_t tick_ns,
                                                          StepMethod method, const OwnMoveRequest& move) {
     const double per_mm = axis.steps_per_mm;
-    const double tick_s = static_cast<double>(tick_ns) * 1e-9;
-    const double max = move.speed_steps_per_tick / tick_s;
+    const double ticks_per_s = 1e9 / static_cast<double>(tick_ns);
+    const double max = move.speed_steps_per_tick * ticks_per_s;
     const double start = axis.start_velocity_mm_s * per_mm;
     const stepgen::StepMove asked{move.steps, std::min(start, max), max, axis.max_accel_mm_s2 * per_mm,
                                   axis.max_decel_mm_s2 * per_mm};
     auto source = stepgen::StepSource::of(method, asked);
     if (!source) { return std::unexpected("axis " + axis.name + ": " + source.error()); }
     const stepgen::LimitWatch watch({start, asked.acceleration, asked.deceleration});
-    return OwnPieces(Stepped{std::move(*source), watch, tick_s, move.steps});
+    return OwnPieces(Stepped{std::move(*source), watch, ticks_per_s, move.steps});
 }
 
 std::optional<Piece> OwnPieces::next(Ticks most) {
@@ -94,7 +94,7 @@ std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {
     while (left > 0 && !breach) {
         const std::optional<double> step_s = next_step_s();
         if (!step_s) { break; }
-        if (auto before = pieces.add(*step_s / tick_s)) { return before; }
+        if (auto before = pieces.add(*step_s * ticks_per_s)) { return before; }
         if (pieces.last_step() - pieces.begin() >= most) { return pieces.cut(); }
     }
     if (auto rest = pieces.cut()) { return rest; }

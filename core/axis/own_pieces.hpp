@@ -53,7 +53,7 @@ private:
     struct Stepped {
         stepgen::StepSource source;
         stepgen::LimitWatch watch;
-        double tick_s;
+        double ticks_per_s;
         std::int64_t left;  // steps
         StepPieces pieces;
         double before_s = 0;  // when the last step fell

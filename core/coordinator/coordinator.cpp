@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/motion/interpolate.hpp"
 
@@ -52,7 +51,7 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         AxisView& view = views_[state.axis];
         const bool same = view.state && view.state->identity == state.identity;
         if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
-        if (view.state && !same && std::exchange(view.stranger, state.identity) != state.identity) { continue; }
+        if (view.state && !same && !view.believes(state)) { continue; }
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
         const bool needed = in_motion() || phase_ == MachinePhase::Homing;
         if (view.state && !same && needed) { fail(FaultCode::AxisLost, state.axis, out); }

@@ -35,6 +35,14 @@ struct JobEvent {
     std::vector<std::int64_t> start_counts;  // Begun
 };
 
+/// What is to follow when the epoch in progress has come to rest. The later ones win.
+enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
+
+struct EpochOutcome {
+    EpochEnd::Kind kind = EpochEnd::Kind::Complete;
+    Intent intent = Intent::GoOn;
+};
+
 struct CoordinatorNotice {
     enum class Kind : std::uint8_t { Phase, Fault, AxisSeen, AxisGone, Interrupted, EpochBegun };
     Kind kind = Kind::Phase;
@@ -56,7 +64,8 @@ struct CoordinatorOutputs {
     std::vector<Reply> replies;
     std::vector<JobEvent> jobs;
     std::vector<CoordinatorNotice> notices;
-    bool must_quit = false;  // an older coordinator runs this machine
+    std::optional<EpochOutcome> epoch_end;  // in the step that judged it
+    bool must_quit = false;                 // an older coordinator runs this machine
 };
 
 class Coordinator {
@@ -93,7 +102,6 @@ private:
         Tick begun;
         double planned_s = 0;
     };
-    enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
 
     void hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
     void take_command(const Command& command, CoordinatorOutputs& out);

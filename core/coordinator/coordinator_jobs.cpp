@@ -100,6 +100,7 @@ void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, s
 /// Everyone is at rest: what now?
 void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
     moving_ = false;
+    out.epoch_end = {end.kind, intent_};
     if (intent_ == Intent::Abort) {
         end_job(JobOutcome::Failed, out);
         return enter(MachinePhase::Fault, out);

@@ -18,7 +18,15 @@ namespace lockstep {
 struct AxisView {
     std::optional<AxisState> state;
     Slot heard = 0;
-    Identity stranger = 0;  // another process that has spoken for the axis once: believed when it does so again
+    Identity stranger = 0;  // another process that has spoken for the axis
+    Slot stranger_stamp = 0;
+    /// Another process is believed when it speaks in a second slot: one message may be damaged.
+    bool believes(const AxisState& other) {
+        const bool again = other.identity == stranger && other.stamp > stranger_stamp;
+        stranger = other.identity;
+        stranger_stamp = other.stamp;
+        return again;
+    }
     bool present(Slot now, const ProtocolTiming& timing) const {
         return state && now - heard <= rules::silence_slots(timing);
     }

@@ -14,7 +14,7 @@ std::string remedy(FaultCode fault) {
 }
 
 std::string_view stage_name(std::uint64_t stage) {
-    constexpr std::array<std::string_view, 5> kNames{"ended", "search", "pull off", "latch", "park"};
+    constexpr std::array<std::string_view, 6> kNames{"ended", "search", "pull off", "latch", "park", "release"};
     return stage < kNames.size() ? kNames[stage] : "unknown";
 }
 

@@ -46,6 +46,10 @@ public:
 
     /// A fault to come; what should have begun already begins at once. Crashes of one process do not overlap.
     void schedule(const VirtualFault& fault);
+    /// Faults that have not begun do not come after all.
+    void withdraw_faults() {
+        std::erase_if(turns_, [this](const auto& turn) { return turn.second.fault.at > now_; });
+    }
     /// Whether a fault is still to come or to end.
     bool faults_pending() const { return !turns_.empty(); }
 

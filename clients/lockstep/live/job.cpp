@@ -77,7 +77,7 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job) {
         if (!sent) { return std::unexpected(sent.error()); }
         program = *sent;
     }
-    return session.command(job.command, job.axes, program);
+    return session.command(job.command, job.axes, program, job.ticks);
 }
 
 ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {

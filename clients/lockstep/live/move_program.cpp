@@ -10,6 +10,8 @@
 namespace lockstep {
 namespace {
 
+constexpr double kMaxOwnMove_s = 600;
+
 std::optional<double> number(std::string_view text) {
     if (text.starts_with('+')) { text.remove_prefix(1); }
     double value = 0;
@@ -34,7 +36,24 @@ std::expected<void, std::string> check_feed(const MoveOptions& options) {
                            fixed(kMaxFeed_mm_s * 60, 0) + " mm/min");
 }
 
+std::expected<void, std::string> check_own(const MachineConfig& machine, const MoveOptions& options) {
+    if (options.own && options.feed_mm_min) {
+        return std::unexpected(std::string("--feed is along the line of all axes; with --own there is none"));
+    }
+    if (!options.own && options.in_s) {
+        return std::unexpected(std::string("--in is for axes on their own: add --own, or give a --feed"));
+    }
+    const double least_s = static_cast<double>(machine.tick_ns) * 1e-9;
+    if (!options.in_s || (*options.in_s >= least_s && *options.in_s <= kMaxOwnMove_s)) { return {}; }
+    return std::unexpected("--in " + fixed(*options.in_s, 6) + " is not within " + fixed(least_s, 6) + " to " +
+                           fixed(kMaxOwnMove_s, 0) + " s");
+}
+
 }  // namespace
+
+Ticks ticks_of(const MachineConfig& machine, const MoveOptions& options) {
+    return {std::llround(options.in_s.value_or(0) * machine.ticks_per_second())};
+}
 
 std::expected<AxisTarget, std::string> parse_target(std::string_view word) {
     const std::size_t at = word.find('=');
@@ -56,6 +75,7 @@ std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, 
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                  const MoveOptions& options) {
     if (auto checked = check_feed(options); !checked) { return std::unexpected(checked.error()); }
+    if (auto checked = check_own(machine, options); !checked) { return std::unexpected(checked.error()); }
     LinearMove move{
         .target_mm = start_mm, .feed_mm_s = options.feed_mm_min.value_or(0) / 60, .rapid = !options.feed_mm_min};
     std::vector<bool> is_named(machine.axes.size());

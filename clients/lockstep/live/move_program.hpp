@@ -24,12 +24,17 @@ struct MoveOptions {
     std::vector<std::string> targets;        // "X=10"; absolute machine mm
     std::optional<double> feed_mm_min = {};  // along the path; none: rapid
     bool relative = false;                   // targets are from where each axis stands
+    bool own = false;                        // each axis by itself, not in a line
+    std::optional<double> in_s = {};         // own: how long each axis's move lasts
 };
 
 /// From where the axes stand; those not named stay. Errors: an axis that the machine lacks or that is named twice, a
-/// place outside the travel, a feed out of range.
+/// place outside the travel, a feed or a time out of range, or of another kind of move.
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                  const MoveOptions& options);
+
+/// The time asked of own moves, to the tick; 0: none.
+Ticks ticks_of(const MachineConfig& machine, const MoveOptions& options);
 
 /// The axis's place in the configuration; capitals do not matter. Error: the names there are.
 std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name);

@@ -53,7 +53,8 @@ public:
     Failure silent() const;
 
     /// Asks until the answer comes. Error: none comes.
-    std::expected<Reply, Failure> command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0);
+    std::expected<Reply, Failure> command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0,
+                                          Ticks ticks = {});
     /// Sends a program; what it is called in a command. Error: it is refused, or no answer comes.
     std::expected<std::uint64_t, Failure> send(const Program& program);
 

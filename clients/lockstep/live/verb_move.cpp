@@ -10,6 +10,27 @@ struct MoveVerbOptions : LiveOptions {
     MoveOptions move;
 };
 
+ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, Voice& voice) {
+    const auto planned_s = planned_seconds(session.config(), program, start_mm);
+    if (!planned_s) { return voice.fail(planned_s.error()); }
+    const Job job{.command = CommandKind::Move,
+                  .kind = "move",
+                  .name = program.name,
+                  .program = program,
+                  .planned_s = *planned_s};
+    return run_job(session, job, voice);
+}
+
+ExitCode move_own(Session& session, const MoveOptions& options, const Program& program, Voice& voice) {
+    const Job job{.command = CommandKind::MoveOwn,
+                  .kind = "own-move",
+                  .name = "own-move",
+                  .program = program,
+                  .ticks = ticks_of(session.config(), options),
+                  .planned_s = options.in_s};
+    return run_job(session, job, voice);
+}
+
 ExitCode move(const MoveVerbOptions& options) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
@@ -25,29 +46,28 @@ ExitCode move(const MoveVerbOptions& options) {
     if (!start_mm) { return voice.fail(start_mm.error()); }
     auto program = move_program(machine->config, *start_mm, options.move);
     if (!program) { return voice.fail(bad_input(program.error())); }
-    const auto planned_s = planned_seconds(machine->config, *program, *start_mm);
-    if (!planned_s) { return voice.fail(planned_s.error()); }
-    const Job job{.command = CommandKind::Move,
-                  .kind = "move",
-                  .name = program->name,
-                  .program = *program,
-                  .planned_s = *planned_s};
-    return run_job(*session, job, voice);
+    return options.move.own ? move_own(*session, options.move, *program, voice)
+                            : move_together(*session, *program, *start_mm, voice);
 }
 
 }  // namespace
 
 void add_move(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("move", "move axes together, in a straight line, to a place in machine coordinates");
+    CLI::App* verb = app.add_subcommand(
+        "move", "move axes to a place in machine coordinates: together, in a straight line, or each on its own");
     const auto options = std::make_shared<MoveVerbOptions>();
     verb->add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes not named stay")->required();
     verb->add_option("--feed", options->move.feed_mm_min,
                      "speed along the line, mm/min; as fast as allowed where not given");
     verb->add_flag("--relative", options->move.relative, "targets are from where each axis stands");
+    verb->add_flag("--own", options->move.own,
+                   "each axis on its own, by the method its configuration names; they arrive when they arrive");
+    verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
     add_live_options(*verb, *options);
     verb->footer(
-        footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n  lockstep move Z=-2.5 --relative\n"));
+        footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
+               "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
+               "  lockstep move --own X=20 --in 0.5\n"));
     verb->callback([&action, options] { action = [options] { return move(*options); }; });
 }
 

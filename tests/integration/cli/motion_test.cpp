@@ -93,6 +93,35 @@ TEST_F(Motion, StopsOnItsPathWhenItsCommandIsInterrupted) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
+TEST_F(Motion, OfAxesOnTheirOwnEndsWhereItSays) {
+    const Ran moved = run_lockstep({"move", "--own", "X=20", "Y=-45", "--json"});
+    EXPECT_EQ(moved.code, 0) << moved.out << moved.err;
+    const auto report = moved.json<proto::RunReport>();
+    EXPECT_EQ(report.kind(), "own-move");
+    EXPECT_EQ(report.outcome(), "done");
+    EXPECT_EQ(report.final_positions(0).position_steps(), 1'600);
+    EXPECT_EQ(report.final_positions(1).position_steps(), -3'600);
+
+    EXPECT_EQ(run_lockstep({"move", "--own", "Y=-40", "--in", "0.5"}).code, 0);
+    const Ran soon = run_lockstep({"move", "--own", "Y=40", "--in", "0.1"});
+    EXPECT_EQ(soon.code, 1);
+    EXPECT_THAT(soon.err, HasSubstr("80 mm in 0.1 s would break the limits of axis Y: it takes at least"));
+    const Ran spielauer = run_lockstep({"move", "--own", "X=30", "--in", "1"});
+    EXPECT_EQ(spielauer.code, 1);
+    EXPECT_THAT(spielauer.err, HasSubstr("method spielauer"));
+    EXPECT_EQ(run_lockstep({"move", "X=30", "--in", "1"}).code, 2);
+}
+
+TEST_F(Motion, OfAxesOnTheirOwnIsStopped) {
+    Command move(LOCKSTEP_COMMAND, {"move", "--own", "X=199", "--json"});
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"hold"}).code, 1);
+    EXPECT_EQ(run_lockstep({"stop"}).code, 0);
+    EXPECT_EQ(move.wait().json<proto::RunReport>().outcome(), "stopped");
+    EXPECT_TRUE(status().axes(0).at_rest());
+    EXPECT_EQ(run_lockstep({"move", "X=1"}).code, 0);
+}
+
 TEST_F(Motion, PausesAndSaysHowToGoOn) {
     Command run(LOCKSTEP_COMMAND, {"run", write("paused.gcode", kPaused)});
     ASSERT_TRUE(eventually([&] { return run.out().find("lockstep resume") != std::string::npos; }));

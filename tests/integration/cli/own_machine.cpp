@@ -40,8 +40,9 @@ void OwnMachine::SetUp() {
     name_ = "cli-" + std::to_string(getpid());
     folder_ = std::filesystem::path(testing::TempDir()) / ("lockstep-" + name_);
     std::filesystem::create_directories(folder_);
-    const MachineConfig machine{
+    MachineConfig machine{
         .name = name_, .network = own_network(), .axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)}};
+    machine.axes[0].method = StepMethod::Spielauer;  // X homes and moves on its own by it
     file_ = write("machine.textproto", machine_text(machine));
     setenv("LOCKSTEP_STATE", (folder_ / "state").c_str(), 1);
     setenv("LOCKSTEP_MACHINE", file_.c_str(), 1);

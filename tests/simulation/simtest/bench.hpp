@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "tests/simulation/simtest/claims.hpp"
+#include "tests/simulation/simtest/fault_placer.hpp"
 #include "tests/simulation/simtest/play.hpp"
 #include "tests/simulation/simtest/watch.hpp"
 
@@ -13,37 +15,56 @@ class Bench {
 public:
     Bench(const Scenario& scenario, Played& played);
 
-    /// The run cannot go on: what is wrong has been noted, or a lossy network has led to Fault.
+    /// The run cannot go on: what is wrong has been noted.
     bool over() const { return over_; }
     /// Notes it; the run is over.
     void object(const std::string& rule, const std::string& text);
 
-    /// Goes on until `done` holds. After the deadline: an objection.
+    /// The machine is in a Fault that what has gone wrong in the run explains.
+    bool faulted() const { return watch_.phase() == MachinePhase::Fault; }
+    /// Messages are altered, or a fault of a process or link has begun since: answers need not be those of a machine
+    /// left alone.
+    bool disturbed_since(Tick tick) const {
+        return scenario_.network.corrupted > 0 || (watch_.disturbed() && *watch_.disturbed() >= tick);
+    }
+
+    /// Goes on until `done` holds, or the machine is in Fault, which may be objected to. After the deadline: an
+    /// objection, too.
     bool await(const std::function<bool()>& done, double seconds, const std::string& what);
     void wait(double seconds);
     /// Waits for so many slots to pass.
     void wait_slots(double slots) { wait(slots * slot_s()); }
 
-    /// Commands and waits for the answer, repeating itself where the network loses messages. Null: the run is over.
+    /// Commands and waits for the answer, repeating itself where messages may be lost. Null: the run is over.
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
+    /// The fault that the next job meets.
+    void plan(const std::optional<PlannedFault>& fault) { placer_.plan(fault); }
+    /// No further fault begins. Goes on until none is left and every axis has rested for long enough to rest for good.
+    void settle(double seconds);
     std::uint64_t send_program(Program program);
 
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
     Recording& recording() { return played_.recording; }
     VirtualMachine& vm() { return vm_; }
-    bool lossy() const { return scenario_.lossy; }
+    bool lossy() const { return scenario_.lossy(); }
     double slot_s() const { return static_cast<double>(machine().timing.slot_us) * 1e-6; }
     std::vector<std::size_t> steps_made() const;
 
 private:
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of whoever is asked
 
+    bool may_lose() const { return lossy() || vm_.faults_pending(); }
+
     const Scenario& scenario_;
     Played& played_;
     VirtualMachine vm_;
     Recorder recorder_;
     Watch watch_;
+    FaultPlacer placer_;
+    ClaimCheck claims_;
+    CoverageWatch coverage_;
+    double outage_s_;  // of all planned faults together, and as long again until everyone is heard
     std::uint64_t programs_ = 0;
     bool over_ = false;
 };

@@ -70,6 +70,7 @@ Violations check_all(const Recording& recording) {
     append(violations, check_limits(recording));
     if (violations.empty()) { append(violations, check_together(recording)); }
     append(violations, check_frames(recording));
+    append(violations, check_stops(recording));
     return violations;
 }
 

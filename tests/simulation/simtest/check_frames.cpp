@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/epoch_runs.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -10,8 +11,7 @@ public:
     FrameCheck(const Recording& recording, Violations& violations) : recording_(recording), violations_(violations) {}
 
     void check() {
-        if (recording_.writers.size() > 1) { object({}, {}, "more than one writer of frames"); }
-        for (const auto& [epoch, frames] : recording_.frames) { check_sent(frames); }
+        for (const auto& [number, epoch] : recording_.epochs) { check_sent(epoch.frames); }
         for (std::size_t i = 0; i < recording_.axes.size(); ++i) { check_axis(i); }
         check_same();
     }
@@ -42,14 +42,34 @@ private:
                 end = tracks[n + 1].start;
                 if (!track.cut) { object(i, end, "two tracks at a time"); }
             }
-            if (step < steps.size() && steps[step].tick <= track.start) {
-                object(i, track.start, "steps outside any track");
-            }
+            check_between(i, n, step, track.start);
             std::int64_t net = 0;
             for (; step < steps.size() && steps[step].tick <= end; ++step) { net += steps[step].direction; }
             if (net != track.net_steps && !track.cut) { object(i, track.start, "other steps made than the track has"); }
         }
-        if (step != steps.size()) { object(i, steps[step].tick, "steps outside any track"); }
+        check_between(i, tracks.size(), step, recording_.ended);
+    }
+
+    /// No step is outside every track, but what a device ran on its own when its process had ended: that is armed
+    /// frames and a tail.
+    void check_between(std::size_t i, std::size_t tracks, std::size_t& step, Tick until) {
+        const AxisRecord& axis = recording_.axes[i];
+        const std::size_t first = step;
+        std::int64_t net = 0;
+        for (; step < axis.steps.size() && axis.steps[step].tick <= until; ++step) {
+            net += axis.steps[step].direction;
+        }
+        const auto lost = std::ranges::find(axis.lost, tracks, &LostRun::tracks);
+        if (lost == axis.lost.end()) {
+            if (step != first) { object(i, axis.steps[first].tick, "steps outside any track"); }
+        } else if (lost->epoch != 0 && recording_.emergencies.empty()) {
+            const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
+            bool found = false;
+            for (FrameNumber k = lost->recorded; k <= lost->armed && !found; ++k) {
+                found = steps_to_rest(epoch, i, lost->recorded, k) == net;
+            }
+            if (!found) { object(i, until, "steps after the process's end that no armed frame and its tail make"); }
+        }
     }
 
     /// Bodies from 1 on, as sent and armed; a tail after its body, and nothing of the epoch after it.
@@ -66,30 +86,57 @@ private:
         if (same_epoch && track.start != before->start + before->ticks) {
             object(i, track.start, "a gap between frames");
         }
-        const auto epoch = recording_.frames.find(track.epoch);
-        if (epoch == recording_.frames.end() || !epoch->second.contains(track.frame)) {
+        const auto epoch = recording_.epochs.find(track.epoch);
+        if (epoch == recording_.epochs.end() || !epoch->second.frames.contains(track.frame)) {
             return object(i, track.start, "a frame that was never sent");
         }
-        const SentFrame& sent = epoch->second.at(track.frame);
+        const SentFrame& sent = epoch->second.frames.at(track.frame);
         if (!track.tail && (track.start != sent.start || track.ticks != sent.ticks)) {
             object(i, track.start, "frame " + text(track.frame) + " run at another time than it was sent for");
         }
-        if (track.cut) { object(i, track.start, "a frame was cut short"); }
+        const bool asked = std::ranges::any_of(recording_.emergencies, [&](const Emergency& e) {
+            return track.start <= e.rests && track.start + track.ticks >= e.asked;
+        });
+        if (track.cut && !asked) { object(i, track.start, "a frame was cut short"); }
     }
 
-    /// The highest frame run of each epoch.
-    std::map<Epoch, FrameNumber> ran(std::size_t i) const {
-        std::map<Epoch, FrameNumber> ran;
-        for (const Track& track : recording_.axes[i].tracks) {
-            if (track.epoch != 0) { ran[track.epoch] = std::max(ran[track.epoch], track.frame); }
-        }
-        return ran;
-    }
-
+    /// All the same, but whom a fault may have parted from the others; and nobody by more than a frame, ever.
     void check_same() {
-        for (std::size_t i = 1; i < recording_.axes.size(); ++i) {
-            if (ran(i) != ran(0)) { object(i, {}, "other frames run than axis " + recording_.machine.axes[0].name); }
+        for (const auto& [number, runs] : epoch_runs(recording_)) {
+            if (!runs.apart) { continue; }
+            std::vector<std::size_t> together;
+            for (std::size_t i = 0; i < runs.last.size(); ++i) {
+                if (!runs.may_differ[i]) { together.push_back(i); }
+            }
+            for (const std::size_t i : together) {
+                const LastFrame &a = runs.last[together.front()], &b = runs.last[i];
+                if (a.low > b.high || b.low > a.high) { object(i, runs.parted, "other frames run than by the others"); }
+            }
+            check_distance(runs);
+            check_said(number, *runs.parted);
         }
+    }
+
+    void check_distance(const EpochRuns& runs) {
+        FrameNumber least = runs.last[0].high, most = 0;
+        for (const LastFrame& last : runs.last) {
+            least = std::min(least, last.high);
+            most = std::max(most, last.low);
+        }
+        if (most > least + 1) { object({}, runs.parted, "axes more than one frame apart"); }
+    }
+
+    /// Where axes have parted, their coordinator enters Fault, and does not go on in a next epoch before.
+    void check_said(Epoch number, Tick parted) {
+        const auto next = recording_.epochs.upper_bound(number);
+        const bool goes_on =
+            next != recording_.epochs.end() && next->second.writer == recording_.epochs.at(number).writer;
+        if (!goes_on) { return; }
+        const Tick until = next->second.frames.begin()->second.start;
+        const Ticks early = recording_.machine.slot_ticks() * 2 * recording_.machine.timing.send_ahead_slots;
+        const bool said = std::ranges::any_of(recording_.machine_faults,
+                                              [&](Tick tick) { return tick >= parted - early && tick <= until; });
+        if (!said) { object({}, parted, "axes have parted, and the machine goes on as if they had not"); }
     }
 
     static std::string text(FrameNumber number) { return std::to_string(number); }

@@ -35,6 +35,7 @@ public:
                       recording.machine.slot_ticks().value),
           axis_(axis),
           first_(job.first_step[axis]),
+          ceases_(job.emergency.has_value()),
           violations_(violations) {
         // Steps beyond the course are another check's matter.
         if (course_ != nullptr) { steps_ = steps_.first(std::min(steps_.size(), course_->move_of_step.size())); }
@@ -82,7 +83,7 @@ private:
     void check_stretch(std::size_t begin, std::size_t end) {
         for (std::size_t m = 1; m < end - begin; m *= 4) {
             check_from_rest(begin, m);
-            check_to_rest(end - 1, end, m);
+            if (!ceases_ || end < steps_.size()) { check_to_rest(end - 1, end, m); }
             const std::size_t stride = std::max<std::size_t>(1, m / 4);
             for (std::size_t n = begin; n + m < end; n += stride) { check_speed(n, m); }
             for (std::size_t n = begin + m; n + m < end; n += stride) { check_change(n, m); }
@@ -164,6 +165,7 @@ private:
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
+    bool ceases_;  // the last step may be followed by none, at any speed
     Violations& violations_;
 };
 

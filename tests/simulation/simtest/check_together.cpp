@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/epoch_runs.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -50,19 +53,23 @@ private:
 /// All axes' steps of a job in order of time.
 class TogetherCheck {
 public:
-    TogetherCheck(const Recording& recording, const JobRecord& job)
-        : recording_(recording), job_(job), made_(recording.axes.size(), 0) {
+    /// until: when an axis is no longer bound to the others.
+    TogetherCheck(const Recording& recording, const JobRecord& job, std::vector<Tick> until)
+        : recording_(recording), job_(job), until_(std::move(until)), made_(recording.axes.size(), 0) {
         for (const AxisCourse& course : job.course.axes) { places_.emplace_back(course); }
     }
 
     void check(Violations& violations) {
         while (const auto tick = next_tick()) {
             for (std::size_t i = 0; i < made_.size(); ++i) { make_steps_at(*tick, i); }
-            const auto latest_start = std::ranges::max_element(places_, {}, &AxisPlace::earliest);
-            const auto earliest_end = std::ranges::min_element(places_, {}, &AxisPlace::latest);
-            if (latest_start->earliest() > earliest_end->latest() + 1e-9) {
-                return object(*tick, static_cast<std::size_t>(latest_start - places_.begin()),
-                              static_cast<std::size_t>(earliest_end - places_.begin()), violations);
+            std::optional<std::size_t> ahead, behind;
+            for (std::size_t i = 0; i < made_.size(); ++i) {
+                if (*tick > until_[i]) { continue; }
+                if (!ahead || places_[i].earliest() > places_[*ahead].earliest()) { ahead = i; }
+                if (!behind || places_[i].latest() < places_[*behind].latest()) { behind = i; }
+            }
+            if (ahead && places_[*ahead].earliest() > places_[*behind].latest() + 1e-9) {
+                return object(*tick, *ahead, *behind, violations);
             }
         }
     }
@@ -93,16 +100,35 @@ private:
 
     const Recording& recording_;
     const JobRecord& job_;
+    std::vector<Tick> until_;
     std::vector<std::size_t> made_;
     std::vector<AxisPlace> places_;
 };
+
+/// Until pulses are told to cease; an axis that a fault may part from the others, until it has.
+std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,
+                              const JobRecord& job) {
+    std::vector<Tick> until(recording.axes.size(), job.emergency.value_or(job.ended));
+    for (const auto& [number, runs] : epochs) {
+        if (!runs.apart || *runs.parted < job.began || *runs.parted > job.ended) { continue; }
+        for (std::size_t i = 0; i < until.size(); ++i) {
+            if (runs.may_differ[i]) { until[i] = std::min(until[i], *runs.parted); }
+        }
+    }
+    for (const VirtualFault& fault : recording.faults) {
+        const bool ends = fault.kind == VirtualFault::Kind::Crash && fault.process < until.size();
+        if (ends && fault.at >= job.began) { until[fault.process] = std::min(until[fault.process], fault.at); }
+    }
+    return until;
+}
 
 }  // namespace
 
 Violations check_together(const Recording& recording) {
     Violations violations;
+    const auto epochs = epoch_runs(recording);
     for (const JobRecord& job : recording.jobs) {
-        if (!job.homing) { TogetherCheck(recording, job).check(violations); }
+        if (!job.homing) { TogetherCheck(recording, job, bound_until(recording, epochs, job)).check(violations); }
     }
     return violations;
 }

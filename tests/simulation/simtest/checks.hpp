@@ -25,7 +25,16 @@ Violations check_together(const Recording& recording);
 
 /// Frames: every axis ran the same frames of each epoch, in order, each once, and the same tail, when they were sent
 /// for; only what was armed; and made no step outside them.
+///
+/// Where one fault may have parted its victim from the others (explain.hpp), the others ran the same, the victim at
+/// most a frame more or less, and the machine said so before it went on. More faults at a time may part anyone, by a
+/// frame at most.
 Violations check_frames(const Recording& recording);
+
+/// Stops: after an emergency stop all pulses have ceased within kCeaseSlots, and no motion is interrupted unless what
+/// went wrong is more than the machine must bear without.
+Violations check_stops(const Recording& recording);
+inline constexpr int kCeaseSlots = 6;  // two messages, each with a loop at both ends, and a slot of the coordinator
 
 Violations check_all(const Recording& recording);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "tests/simulation/simtest/draw_fault.hpp"
 #include "tests/simulation/simtest/draw_machine.hpp"
 #include "tests/simulation/simtest/draw_program.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
@@ -8,7 +9,7 @@ namespace lockstep::simtest {
 namespace {
 
 /// A hop is two slots: up to half a slot until the sender's loop, one on the way, up to half until the receiver's.
-NetworkBehaviour draw_network(Draw& draw, const NetworkFaults& faults, Ticks slot) {
+NetworkBehaviour draw_network(Draw& draw, const FaultKinds& faults, Ticks slot) {
     const auto part_of_slot = [&](double most) {
         return Ticks{1 + static_cast<std::int64_t>(draw.part() * most * static_cast<double>(slot.value - 1))};
     };
@@ -21,6 +22,7 @@ NetworkBehaviour draw_network(Draw& draw, const NetworkFaults& faults, Ticks slo
     }
     if (faults.duplicate) { network.duplicated = draw.magnitude(0.01, 0.8); }
     if (faults.loss) { network.lost = draw.magnitude(0.001, 0.05); }
+    if (faults.corrupt) { network.corrupted = draw.magnitude(0.0003, 0.01); }
     return network;
 }
 
@@ -73,29 +75,49 @@ Interrupt draw_interrupt(Draw& draw, const MachineConfig& machine) {
         interrupt.kind = Interrupt::Kind::Stop;
     } else if (kind < 0.45) {
         interrupt.kind = Interrupt::Kind::HoldAndStop;
+    } else if (kind < 0.5) {
+        interrupt.kind = Interrupt::Kind::EmergencyStop;
     }
     return interrupt;
 }
 
-Task draw_task(Draw& draw, const MachineConfig& machine) {
-    Task task{.program = draw_program(draw, machine), .before = {}, .interrupts = {}};
+Task draw_task(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
+    Task task{.program = draw_program(draw, machine), .before = {}, .interrupts = {}, .fault = {}};
     while (draw.chance(0.3)) { task.before.push_back(wrong_when_idle(draw, machine)); }
     for (int n = 0; n < 5 && draw.chance(0.6); ++n) { task.interrupts.push_back(draw_interrupt(draw, machine)); }
+    task.fault = draw_fault(draw, machine, faults);
+    // Half of the faults meet a job that nobody interrupts.
+    if (task.fault && draw.chance(0.5)) { task.interrupts.clear(); }
     return task;
+}
+
+/// Each kind is there in half of the runs, so that each is seen alone, and in company.
+FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
+    const auto kept = [&draw](bool kind) { return kind && draw.chance(0.5); };
+    return {kept(faults.delay),     kept(faults.reorder), kept(faults.duplicate),
+            kept(faults.loss),      kept(faults.freeze),  kept(faults.crash),
+            kept(faults.partition), kept(faults.corrupt), false};
 }
 
 }  // namespace
 
-Scenario draw_scenario(std::uint64_t seed, const NetworkFaults& faults, std::optional<std::size_t> axes) {
+Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optional<std::size_t> axes) {
     Draw draw(seed);
-    Scenario scenario{.seed = seed, .lossy = faults.loss};
+    Scenario scenario{.seed = seed};
+    const FaultKinds faults = asked.mixed ? half_of(draw, asked) : asked;
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, axes.value_or(drawn));
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (draw.chance(0.3)) {
         scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
-    for (std::int64_t n = draw.whole(1, 2); n > 0; --n) { scenario.tasks.push_back(draw_task(draw, scenario.machine)); }
+    if (draw.chance(0.05)) { scenario.homing_emergency_s = draw.magnitude(0.001, 1); }
+    if (draw.chance(0.2)) { scenario.homing_fault = draw_homing_fault(draw, scenario.machine, faults); }
+    for (std::int64_t n = draw.whole(1, 2); n > 0; --n) {
+        scenario.tasks.push_back(draw_task(draw, scenario.machine, faults));
+    }
+    // Whatever went wrong before, the machine is then as good as new.
+    if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
     return scenario;
 }
 

@@ -11,13 +11,30 @@ using namespace lockstep::simtest;
 
 constexpr std::uint64_t kTwiceEvery = 16;  // runs, one of which is played twice
 
+constexpr const char* kKinds =
+    R"(Kinds of faults:
+  delay      messages take up to a slot:             lockstep-simtest --faults delay --runs 1000
+  reorder    later messages overtake earlier ones:   lockstep-simtest --faults reorder,delay
+  duplicate  messages come twice:                    lockstep-simtest --faults duplicate
+  loss       messages are lost, up to one in 20:     lockstep-simtest --faults loss
+  freeze     a process's loop stands still for a while, its device goes on:
+                                                     lockstep-simtest --faults freeze --axes 3
+  crash      a process ends, and another takes its place later:
+                                                     lockstep-simtest --faults crash
+  partition  a link is cut, or a process from all others, both ways or one:
+                                                     lockstep-simtest --faults partition
+  corrupt    messages are altered on their way:      lockstep-simtest --faults corrupt
+
+Everything follows from the seed. A run that fails prints the command that replays it:
+  lockstep-simtest --seed 93 --runs 1 --faults freeze --trace)";
+
 Tally run_all(const Options& options) {
     Tally tally;
     const auto began = std::chrono::steady_clock::now();
     for (std::uint64_t n = 0; n < options.runs; ++n) {
         const std::uint64_t seed = options.seed + n;
         const bool twice = options.runs == 1 || n % kTwiceEvery == 0;
-        const Verdict verdict = run_seed(seed, options.network(), options.axes, twice);
+        const Verdict verdict = run_seed(seed, {options.kinds(), options.axes, twice, options.trace});
         tally.add(verdict);
         if (options.verbose || !verdict.violations.empty()) { print_run(seed, verdict, options); }
     }
@@ -33,10 +50,13 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed, "the first seed");
     app.add_option("--runs", options.runs, "how many, with seeds that follow each other");
     app.add_option("--axes", options.axes, "of every machine; drawn, 1 to 6, if not given")->check(CLI::Range(1, 32));
-    app.add_option("--faults", options.faults, "none, all, or of delay, reorder, duplicate, loss")
+    app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
-        ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "all"}));
+        ->check(CLI::IsMember(
+            {"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition", "corrupt", "all"}));
+    app.footer(kKinds);
     app.add_flag("--json", options.json, "the figures as JSON");
+    app.add_flag("--trace", options.trace, "what happens in a run, a line for each event");
     app.add_flag("--verbose", options.verbose, "a line for every run");
     CLI11_PARSE(app, argc, argv);
     const Tally tally = run_all(options);

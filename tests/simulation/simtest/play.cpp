@@ -43,27 +43,42 @@ void play_all(const Scenario& scenario, Bench& bench) {
     const double listening = (3 * scenario.machine.timing.freshness_slots + 30) * bench.slot_s();
     (void)bench.await([&] { return bench.watch().phase() == MachinePhase::Idle; }, listening, "power-up");
     for (const WrongCommand& wrong : scenario.before_homing) { play_refusal(bench, wrong, at); }
-    if (!bench.over()) { play_homing(bench, at); }
+    bench.plan(scenario.homing_fault);
+    if (!bench.over()) { play_homing(bench, at, scenario.homing_emergency_s); }
+    make_ready(bench, at);
     check_slides(bench, at);
     for (const Task& task : scenario.tasks) {
         for (const WrongCommand& wrong : task.before) { play_refusal(bench, wrong, at); }
+        bench.plan(task.fault);
         if (!bench.over()) { JobPlayer(bench, task, at).play(); }
+        bench.plan({});
+        make_ready(bench, at);
     }
     if (!bench.over()) { check_places(bench, at); }
 }
 
-}  // namespace
-
-Played play(const Scenario& scenario) {
-    Played played;
-    played.recording.machine = scenario.machine;
-    played.recording.axes.resize(scenario.machine.axes.size());
-    Bench bench(scenario, played);
+void play_on(Bench& bench, const Scenario& scenario, Played& played) {
     played.recording.began = bench.vm().now();
     play_all(scenario, bench);
     played.recording.ended = bench.vm().now();
+    played.coverage.take(bench.vm().alterations());
+}
+
+}  // namespace
+
+Played play(const Scenario& scenario, VirtualObserver* also) {
+    Played played;
+    played.recording.machine = scenario.machine;
+    played.recording.network = scenario.network;
+    played.recording.axes.resize(scenario.machine.axes.size());
+    {
+        Bench bench(scenario, played);
+        if (also != nullptr) { bench.vm().observe(*also); }
+        play_on(bench, scenario, played);
+    }
+    append(played.violations, played.recording.untrue);
     for (const std::string& trouble : played.recording.troubles) {
-        if (!scenario.lossy) { played.violations.push_back({"trouble", {}, {}, {}, trouble}); }
+        played.violations.push_back({"trouble", {}, {}, {}, trouble});
     }
     return played;
 }

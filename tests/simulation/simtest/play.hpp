@@ -1,6 +1,7 @@
 // Plays a scenario on a machine in virtual time, as a client and as the laboratory around it.
 #pragma once
 
+#include "tests/simulation/simtest/coverage.hpp"
 #include "tests/simulation/simtest/recording.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
 #include "tests/simulation/simtest/violation.hpp"
@@ -9,10 +10,12 @@ namespace lockstep::simtest {
 
 struct Played {
     Recording recording;
+    Coverage coverage;
     Violations violations;              // of what was asked and answered, and of ends that did not come
-    FaultCode fault = FaultCode::None;  // a lossy network led to Fault, which it may
+    FaultCode fault = FaultCode::None;  // the last one, where what went wrong on purpose explains it
 };
 
-Played play(const Scenario& scenario);
+/// also: another observer, or null.
+Played play(const Scenario& scenario, VirtualObserver* also = nullptr);
 
 }  // namespace lockstep::simtest

@@ -24,6 +24,23 @@ double protocol_seconds(const Bench& bench) {
     return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
 }
 
+double homing_seconds(const Bench& bench) {
+    double seconds = protocol_seconds(bench);
+    for (const AxisConfig& axis : bench.machine().axes) {
+        const HomingConfig& h = axis.homing;
+        const double travel = axis.position_max_mm - axis.position_min_mm + 2 * axis.plant.travel_margin_mm;
+        seconds += travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
+                   2 * h.pulloff_mm / h.latch_velocity_mm_s + 2 * travel / axis.start_velocity_mm_s;
+    }
+    return seconds;
+}
+
+void end_record(Bench& bench, JobRecord& job) {
+    job.ended = bench.vm().now();
+    if (job.emergency) { bench.recording().emergencies.back().rests = job.ended; }
+    bench.recording().jobs.push_back(std::move(job));
+}
+
 std::string answer_text(const Reply& reply) {
     return std::string(reply.status == ReplyStatus::Accepted ? "accepted" : "refused: ") +
            (reply.fault == 0 ? "" : std::string(name_of(static_cast<FaultCode>(reply.fault)))) + " " + reply.text;
@@ -50,42 +67,82 @@ void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
     }
 }
 
-void play_homing(Bench& bench, Counts& at) {
-    JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made()};
-    double seconds = protocol_seconds(bench);
-    for (const AxisConfig& axis : bench.machine().axes) {
-        const HomingConfig& h = axis.homing;
-        const double travel = axis.position_max_mm - axis.position_min_mm + 2 * axis.plant.travel_margin_mm;
-        seconds += travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
-                   2 * h.pulloff_mm / h.latch_velocity_mm_s + 2 * travel / axis.start_velocity_mm_s;
-    }
+Tick play_emergency(Bench& bench) {
+    const Tick asked = bench.vm().now();
+    bench.recording().emergencies.push_back({asked, asked});
+    const Reply* reply = bench.ask(CommandKind::EmergencyStop);
+    if (reply != nullptr && reply->status != ReplyStatus::Accepted) { bench.object("emergency", answer_text(*reply)); }
+    const auto lost = [&] { return bench.disturbed_since(asked); };
+    if (!bench.await(lost, protocol_seconds(bench), "an emergency stop") && bench.faulted()) { return asked; }
+    return asked;
+}
+
+void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
+    JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made(), .began = bench.vm().now()};
+    const double seconds = homing_seconds(bench);
     const Reply* reply = bench.ask(CommandKind::Home);
     if (reply == nullptr) { return; }
-    if (reply->status != ReplyStatus::Accepted) { return bench.object("homing", answer_text(*reply)); }
-    (void)bench.await([&] { return bench.watch().outcome().has_value(); }, seconds, "homing");
+    const bool accepted = reply->status == ReplyStatus::Accepted;
+    if (!accepted && !bench.disturbed_since(job.began)) { return bench.object("homing", answer_text(*reply)); }
+    const auto ended = [&] { return bench.watch().outcome().has_value(); };
+    if (accepted && emergency_s) {
+        const Tick due =
+            bench.vm().now() + Ticks{static_cast<std::int64_t>(*emergency_s * bench.machine().ticks_per_second())};
+        (void)bench.await([&] { return ended() || bench.vm().now() >= due; }, seconds, "homing");
+        if (!bench.over() && !ended()) { job.emergency = play_emergency(bench); }
+    } else if (accepted) {
+        (void)bench.await(ended, seconds, "homing");
+    }
+    const bool undisturbed =
+        !job.emergency && !bench.faulted() && !bench.disturbed_since(job.began) && !bench.vm().faults_pending();
+    if (!undisturbed) { bench.settle(seconds); }
     job.end_step = bench.steps_made();
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
-    bench.recording().jobs.push_back(std::move(job));
+    end_record(bench, job);
     for (std::size_t i = 0; i < at.size(); ++i) {
         const AxisConfig& axis = bench.machine().axes[i];
         at[i] = nearest_step(axis, axis.homing.park_mm);
     }
 }
 
+void make_ready(Bench& bench, Counts& at) {
+    constexpr int kMostTries = 6;
+    const auto in = [&](MachinePhase phase) { return bench.watch().phase() == phase; };
+    const auto homed = [&] { return std::ranges::all_of(bench.watch().axes(), &AxisState::homed); };
+    for (int tries = 0; tries < kMostTries && !bench.over(); ++tries) {
+        if (in(MachinePhase::Idle) && homed()) { return; }
+        if (in(MachinePhase::Idle)) {
+            play_homing(bench, at);
+        } else if (bench.faulted()) {
+            const Reply* reply = bench.ask(CommandKind::Reset);
+            if (reply != nullptr && reply->status != ReplyStatus::Accepted) {
+                bench.object("reset", answer_text(*reply));
+            }
+        }
+        (void)bench.await([&] { return in(MachinePhase::Idle); }, protocol_seconds(bench), "becoming ready");
+    }
+    if (!bench.over()) { bench.object("liveness", "the machine cannot be made ready again"); }
+}
+
 void JobPlayer::play() {
+    job_.began = bench_.vm().now();
     if (!start()) { return; }
     const double seconds =
         2 * job_.course.seconds +
         protocol_seconds(bench_) * static_cast<double>(1 + task_.interrupts.size() + job_.course.pauses);
     const Tick deadline =
         bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
-    while (!bench_.over() && !ended()) {
+    while (!bench_.over() && begun_ && !bench_.faulted() && !ended()) {
         go_on();
-        if (bench_.vm().now() > deadline) {
+        if (bench_.vm().now() > deadline && !disturbed()) {
             bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s");
         }
     }
-    (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
+    if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
+        bench_.settle(2 * job_.course.seconds + protocol_seconds(bench_));
+    } else {
+        (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
+    }
     record();
 }
 
@@ -95,11 +152,15 @@ bool JobPlayer::start() {
     const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
     const Reply* reply = bench_.ask(CommandKind::Run, program);
     if (reply == nullptr) { return false; }
-    if (reply->status != ReplyStatus::Accepted) {
-        bench_.object("refusal", "a good program was " + answer_text(*reply));
-    }
+    begun_ = reply->status == ReplyStatus::Accepted;
+    if (!begun_) { refused("refusal", *reply); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
+}
+
+/// What an undisturbed machine does not refuse.
+void JobPlayer::refused(const char* what, const Reply& reply) {
+    if (!disturbed()) { bench_.object(what, "it was " + answer_text(reply)); }
 }
 
 /// To the next thing that happens, by itself or by what was drawn.
@@ -121,6 +182,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::HoldAndResume:
         case Interrupt::Kind::HoldAndStop: return hold(interrupt);
         case Interrupt::Kind::Stop: return stop();
+        case Interrupt::Kind::EmergencyStop: return stop_at_once();
         case Interrupt::Kind::WrongCommand: return give(interrupt.wrong);
     }
 }
@@ -130,7 +192,7 @@ void JobPlayer::hold(const Interrupt& interrupt) {
     const Reply* reply = bench_.ask(CommandKind::Hold);
     if (reply == nullptr) { return; }
     if (reply->status != ReplyStatus::Accepted) {
-        if (bench_.watch().was_moving_at(reply->sequence)) { bench_.object("hold", answer_text(*reply)); }
+        if (bench_.watch().was_moving_at(reply->sequence)) { refused("hold", *reply); }
         return;
     }
     const auto rests = [this] { return in(MachinePhase::Holding) || in(MachinePhase::Paused) || ended(); };
@@ -145,11 +207,13 @@ void JobPlayer::stop() {
     const Reply* reply = bench_.ask(CommandKind::Stop);
     if (reply == nullptr) { return; }
     if (reply->status != ReplyStatus::Accepted) {
-        if (bench_.watch().was_moving_at(reply->sequence)) { bench_.object("stop", answer_text(*reply)); }
+        if (bench_.watch().was_moving_at(reply->sequence)) { refused("stop", *reply); }
         return;
     }
     (void)bench_.await([this] { return ended(); }, 2 * protocol_seconds(bench_) + job_.course.seconds, "a stop");
 }
+
+void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }
 
 /// Refused while the machine moves. Home would be taken at the job's end: it is given long before that or not at all.
 void JobPlayer::give(const WrongCommand& wrong) {
@@ -159,7 +223,7 @@ void JobPlayer::give(const WrongCommand& wrong) {
     if (wrong.program) { program = bench_.send_program(*wrong.program); }
     const Reply* reply = bench_.ask(wrong.kind, program);
     if (reply == nullptr) { return; }
-    if (bench_.watch().was_moving_at(reply->sequence) && !is_refusal(*reply, wrong.refusal)) {
+    if (bench_.watch().was_moving_at(reply->sequence) && !disturbed() && !is_refusal(*reply, wrong.refusal)) {
         bench_.object("refusal", "expected " + std::string(name_of(wrong.refusal)) + ", " + answer_text(*reply));
     }
 }
@@ -168,19 +232,19 @@ void JobPlayer::resume() {
     if (ended()) { return; }
     const Reply* reply = bench_.ask(CommandKind::Resume);
     if (reply == nullptr) { return; }
-    if (reply->status != ReplyStatus::Accepted) { return bench_.object("resume", answer_text(*reply)); }
+    if (reply->status != ReplyStatus::Accepted) { return refused("resume", *reply); }
     moving_since_ = bench_.vm().now();
 }
 
 void JobPlayer::record() {
     job_.end_step = bench_.steps_made();
-    job_.outcome = bench_.watch().outcome().value_or(JobOutcome::Failed);
+    job_.outcome = begun_ ? bench_.watch().outcome().value_or(JobOutcome::Failed) : JobOutcome::Failed;
     for (std::size_t i = 0; i < at_.size(); ++i) {
         for (std::size_t n = job_.first_step[i]; n < job_.end_step[i]; ++n) {
             at_[i] += bench_.recording().axes[i].steps[n].direction;
         }
     }
-    bench_.recording().jobs.push_back(std::move(job_));
+    end_record(bench_, job_);
 }
 
 }  // namespace lockstep::simtest

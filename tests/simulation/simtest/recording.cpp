@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tests/simulation/simtest/explain.hpp"
+
 namespace lockstep::simtest {
 namespace {
 
@@ -49,47 +51,70 @@ std::uint64_t Recording::hash() const {
 }
 
 void Recorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& node) {
-    using Kind = AxisNotice::Kind;
     for (const ExecutedTrack& executed : out.tracks) {
         recording_.axes[axis].tracks.push_back(track_of(executed, armed_[axis]));
     }
-    for (const AxisNotice& notice : out.notices) {
-        if (notice.kind == Kind::EpochBegun) {
-            epoch_[axis] = notice.number;
-            armed_[axis] = 0;
-        } else if (notice.kind == Kind::FrameRefused || notice.kind == Kind::Fault) {
-            recording_.troubles.push_back(recording_.machine.axes[axis].name + ": " +
-                                          (notice.kind == Kind::Fault ? "fault " : "frame refused: ") +
-                                          std::string(name_of(notice.fault)) + " " + node.trouble());
-        }
-    }
+    for (const AxisNotice& notice : out.notices) { take_notice(axis, notice, node); }
     for (const DeviceOrder& order : out.orders) {
         const auto* arm = std::get_if<device::Arm>(&order);
         if (arm != nullptr) { armed_[axis] = std::max(armed_[axis], arm->number); }
     }
 }
 
-void Recorder::on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) {
+void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node) {
+    using Kind = AxisNotice::Kind;
+    if (notice.kind == Kind::EpochBegun) {
+        epoch_[axis] = notice.number;
+        armed_[axis] = 0;
+    }
+    if (notice.kind == Kind::EpochEnded) { epoch_[axis] = 0; }
+    const bool explained = explains(recording_, notice.fault);
+    const bool refuses = notice.kind == Kind::FrameRefused && recording_.network.corrupted == 0;
+    if (refuses || (notice.kind == Kind::Fault && !explained)) {
+        recording_.troubles.push_back(recording_.machine.axes[axis].name + ": " +
+                                      (refuses ? "frame refused: " : "fault ") + std::string(name_of(notice.fault)) +
+                                      " " + node.trouble());
+    }
+}
+
+void Recorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {
     for (const Frame& frame : out.frames) { keep(frame); }
     for (const CoordinatorNotice& notice : out.notices) {
-        if (notice.kind == CoordinatorNotice::Kind::Fault) {
+        if (notice.kind == CoordinatorNotice::Kind::Interrupted) { recording_.interruptions.push_back(now); }
+        if (notice.kind != CoordinatorNotice::Kind::Fault) { continue; }
+        recording_.machine_faults.push_back(now);
+        if (!explains(recording_, notice.fault)) {
             recording_.troubles.push_back("coordinator: fault " + std::string(name_of(notice.fault)));
         }
     }
     if (out.must_quit) { recording_.troubles.push_back("coordinator: another one is heard"); }
 }
 
+void Recorder::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
+    if (!begins) { return; }
+    recording_.faults.push_back(fault);
+    const std::size_t i = fault.process;
+    if (fault.kind != VirtualFault::Kind::Crash || i >= recording_.axes.size()) { return; }
+    AxisRecord& axis = recording_.axes[i];
+    const bool some = !axis.tracks.empty() && axis.tracks.back().epoch == epoch_[i];
+    axis.lost.push_back({axis.tracks.size(), epoch_[i], some ? axis.tracks.back().frame : 0, armed_[i]});
+    epoch_[i] = 0;
+}
+
 void Recorder::keep(const Frame& frame) {
-    if (std::ranges::find(recording_.writers, frame.coordinator) == recording_.writers.end()) {
-        recording_.writers.push_back(frame.coordinator);
+    SentEpoch& epoch = recording_.epochs.try_emplace(frame.epoch, SentEpoch{frame.coordinator, {}}).first->second;
+    if (epoch.writer != frame.coordinator) {
+        recording_.troubles.push_back("epoch " + std::to_string(frame.epoch) + " has two writers");
     }
     SentFrame sent{frame.start, frame.ticks, frame.last, {}};
     for (const AxisTrack& track : frame.axes) {
-        Int128 raw = 0;
-        for (const Piece& piece : track.body) { raw += gone(piece); }
-        sent.shares.push_back({raw});
+        Share share{track.from, track.from, {}};
+        for (const Piece& piece : track.body) { share.to = share.to + Displacement{gone(piece)}; }
+        share.rest = share.to;
+        for (const Piece& piece : track.tail) { share.rest = share.rest + Displacement{gone(piece)}; }
+        sent.shares.push_back(share);
     }
-    const auto [kept, first] = recording_.frames[frame.epoch].try_emplace(frame.number, sent);
+    const auto [kept, first] = epoch.frames.try_emplace(frame.number, sent);
     if (!first && kept->second != sent) {
         recording_.troubles.push_back("coordinator: frame " + std::to_string(frame.number) + " sent in two versions");
     }

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/course.hpp"
+#include "tests/simulation/simtest/violation.hpp"
 
 namespace lockstep::simtest {
 
@@ -23,9 +25,26 @@ struct Track {
     FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
 };
 
+/// A process ended in the middle of a run: its device ran on, and nobody says what.
+struct LostRun {
+    std::size_t tracks = 0;  // recorded before
+    Epoch epoch = 0;         // 0: a move of the axis on its own, or none
+    FrameNumber recorded = 0;
+    FrameNumber armed = 0;
+};
+
 struct AxisRecord {
     std::vector<StepEdge> steps;  // from power-up on
     std::vector<Track> tracks;
+    std::vector<LostRun> lost;
+};
+
+/// One axis's share of a frame as sent: where its body begins and ends, and where its tail does.
+struct Share {
+    Position from;
+    Position to;
+    Position rest;
+    bool operator==(const Share&) const = default;
 };
 
 /// A frame as first sent.
@@ -33,8 +52,14 @@ struct SentFrame {
     Tick start;
     Ticks ticks;
     bool last = false;
-    std::vector<Displacement> shares;  // what each axis's body amounts to
+    std::vector<Share> shares;
     bool operator==(const SentFrame&) const = default;
+};
+
+/// All frames of an epoch, and who sent them.
+struct SentEpoch {
+    Identity writer = 0;
+    std::map<FrameNumber, SentFrame> frames;
 };
 
 /// A job, from its first frame to its end: which of the axes' steps are its.
@@ -44,18 +69,33 @@ struct JobRecord {
     Course course;  // of a program
     std::vector<std::size_t> first_step;
     std::vector<std::size_t> end_step;
+    Tick began;
+    Tick ended;
+    std::optional<Tick> emergency;  // when a stop of all pulses was asked for
+};
+
+/// An emergency stop, from the command until the machine is at rest.
+struct Emergency {
+    Tick asked;
+    Tick rests;
 };
 
 struct Recording {
     MachineConfig machine;
+    NetworkBehaviour network;
     std::vector<AxisRecord> axes;
     std::vector<JobRecord> jobs;
-    std::map<Epoch, std::map<FrameNumber, SentFrame>> frames;
-    std::vector<Identity> writers;      // of frames, each once
+    std::map<Epoch, SentEpoch> epochs;
+    std::vector<VirtualFault> faults;  // as they began
+    std::vector<Emergency> emergencies;
+    std::vector<Tick> interruptions;    // the coordinator says that a motion was interrupted by nobody's wish
+    std::vector<Tick> machine_faults;   // the coordinator enters Fault, or is about to
+    std::vector<Violation> untrue;      // what an axis said of itself
     std::vector<std::string> troubles;  // what must not happen at all, as it happened
     Tick began;
     Tick ended;
 
+    bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
     std::span<const StepEdge> steps_of(const JobRecord& job, std::size_t axis) const {
         return std::span(axes[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
     }
@@ -73,8 +113,10 @@ public:
     void on_step(std::size_t axis, StepEdge step) override { recording_.axes[axis].steps.push_back(step); }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
+    void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
 private:
+    void take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node);
     void keep(const Frame& frame);
 
     Recording& recording_;

@@ -7,9 +7,9 @@
 namespace lockstep::simtest {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
+std::string joined(const std::vector<std::string>& words, const std::string& separator = ",") {
     std::string text;
-    for (const std::string& word : words) { text += (text.empty() ? "" : ",") + word; }
+    for (const std::string& word : words) { text += (text.empty() ? "" : separator) + word; }
     return text;
 }
 
@@ -21,26 +21,66 @@ std::string place(const Violation& v) {
     return text;
 }
 
+void print_json(const Tally& t) {
+    std::printf("{\"runs\": %" PRIu64 ", \"failed\": %" PRIu64 ", \"faulted\": %" PRIu64 ", \"parted\": %" PRIu64
+                ", \"steps\": %" PRIu64 ", \"simulatedHours\": %.6f, \"wallSeconds\": %.3f, \"coverage\": {",
+                t.runs, t.failed, t.faulted, t.parted, t.steps, t.simulated_s / 3600, t.wall_s);
+    const char* between_groups = "";
+    for (const auto& [group, counts] : t.coverage.groups()) {
+        std::printf("%s\"%s\": {", between_groups, group.c_str());
+        between_groups = ", ";
+        const char* between = "";
+        for (const auto& [name, times] : counts) {
+            std::printf("%s\"%s\": %" PRIu64, between, name.c_str(), times);
+            between = ", ";
+        }
+        std::printf("}");
+    }
+    std::printf("}}\n");
+}
+
+void print_coverage(const Coverage& coverage) {
+    for (const auto& [group, counts] : coverage.groups()) {
+        std::vector<std::string> never;
+        for (const auto& [name, times] : counts) {
+            if (times == 0) { never.push_back(name); }
+        }
+        std::printf("  %-17s %2zu of %2zu%s%s\n", group.c_str(), counts.size() - never.size(), counts.size(),
+                    never.empty() ? "" : ", never: ", joined(never, ", ").c_str());
+    }
+}
+
+void print_text(const Tally& t) {
+    const double hours = t.simulated_s / 3600;
+    std::printf("%" PRIu64 " runs, %" PRIu64 " failed, %" PRIu64 " in Fault, %" PRIu64 " epochs parted; %" PRIu64
+                " steps judged; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
+                t.runs, t.failed, t.faulted, t.parted, t.steps, hours, t.wall_s, hours / t.wall_s,
+                static_cast<double>(t.runs) / t.wall_s);
+    print_coverage(t.coverage);
+}
+
 }  // namespace
 
-NetworkFaults Options::network() const {
-    const auto has = [this](const char* name) {
-        return std::ranges::any_of(faults, [name](const std::string& f) { return f == name || f == "all"; });
-    };
-    return {has("delay"), has("reorder"), has("duplicate"), has("loss")};
+FaultKinds Options::kinds() const {
+    const auto has = [this](const char* name) { return std::ranges::find(faults, name) != faults.end(); };
+    if (has("all")) { return FaultKinds::all(); }
+    return {has("delay"), has("reorder"),   has("duplicate"), has("loss"), has("freeze"),
+            has("crash"), has("partition"), has("corrupt"),   false};
 }
 
 void Tally::add(const Verdict& verdict) {
     ++runs;
     failed += verdict.violations.empty() ? 0 : 1;
     faulted += verdict.fault == FaultCode::None ? 0 : 1;
+    parted += verdict.parted;
     steps += verdict.steps;
+    coverage.add(verdict.coverage);
     simulated_s += verdict.simulated_s;
 }
 
 void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options) {
     const bool faulted = verdict.fault != FaultCode::None;
-    const std::string fault = faulted ? ", ended in Fault: " + std::string(name_of(verdict.fault)) : "";
+    const std::string fault = faulted ? ", was in Fault: " + std::string(name_of(verdict.fault)) : "";
     std::FILE* to = options.json ? stderr : stdout;
     std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, verdict.steps,
                  verdict.simulated_s, verdict.hash, fault.c_str());
@@ -54,22 +94,10 @@ void print_run(std::uint64_t seed, const Verdict& verdict, const Options& option
     }
     if (verdict.violations.empty()) { return; }
     const std::string axes = options.axes ? " --axes " + std::to_string(*options.axes) : "";
-    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s --verbose\n", seed,
+    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s --trace\n", seed,
                  joined(options.faults).c_str(), axes.c_str());
 }
 
-void print_tally(const Tally& t, const Options& options) {
-    const double hours = t.simulated_s / 3600;
-    if (options.json) {
-        std::printf("{\"runs\": %" PRIu64 ", \"failed\": %" PRIu64 ", \"faulted\": %" PRIu64 ", \"steps\": %" PRIu64
-                    ", \"simulatedHours\": %.6f, \"wallSeconds\": %.3f}\n",
-                    t.runs, t.failed, t.faulted, t.steps, hours, t.wall_s);
-        return;
-    }
-    std::printf("%" PRIu64 " runs, %" PRIu64 " failed, %" PRIu64 " in Fault; %" PRIu64
-                " steps judged; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
-                t.runs, t.failed, t.faulted, t.steps, hours, t.wall_s, hours / t.wall_s,
-                static_cast<double>(t.runs) / t.wall_s);
-}
+void print_tally(const Tally& t, const Options& options) { options.json ? print_json(t) : print_text(t); }
 
 }  // namespace lockstep::simtest

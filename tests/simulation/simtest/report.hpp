@@ -17,17 +17,20 @@ struct Options {
     std::vector<std::string> faults{"none"};
     bool json = false;
     bool verbose = false;
+    bool trace = false;
 
-    NetworkFaults network() const;
+    FaultKinds kinds() const;
 };
 
 struct Tally {
     std::uint64_t runs = 0;
     std::uint64_t failed = 0;
-    std::uint64_t faulted = 0;  // ended in Fault, as a network that loses messages may
+    std::uint64_t faulted = 0;  // were in Fault at some time, for what went wrong on purpose
+    std::uint64_t parted = 0;   // epochs of which not all axes ran the same frames: one more or less, and it was said
     std::uint64_t steps = 0;
     double simulated_s = 0;
     double wall_s = 0;
+    Coverage coverage;
 
     void add(const Verdict& verdict);
 };

@@ -2,7 +2,9 @@
 
 #include "services/documents/machine_rules.hpp"
 #include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/epoch_runs.hpp"
 #include "tests/simulation/simtest/play.hpp"
+#include "tests/simulation/simtest/trace.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -20,20 +22,23 @@ Violations check_configuration(const MachineConfig& machine) {
 
 }  // namespace
 
-Verdict run_seed(std::uint64_t seed, const NetworkFaults& faults, std::optional<std::size_t> axes, bool twice) {
-    const Scenario scenario = draw_scenario(seed, faults, axes);
+Verdict run_seed(std::uint64_t seed, const RunOptions& options) {
+    const Scenario scenario = draw_scenario(seed, options.faults, options.axes);
     Verdict verdict{.violations = check_configuration(scenario.machine)};
     if (!verdict.violations.empty()) { return verdict; }
-    Played played = play(scenario);
+    Trace trace(scenario.machine);
+    Played played = play(scenario, options.trace ? &trace : nullptr);
     const Recording& recording = played.recording;
     verdict.violations = std::move(played.violations);
     verdict.fault = played.fault;
+    verdict.coverage = std::move(played.coverage);
+    for (const auto& [number, runs] : epoch_runs(recording)) { verdict.parted += runs.apart ? 1 : 0; }
     append(verdict.violations, check_all(recording));
     verdict.steps = recording.steps();
     verdict.hash = recording.hash();
     verdict.simulated_s =
         static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
-    if (twice && play(scenario).recording.hash() != verdict.hash) {
+    if (options.twice && play(scenario).recording.hash() != verdict.hash) {
         verdict.violations.push_back({"determinism", {}, {}, {}, "a second run of the same seed made other steps"});
     }
     return verdict;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "tests/simulation/simtest/coverage.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
 #include "tests/simulation/simtest/violation.hpp"
 
@@ -13,10 +14,19 @@ struct Verdict {
     std::uint64_t steps = 0;
     std::uint64_t hash = 0;  // of all steps
     double simulated_s = 0;
-    FaultCode fault = FaultCode::None;  // a lossy network led to it
+    Coverage coverage;
+    std::uint64_t parted = 0;           // epochs of which not all axes ran the same frames
+    FaultCode fault = FaultCode::None;  // the last that what went wrong in the run led to
 };
 
-/// twice: plays it a second time, to see that it comes out the same.
-Verdict run_seed(std::uint64_t seed, const NetworkFaults& faults, std::optional<std::size_t> axes, bool twice);
+/// How a seed is run.
+struct RunOptions {
+    FaultKinds faults;
+    std::optional<std::size_t> axes;  // drawn if not given
+    bool twice = false;               // plays it a second time, to see that it comes out the same
+    bool trace = false;               // tells it as it happens
+};
+
+Verdict run_seed(std::uint64_t seed, const RunOptions& options);
 
 }  // namespace lockstep::simtest

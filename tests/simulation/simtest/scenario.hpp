@@ -10,16 +10,25 @@
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_network.hpp"
 
 namespace lockstep::simtest {
 
-/// What the network does to messages.
-struct NetworkFaults {
+/// What may go wrong in a run: with messages, with processes, with links.
+struct FaultKinds {
     bool delay = false;
     bool reorder = false;
     bool duplicate = false;
     bool loss = false;
+    bool freeze = false;
+    bool crash = false;
+    bool partition = false;
+    bool corrupt = false;
+    bool mixed = false;  // each kind is there in half of the runs only
+
+    bool breaks_processes() const { return freeze || crash || partition; }
+    static constexpr FaultKinds all() { return {true, true, true, true, true, true, true, true, true}; }
 };
 
 /// A command that must be refused, and why; the machine goes on as if it had not been given.
@@ -29,9 +38,19 @@ struct WrongCommand {
     FaultCode refusal = FaultCode::NothingToDo;
 };
 
+/// A fault of a process or a link, placed by what the protocol is doing then.
+struct PlannedFault {
+    enum class Edge : std::uint8_t { FirstSend, Check, LastCheck, Start };
+    VirtualFault fault;  // `at` is filled in when the epoch, or the homing, has begun
+    int epoch = 0;       // of the job, counted from 0
+    FrameNumber frame = 1;
+    Edge edge = Edge::Start;  // of that frame
+    double slots = 0;         // after the edge; in homing: after its beginning
+};
+
 /// What happens while a job is in motion.
 struct Interrupt {
-    enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, WrongCommand };
+    enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, EmergencyStop, WrongCommand };
     Kind kind = Kind::HoldAndResume;
     double after_s = 0;  // since the motion began or went on
     double rest_s = 0;   // how long it is held
@@ -43,18 +62,23 @@ struct Task {
     Program program;  // start_mm is filled in when it is given
     std::vector<WrongCommand> before;
     std::vector<Interrupt> interrupts;
+    std::optional<PlannedFault> fault;
 };
 
 struct Scenario {
     std::uint64_t seed = 0;
     MachineConfig machine;
     NetworkBehaviour network;
-    bool lossy = false;
     std::vector<WrongCommand> before_homing;
+    std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
+    std::optional<PlannedFault> homing_fault;
     std::vector<Task> tasks;
+
+    /// Messages may be lost, one way or another.
+    bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
 };
 
 /// axes: how many; none: drawn too.
-Scenario draw_scenario(std::uint64_t seed, const NetworkFaults& faults, std::optional<std::size_t> axes);
+Scenario draw_scenario(std::uint64_t seed, const FaultKinds& faults, std::optional<std::size_t> axes);
 
 }  // namespace lockstep::simtest

@@ -1,4 +1,4 @@
-// The coordinator's phase, and what it was when a command came.
+// What the coordinator and the axes do and say, as seen beside them.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,8 @@ namespace lockstep::simtest {
 
 class Watch : public VirtualObserver {
 public:
+    explicit Watch(std::size_t axes) : axes_(axes) {}
+
     void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const Reply& reply : out.replies) { phase_at_command_.try_emplace(reply.sequence, phase_); }
         for (const CoordinatorNotice& notice : out.notices) {
@@ -23,6 +25,27 @@ public:
         }
     }
 
+    /// With the coordinator goes what it was doing.
+    void on_fault(Tick now, const VirtualFault& fault, bool begins) override {
+        if (begins) { disturbed_ = now; }
+        moved_ = now;
+        if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process != axes_.size()) { return; }
+        phase_ = MachinePhase::Waiting;
+        outcome_ = JobOutcome::Failed;
+    }
+
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
+        if (!out.state) { return; }
+        axes_[axis] = *out.state;
+        if (!out.state->at_rest || out.state->velocity != Velocity{}) { moved_ = now; }
+    }
+
+    /// When a fault last began.
+    std::optional<Tick> disturbed() const { return disturbed_; }
+    /// When an axis was last seen in motion, at its own device, or a fault began or ended.
+    Tick moved() const { return moved_; }
+    /// What each axis said last, wherever it went.
+    const std::vector<AxisState>& axes() const { return axes_; }
     MachinePhase phase() const { return phase_; }
     FaultCode fault() const { return fault_; }
     /// Of the last job; nothing while it is in progress.
@@ -33,6 +56,9 @@ public:
     }
 
 private:
+    std::vector<AxisState> axes_;
+    std::optional<Tick> disturbed_;
+    Tick moved_;
     MachinePhase phase_ = MachinePhase::Waiting;
     FaultCode fault_ = FaultCode::None;
     std::optional<JobOutcome> outcome_;

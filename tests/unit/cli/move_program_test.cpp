@@ -56,6 +56,16 @@ TEST(Move, IsRapidUnlessItHasAFeedPerMinute) {
     EXPECT_EQ(move_of({.targets = {"X=10"}, .feed_mm_min = 600}).feed_mm_s, 10);
 }
 
+TEST(Move, OfAxesOnTheirOwnMayTakeAGivenTime) {
+    EXPECT_THAT(move_of({.targets = {"X=10"}, .own = true}).target_mm, ElementsAre(10, 3));
+    EXPECT_EQ(ticks_of(two_axes(), {.own = true}), Ticks{});
+    EXPECT_EQ(ticks_of(two_axes(), {.own = true, .in_s = 0.5}), Ticks{500'000});
+    EXPECT_THAT(error_of({.targets = {"X=10"}, .in_s = 0.5}), HasSubstr("add --own"));
+    EXPECT_THAT(error_of({.targets = {"X=10"}, .feed_mm_min = 600, .own = true}), HasSubstr("there is none"));
+    EXPECT_THAT(error_of({.targets = {"X=10"}, .own = true, .in_s = 0}), HasSubstr("--in 0.000000 is not within"));
+    EXPECT_THAT(error_of({.targets = {"X=10"}, .own = true, .in_s = 601}), HasSubstr("to 600 s"));
+}
+
 TEST(Move, IsRefusedWithTheValueAndTheLimit) {
     EXPECT_THAT(error_of({.targets = {"X=200.5"}}), HasSubstr("outside the travel of axis X, 0.000 to 200.000 mm"));
     EXPECT_THAT(error_of({.targets = {"Y=-60"}, .relative = true}), HasSubstr("Y=-57.0000"));

@@ -105,6 +105,31 @@ TEST_F(Exact, AnEmergencyStopAndTheHomingAfterIt) {
     expect_exact(1);
 }
 
+class ByEachMethod : public Exact, public testing::WithParamInterface<StepMethod> {};
+
+TEST_P(ByEachMethod, AxesOnTheirOwnToTheirEndAndStopped) {
+    for (AxisConfig& axis : machine.axes) {
+        axis.method = GetParam();
+        if (GetParam() == StepMethod::Lai) { axis.max_velocity_mm_s = 40; }
+        if (GetParam() == StepMethod::Lam) { axis.start_velocity_mm_s = axis.max_velocity_mm_s = 15; }
+    }
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin_own(test::program_of(machine, "G0 X60 Y8\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        recorded.begin_own(parse_gcode("G0 X5 Y50\n", gcode_setup(machine, {60, 8}, "back")).value());
+        recorded.advance_ms(700);
+        recorded.command(CommandKind::Stop);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ByEachMethod,
+                         testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
+                                         StepMethod::Carrica));
+
 TEST_F(Exact, SixAxesAtOnce) {
     machine = test::example("six-axis");
     {

@@ -72,6 +72,12 @@ public:
         command(CommandKind::Run, programs_);
         ASSERT_TRUE(reaches(MachinePhase::Running));
     }
+    /// Axes to their places each by itself.
+    void begin_own(Program program) {
+        vm_.give_program(++programs_, std::move(program));
+        command(CommandKind::MoveOwn, programs_);
+        ASSERT_TRUE(reaches(MachinePhase::Running));
+    }
 
 private:
     LogSink sink_;

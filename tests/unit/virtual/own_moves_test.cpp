@@ -81,7 +81,7 @@ protected:
         for (std::int64_t k = 0; source && k < steps; ++k) { times_s.push_back(source->next_s()); }
         if (!source) { times_s = stepgen::ranade(move, stepgen::Fit::Exact)->times_s; }
         std::vector<std::int64_t> ticks;
-        for (const double at_s : times_s) { ticks.push_back(std::llround(at_s / 1e-6)); }
+        for (const double at_s : times_s) { ticks.push_back(std::llround(at_s * 1e6)); }
         return ticks;
     }
     void expect_steps(std::int64_t steps) const {

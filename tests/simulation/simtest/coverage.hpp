@@ -1,0 +1,56 @@
+// How often runs came to each thing that the protocol and its state machines know; what they never came to shows.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/virtual/virtual_machine.hpp"
+
+namespace lockstep::simtest {
+
+/// Counts by group and name. Everything there is to come to is in it from the start, at 0.
+class Coverage {
+public:
+    using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+    Coverage();
+    void hit(std::string_view group, std::string_view name, std::uint64_t times = 1);
+    void add(const Coverage& other);
+    const std::map<std::string, Counts, std::less<>>& groups() const { return groups_; }
+
+    /// Of a run's network.
+    void take(const AlterationCounts& alterations);
+
+private:
+    std::map<std::string, Counts, std::less<>> groups_;
+};
+
+/// Fills it from a machine in motion.
+class CoverageWatch : public VirtualObserver {
+public:
+    CoverageWatch(const MachineConfig& machine, Coverage& coverage);
+    /// The axes' processes that are still there count, too.
+    ~CoverageWatch() override;
+    CoverageWatch(const CoverageWatch&) = delete;
+    CoverageWatch& operator=(const CoverageWatch&) = delete;
+
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
+    void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
+
+private:
+    void take_transitions(std::size_t axis);
+    void take_check(std::size_t axis, Slot now, FrameNumber k, bool armed);
+    Slot start_slot(std::size_t axis, FrameNumber k) const;
+
+    MachineConfig machine_;
+    Coverage& coverage_;
+    std::vector<TransitionCounts> transitions_;  // of each axis's process so far
+    std::vector<Epoch> epoch_;                   // of each axis
+    std::map<Epoch, Tick> starts_;
+};
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,76 @@
+#include "tests/simulation/simtest/draw_fault.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace lockstep::simtest {
+namespace {
+
+using Kind = VirtualFault::Kind;
+
+Ticks ticks_of(double slots, const MachineConfig& machine) {
+    return {
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value)))};
+}
+
+/// Half as long as a process may be, or exactly so long; else somewhat longer, or very long.
+double draw_freeze_slots(Draw& draw, const ProtocolTiming& t) {
+    switch (draw.index(6)) {
+        case 0: return draw.real(0.1, t.stall_slots);
+        case 1:
+        case 2: return t.stall_slots;
+        case 3: return draw.real(t.stall_slots, t.check_slots());
+        case 4: return draw.real(t.stall_slots, 2.0 * t.frame_slots);
+        default: return draw.real(1, 8.0 * t.freshness_slots + 30);
+    }
+}
+
+/// From a message's time to far more than anybody waits for a word.
+double draw_outage_slots(Draw& draw, const ProtocolTiming& t) {
+    return draw.chance(0.6) ? draw.magnitude(0.5, 2.0 * t.frame_slots) : draw.real(1, 10.0 * t.freshness_slots + 40);
+}
+
+void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
+    if (draw.chance(0.6)) { fault.peer = (fault.process + 1 + draw.index(processes - 1)) % processes; }
+    const std::size_t way = draw.index(3);
+    fault.outgoing = way != 1;
+    fault.incoming = way != 2;
+}
+
+std::optional<VirtualFault> draw_event(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
+    std::vector<Kind> kinds;
+    if (faults.freeze) { kinds.push_back(Kind::Freeze); }
+    if (faults.crash) { kinds.push_back(Kind::Crash); }
+    if (faults.partition) { kinds.push_back(Kind::Cut); }
+    if (kinds.empty() || draw.chance(0.1)) { return std::nullopt; }
+    const std::size_t processes = machine.axes.size() + 1;
+    VirtualFault fault{.kind = kinds[draw.index(kinds.size())]};
+    fault.process = draw.chance(0.35) ? machine.axes.size() : draw.index(processes);
+    const double slots =
+        fault.kind == Kind::Freeze ? draw_freeze_slots(draw, machine.timing) : draw_outage_slots(draw, machine.timing);
+    fault.lasts = ticks_of(slots, machine);
+    if (fault.kind == Kind::Cut) { draw_cut(draw, fault, processes); }
+    return fault;
+}
+
+}  // namespace
+
+std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
+    const auto event = draw_event(draw, machine, faults);
+    if (!event) { return std::nullopt; }
+    PlannedFault planned{.fault = *event};
+    planned.epoch = draw.chance(0.8) ? 0 : 1;
+    planned.frame = draw.chance(0.4) ? 1 + draw.index(3) : 1 + static_cast<FrameNumber>(draw.magnitude(1, 100));
+    planned.edge = static_cast<PlannedFault::Edge>(draw.index(4));
+    planned.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
+    return planned;
+}
+
+std::optional<PlannedFault> draw_homing_fault(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
+    const auto event = draw_event(draw, machine, faults);
+    if (!event) { return std::nullopt; }
+    const double seconds = draw.magnitude(0.001, 2);
+    return PlannedFault{.fault = *event, .slots = seconds * 1e6 / static_cast<double>(machine.timing.slot_us)};
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,125 @@
+// An own move's frames: they join each other, end on the last step, and from each of them the axis can rest.
+#include "core/axis/own_move.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/axis/frame_check.hpp"
+#include "core/stepgen/methods.hpp"
+
+namespace lockstep {
+namespace {
+
+/// 80 steps/mm; as fast as suits the method.
+AxisConfig axis_by(StepMethod method) {
+    AxisConfig axis{.name = "X",
+                    .steps_per_mm = 80,
+                    .start_velocity_mm_s = 10,
+                    .max_velocity_mm_s = 150,
+                    .max_accel_mm_s2 = 1500,
+                    .max_decel_mm_s2 = 1500,
+                    .position_max_mm = 200,
+                    .method = method};
+    if (method == StepMethod::Lai) { axis.max_velocity_mm_s = 50; }
+    if (method == StepMethod::Lam) { axis.max_velocity_mm_s = 20; }
+    return axis;
+}
+
+struct ByMethod : testing::TestWithParam<StepMethod> {
+    static constexpr Ticks kSpan{12'000};
+    static constexpr Tick kStart{5'000};
+
+    OwnMove move(std::int64_t steps, bool backward) const {
+        const OwnMoveRequest request{steps, limits.max_velocity};
+        return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request).value(),
+                       {rest_position(0, backward), backward, steps, kStart}, limits, kSpan);
+    }
+    AxisConfig axis = axis_by(GetParam());
+    AxisLimits limits = limits_of(axis, 1000);
+};
+
+TEST_P(ByMethod, FramesJoinEachOtherAndEndOnTheLastStep) {
+    for (const std::int64_t steps : {1, 2, 3, 10, 777, 12'000}) {
+        for (const bool backward : {false, true}) {
+            OwnMove frames = move(steps, backward);
+            Position at = rest_position(0, backward);
+            Tick now = kStart;
+            FrameNumber number = 0;
+            bool ended = false;
+            while (!frames.all_made()) {
+                const HeldFrame frame = frames.next();
+                EXPECT_EQ(frame.number, ++number);
+                EXPECT_EQ(frame.start, now);
+                EXPECT_EQ(frame.track.from, at);
+                EXPECT_FALSE(ended);
+                now = frame.end();
+                at = frame.body_end();
+                ended = frame.last;
+            }
+            EXPECT_TRUE(ended && !frames.broken());
+            EXPECT_EQ(frames.end(), now);
+            EXPECT_EQ(at.count(), backward ? -steps : steps);
+            EXPECT_NEAR(at.as_steps(), static_cast<double>(at.count()), 1e-9);
+        }
+    }
+}
+
+TEST_P(ByMethod, EveryTailRestsWithinTheLimitsAndNotBeyondTheMove) {
+    for (const std::int64_t steps : {2, 3, 10, 55, 200, 777, 12'000}) {
+        OwnMove frames = move(steps, false);
+        while (!frames.all_made()) {
+            const HeldFrame frame = frames.next();
+            if (frame.last) { break; }
+            ASSERT_EQ(frame.track.tail.size(), 1u);
+            const Piece& tail = frame.track.tail.front();
+            const Piece& before = frame.track.body.back();
+            const double a = tail.acceleration.steps_per_tick2();
+            const double entry = tail.velocity.steps_per_tick() + a / 2;
+            const double exit = entry + a * static_cast<double>(tail.ticks.value);
+            const double speed = static_cast<double>(before.velocity_after(before.ticks)) * 0x1p-64;
+            const double some = 0.03 * limits.start_velocity;  // what whole ticks make of it
+            EXPECT_LE(-a, limits.max_deceleration * 1.001) << frame.number;
+            EXPECT_LE(a, 0) << frame.number;
+            EXPECT_LE(std::abs(speed - entry), limits.start_velocity + some) << frame.number;
+            EXPECT_LE(exit, limits.start_velocity + some) << frame.number;
+            const Position rest = frame.body_end() + tail.covered();
+            EXPECT_LE(rest.count(), steps);
+            EXPECT_NEAR(rest.as_steps(), static_cast<double>(rest.count()), 1e-9);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ByMethod,
+                         testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
+                                         StepMethod::Carrica),
+                         [](const auto& method) { return std::string(stepgen::name_of(method.param)); });
+
+TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
+    AxisConfig axis = axis_by(StepMethod::Lam);
+    axis.max_velocity_mm_s = 100;
+    const AxisLimits limits = limits_of(axis, 1000);
+    auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, limits.max_velocity});
+    ASSERT_TRUE(pieces);
+    OwnMove frames(*pieces, {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000});
+    Position rest;
+    while (!frames.all_made()) {
+        const HeldFrame frame = frames.next();
+        EXPECT_FALSE(frame.last);
+        rest = frame.body_end();
+        for (const Piece& piece : frame.track.tail) { rest = rest + piece.covered(); }
+    }
+    EXPECT_TRUE(frames.broken());
+    EXPECT_LT(rest.count(), 1'000);
+    EXPECT_NEAR(rest.as_steps(), static_cast<double>(rest.count()), 1e-9);
+}
+
+TEST(OwnPieces, InATimeAreRanadesAlone) {
+    EXPECT_TRUE(OwnPieces::plan(axis_by(StepMethod::Ranade), 1000, StepMethod::Ranade, {80, 0.012, Ticks{100'000}}));
+    const auto other = OwnPieces::plan(axis_by(StepMethod::Lai), 1000, StepMethod::Lai, {80, 0.004, Ticks{100'000}});
+    ASSERT_FALSE(other);
+    EXPECT_NE(other.error().find("method lai"), std::string::npos) << other.error();
+}
+
+}  // namespace
+}  // namespace lockstep
