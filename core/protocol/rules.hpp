@@ -10,15 +10,16 @@
 // The rules themselves stand in rules.inc, which the protocol's model (tests/model) reads too: what is searched
 // exhaustively there is what runs here.
 //
-// Clocks. A hop's two slots hold everything between what one process says and what another does about it: the speaker's
-// and the listener's loop period, the network's delay, and the error of both clocks, since each counts slots, samples
-// and stamps by its own:
+// Clocks. Each process counts slots, samples and stamps by its own clock, so a hop's two slots hold its error, too, at
+// both ends, beside the network's delay and the loop periods of who speaks and who listens. And a check may be made at
+// the very end of its slot, which leaves one slot until whoever repeats its veto must have heard it:
 //
 //     kHopSlots * slot >= 2 * loop_period + network_delay + 2 * clock_error
+//     slot >= network_delay + 2 * clock_error
 //
-// Within it clocks that differ by a whole slot (an error of half a slot each) are as good as one: the rest of the hop
-// is then one slot. Where delay and loops alone take the two slots, clocks that differ by a slot need one slot more
-// before the start, V = 5 + s: the one late clock, or the one early start, takes a slot from the two hops of a veto.
+// Then clocks whose counts differ by a slot at times are as good as one. Where the two slots are used up without the
+// clocks and counts still differ by one, V has to be 5 + s: a late clock's veto, or an early one's start, takes a slot
+// from the two hops.
 #pragma once
 
 #include <limits>

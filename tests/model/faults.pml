@@ -285,17 +285,22 @@ inline lowest_open(may_veto) {
     do :: k <= FRAMES && !(may_veto) -> k++ :: else -> break od
 }
 
+/* An axis that cannot go on; or, as proposed, one whose device has not begun the frame that it was to arm. */
+#if defined(OWN_REASONS)
+#define CANNOT_GO_ON (i == 0 && since == 0)
+#elif defined(VETOES_WHEN_LEFT_BEHIND)
+#define CANNOT_GO_ON (axis[i].ran < axis[i].cleared && CLOCK(i) > START(axis[i].cleared))
+#else
+#define CANNOT_GO_ON false
+#endif
+
 inline veto_for_own_reasons() {
-#ifdef OWN_REASONS
     if
-    :: i == 0 && since == 0 ->
+    :: CANNOT_GO_ON ->
         lowest_open(RULE_AXIS_MAY_VETO(CLOCK(i), START(k)));
         LOWEST(axis[i].veto, k)
     :: else
     fi
-#else
-    skip
-#endif
 }
 
 inline may_stop() {

@@ -21,7 +21,7 @@
 
 #include "tests/model/ablations.pml"
 
-/* The shortest times that the configuration allows. */
+/* The shortest times that the configuration allows, unless others are asked for. */
 #ifndef M
 #define M RULE_LEAST_FRESHNESS(S)
 #endif
@@ -31,7 +31,9 @@
 #ifndef A
 #define A RULE_LEAST_SEND_AHEAD(V, M)
 #endif
+#ifndef FRAME
 #define FRAME RULE_LEAST_FRAME(M, S)
+#endif
 #define START(k) (A + 2 + ((k) - 1) * FRAME)
 #define END (START(FRAMES) + 2) /* every device has decided on every frame, also on a clock one slot behind */
 
