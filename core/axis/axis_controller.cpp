@@ -54,6 +54,26 @@ void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
         const bool mine = command.axis == axis_ && command.sequence > command_taken_;
         if (mine && adopts(command.coordinator, now, out)) { carry_out(command, inputs.device, out); }
     }
+    for (const Command& request : inputs.requests) {
+        if (request.kind == CommandKind::EmergencyStop && is_news(request)) { stop_now(out); }
+    }
+}
+
+/// A client repeats its command until it is answered: only once does it stop anything.
+bool AxisController::is_news(const Command& request) {
+    const auto last = stops_taken_.find(request.client);
+    if (last != stops_taken_.end() && request.sequence <= last->second) { return false; }
+    if (last == stops_taken_.end() && stops_taken_.size() >= kClientsRemembered) {
+        stops_taken_.erase(stops_taken_.begin());
+    }
+    stops_taken_[request.client] = request.sequence;
+    return true;
+}
+
+void AxisController::stop_now(AxisOutputs& out) {
+    if (mode_ == Mode::Rest) { return; }
+    out.orders.emplace_back(device::StopNow{});
+    follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
 }
 
 /// One coordinator at a time: another is listened to only when the last one has been silent for long, at rest.
@@ -77,12 +97,7 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
             if (mode_ != Mode::Rest) { return refuse(command, FaultCode::Busy, out); }
             reset(out);
             return done(FaultCode::None);
-        case AxisCommandKind::StopNow:
-            if (mode_ != Mode::Rest) {
-                out.orders.emplace_back(device::StopNow{});
-                follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
-            }
-            return done(FaultCode::None);
+        case AxisCommandKind::StopNow: stop_now(out); return done(FaultCode::None);
         case AxisCommandKind::MoveOwn: return begin_own_move(command, device, out);
         case AxisCommandKind::Halt: return halt_local(out);
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ struct AxisInputs {
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
     std::span<const AxisCommand> commands;
+    std::span<const Command> requests;  // clients', to the coordinator: an emergency stop is the axis's matter too
 };
 
 /// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against.
@@ -106,6 +108,8 @@ private:
 
     void hear(const AxisInputs& inputs, AxisOutputs& out);
     bool adopts(Identity coordinator, Slot now, AxisOutputs& out);
+    bool is_news(const Command& request);
+    void stop_now(AxisOutputs& out);
     void carry_out(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);
     void begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);
     void reset(AxisOutputs& out);
@@ -139,6 +143,7 @@ private:
     AxisState state(Slot slot) const;
 
     static constexpr int kMaxTries = 10;
+    static constexpr std::size_t kClientsRemembered = 32;
     static constexpr std::int64_t kMaxFollowingError = 3;  // steps
 
     std::size_t axis_;
@@ -169,6 +174,7 @@ private:
     std::optional<Slot> state_slot_;
     std::optional<Identity> coordinator_;
     Slot coordinator_heard_ = 0;
+    std::map<Identity, std::uint64_t> stops_taken_;  // the newest emergency stop of each client
     std::uint64_t command_taken_ = 0;
     std::uint64_t command_done_ = 0;
     FaultCode command_fault_ = FaultCode::None;

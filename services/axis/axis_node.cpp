@@ -30,7 +30,8 @@ AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step
                                         .frames = mail.frames,
                                         .peers = mail.peers,
                                         .coordinator = mail.coordinator,
-                                        .commands = mail.commands});
+                                        .commands = mail.commands,
+                                        .requests = mail.requests});
     give(out.orders);
     if (device_.simulated) { device_.simulated->advance(now); }
     if (const auto drained = driver_.drain_capture(on_step); !drained) { note(drained.error()); }

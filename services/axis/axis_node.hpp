@@ -29,6 +29,7 @@ struct AxisMail {
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
     std::span<const AxisCommand> commands;
+    std::span<const Command> requests;  // clients'
 };
 
 class AxisNode {

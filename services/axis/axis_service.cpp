@@ -47,8 +47,8 @@ public:
     bool loop() {
         hear();
         const Tick now = clock_.now();
-        const AxisOutputs out =
-            node_.step(now, {frames_, states_, machine_, commands_}, [this](StepEdge step) { recorder_.step(step); });
+        const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_},
+                                           [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
         recorder_.loop(now, out, node_.controller().zero_count());
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
@@ -64,10 +64,12 @@ private:
         states_.clear();
         machine_.clear();
         commands_.clear();
+        requests_.clear();
         bus_.frames.take([&](Frame&& m) { frames_.push_back(std::move(m)); });
         bus_.states.take([&](AxisState&& m) { states_.push_back(m); });
         bus_.machine.take([&](MachineState&& m) { machine_.push_back(m); });
         bus_.commands.take([&](AxisCommand&& m) { commands_.push_back(m); });
+        bus_.requests.take([&](Command&& m) { requests_.push_back(m); });
         doubled_ = std::any_of(states_.begin(), states_.end(), [&](const AxisState& s) {
             return s.axis == setup_.axis && s.identity < setup_.identity;  // who came first stays
         });
@@ -102,6 +104,7 @@ private:
     std::vector<AxisState> states_;
     std::vector<MachineState> machine_;
     std::vector<AxisCommand> commands_;
+    std::vector<Command> requests_;
     Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;

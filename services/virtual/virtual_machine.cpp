@@ -149,7 +149,7 @@ void VirtualMachine::step_axis(std::size_t i) {
     };
     AxisNode& node = *axes_[i].node;
     device(i).advance(now_);
-    const AxisOutputs out = node.step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands}, on_step);
+    const AxisOutputs out = node.step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands}, on_step);
     device(i).advance(now_);  // it acts on its orders
     if (out.state) { multicast(*out.state, i); }
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
@@ -204,8 +204,10 @@ std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std:
     return command_.sequence;
 }
 
+/// Everyone hears what a client asks of the coordinator.
 void VirtualMachine::repeat_command() {
-    send(client_address(), coordinator_address(), std::make_shared<const VirtualMessage>(command_));
+    const auto message = std::make_shared<const VirtualMessage>(command_);
+    for (std::size_t to = 0; to <= coordinator_address(); ++to) { send(client_address(), to, message); }
 }
 
 const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {

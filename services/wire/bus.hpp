@@ -31,6 +31,7 @@ struct AxisBus {
     Reader<AxisState> states{participant};  // the other axes'
     Reader<MachineState> machine{participant};
     Reader<AxisCommand> commands{participant};
+    Reader<Command> requests{participant};  // clients', to the coordinator
     Writer<AxisState> state{participant};
 };
 
