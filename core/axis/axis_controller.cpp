@@ -11,7 +11,7 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       config_hash_(config_hash),
       slot_(machine.slot_ticks()),
       follower_(axis, machine),
-      homing_(machine.axes[axis], machine.tick_ns) {}
+      homing_(machine.axes[axis]) {}
 
 AxisOutputs AxisController::step(const AxisInputs& inputs) {
     AxisOutputs out;

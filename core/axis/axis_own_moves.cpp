@@ -26,7 +26,7 @@ void AxisController::begin_own_move(const AxisCommand& command, const DeviceStat
     const std::int64_t steps = command.target_steps - machine_position(device.position).count();
     if (const FaultCode why = refusal_of(command, steps); why != FaultCode::None) { return refuse(command, why, out); }
     if (steps == 0) { return done(FaultCode::None); }
-    start_local({.steps = steps, .speed_steps_per_tick = limits_.max_velocity, .ticks = command.ticks}, 0, out);
+    start_local({.steps = steps, .speed_mm_s = machine_.axes[axis_].max_velocity_mm_s, .ticks = command.ticks}, 0, out);
 }
 
 FaultCode AxisController::refusal_of(const AxisCommand& command, std::int64_t steps) const {
@@ -37,7 +37,7 @@ FaultCode AxisController::refusal_of(const AxisCommand& command, std::int64_t st
         return FaultCode::OutsideTravel;
     }
     const AxisConfig& axis = machine_.axes[axis_];
-    const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), limits_.max_velocity, command.ticks};
+    const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), axis.max_velocity_mm_s, command.ticks};
     const bool possible = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request).has_value();
     return possible ? FaultCode::None : FaultCode::BadProgram;
 }
@@ -68,12 +68,11 @@ void AxisController::take_homing_step(const HomingStep& step, AxisOutputs& out) 
 /// Ranade's is one frame: nobody halts it, and no stall breaks it up.
 OwnMove AxisController::own_move(const LocalMove& move, Tick start) const {
     const AxisConfig& axis = machine_.axes[axis_];
-    const OwnMoveRequest request{std::abs(move.steps), move.speed_steps_per_tick, move.ticks};
+    const OwnMoveRequest request{std::abs(move.steps), move.speed_mm_s, move.ticks};
     auto pieces = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request);
     const bool whole = is_homing() && (!pieces || axis.method == StepMethod::Ranade);
     if (!pieces) {
-        pieces =
-            OwnPieces::plan(axis, machine_.tick_ns, StepMethod::Ranade, {request.steps, move.speed_steps_per_tick});
+        pieces = OwnPieces::plan(axis, machine_.tick_ns, StepMethod::Ranade, {request.steps, move.speed_mm_s});
     }
     const bool backward = move.steps < 0;
     const Position from = rest_position(device_.position.count() - zero_count_, backward);

@@ -2,9 +2,6 @@
 
 namespace lockstep {
 
-Homing::Homing(const AxisConfig& axis, std::int64_t tick_ns)
-    : axis_(axis), tick_s_(static_cast<double>(tick_ns) * 1e-9) {}
-
 std::int64_t Homing::toward_switch(double mm) const {
     const std::int64_t steps = to_steps(axis_, mm);
     return axis_.homing.toward_min ? -steps : steps;
@@ -19,7 +16,7 @@ HomingStep Homing::search(HomingStage stage) {
     stage_ = stage;
     const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
     const std::int64_t reach = toward_switch(travel_mm * 1.1 + 2 * axis_.homing.pulloff_mm);
-    const double speed = axis_.homing.search_velocity_mm_s * axis_.steps_per_mm * tick_s_;
+    const double speed = axis_.homing.search_velocity_mm_s;
     if (stage == HomingStage::Release) { return {.move = LocalMove{-reach, speed, Trigger::HomeOpens}}; }
     return {.move = LocalMove{reach, speed, Trigger::HomeCloses}};
 }
@@ -32,7 +29,7 @@ HomingStep Homing::next(const LocalEnd& end) {
             if (end.by_limit) { return fail(FaultCode::LimitHit); }
             if (end.home_closed) { return search(HomingStage::Release); }
             stage_ = HomingStage::Latch;
-            const double speed = axis_.homing.latch_velocity_mm_s * axis_.steps_per_mm * tick_s_;
+            const double speed = axis_.homing.latch_velocity_mm_s;
             return {.move = LocalMove{toward_switch(2 * axis_.homing.pulloff_mm), speed, Trigger::HomeCloses}};
         }
         case HomingStage::Latch: return end.by_trigger ? zero_and_park(end) : fail(FaultCode::HomeSwitchNotFound);
@@ -47,7 +44,7 @@ HomingStep Homing::next(const LocalEnd& end) {
 HomingStep Homing::pull_off() {
     if (++pull_offs_ > kMaxPullOffs) { return fail(FaultCode::HomeSwitchStuck); }
     stage_ = HomingStage::PullOff;
-    const double speed = axis_.homing.search_velocity_mm_s * axis_.steps_per_mm * tick_s_;
+    const double speed = axis_.homing.search_velocity_mm_s;
     return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
 }
 
@@ -55,7 +52,7 @@ HomingStep Homing::zero_and_park(const LocalEnd& end) {
     stage_ = HomingStage::Park;
     HomingStep step{.zeroed = true, .zero_count = end.trigger_count - to_steps(axis_, axis_.homing.switch_position_mm)};
     const std::int64_t here = end.count - step.zero_count;
-    const double speed = axis_.max_velocity_mm_s * axis_.steps_per_mm * tick_s_;
+    const double speed = axis_.max_velocity_mm_s;
     step.move = LocalMove{to_steps(axis_, axis_.homing.park_mm) - here, speed, Trigger::None};
     return step;
 }

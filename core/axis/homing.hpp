@@ -18,7 +18,7 @@ enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park, Rele
 /// One move of an axis on its own, in steps from where it stands.
 struct LocalMove {
     std::int64_t steps = 0;  // signed
-    double speed_steps_per_tick = 0;
+    double speed_mm_s = 0;
     Trigger trigger = Trigger::None;
     Ticks ticks = {};  // how long it lasts; 0: as fast as the axis's limits allow
 };
@@ -43,7 +43,7 @@ struct HomingStep {
 
 class Homing {
 public:
-    Homing(const AxisConfig& axis, std::int64_t tick_ns);
+    explicit Homing(const AxisConfig& axis) : axis_(axis) {}
 
     /// Begins with the search, or away from the switch where it is closed already.
     HomingStep begin(bool home_closed);
@@ -63,7 +63,6 @@ private:
     static constexpr int kMaxPullOffs = 16;
 
     AxisConfig axis_;
-    double tick_s_;
     HomingStage stage_ = HomingStage::Idle;
     int pull_offs_ = 0;
 };

@@ -37,8 +37,9 @@ std::expected<OwnPieces, std::string> OwnPieces::plan(const AxisConfig& axis, st
 std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
                                                          const OwnMoveRequest& move) {
     const AxisLimits of_axis = limits_of(axis, tick_ns);
-    const PathLimits limits{std::min(of_axis.start_velocity, move.speed_steps_per_tick), move.speed_steps_per_tick,
-                            of_axis.max_acceleration, of_axis.max_deceleration};
+    const double speed = move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9;
+    const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
+                            of_axis.max_deceleration};
     const Displacement way = Displacement::steps(move.steps);
     Profile profile;
     if (move.ticks == Ticks{}) {
@@ -55,7 +56,7 @@ std::expected<OwnPieces, std::string> OwnPieces::stepped(const AxisConfig& axis,
                                                          StepMethod method, const OwnMoveRequest& move) {
     const double per_mm = axis.steps_per_mm;
     const double ticks_per_s = 1e9 / static_cast<double>(tick_ns);
-    const double max = move.speed_steps_per_tick * ticks_per_s;
+    const double max = move.speed_mm_s * per_mm;
     const double start = axis.start_velocity_mm_s * per_mm;
     const stepgen::StepMove asked{move.steps, std::min(start, max), max, axis.max_accel_mm_s2 * per_mm,
                                   axis.max_decel_mm_s2 * per_mm};

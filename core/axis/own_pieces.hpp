@@ -20,9 +20,9 @@ namespace lockstep {
 
 /// How far, how fast, how soon; forward, whichever way the move goes.
 struct OwnMoveRequest {
-    std::int64_t steps = 0;           // > 0
-    double speed_steps_per_tick = 0;  // at most
-    Ticks ticks;                      // how long it lasts, exactly; 0: as fast as the limits allow
+    std::int64_t steps = 0;  // > 0
+    double speed_mm_s = 0;   // at most
+    Ticks ticks;             // how long it lasts, exactly; 0: as fast as the limits allow
 };
 
 class OwnPieces {

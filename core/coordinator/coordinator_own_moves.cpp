@@ -40,8 +40,8 @@ std::optional<Reply> Coordinator::refuse_own(const Command& command, std::size_t
     if (!views_[axis].state->homed) {
         return refused(command, FaultCode::NotHomed, "axis " + config.name + " is not homed");
     }
-    const double fastest = limits_of(config, machine_.tick_ns).max_velocity;
-    const auto pieces = OwnPieces::plan(config, machine_.tick_ns, config.method, {steps, fastest, command.ticks});
+    const OwnMoveRequest move{steps, config.max_velocity_mm_s, command.ticks};
+    const auto pieces = OwnPieces::plan(config, machine_.tick_ns, config.method, move);
     return pieces ? std::nullopt : std::optional(refused(command, FaultCode::BadProgram, pieces.error()));
 }
 

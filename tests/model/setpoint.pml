@@ -70,7 +70,8 @@ byte i, j, k; /* scratch, zero between slots */
 
 /* ---- the coordinator: EpochRunner::send and stop ---- */
 
-#define SENDS(k) (slot >= RULE_FIRST_SEND(START(k), A) && RULE_MAY_SEND(slot, START(k), V, M) && !RULE_IS_VETOED(k, coordinator_veto))
+#define SENDS(k) \
+    (slot >= RULE_FIRST_SEND(START(k), A) && RULE_MAY_SEND(slot, START(k), V, M) && !RULE_IS_VETOED(k, coordinator_veto))
 
 /* The lowest veto heard is repeated. */
 inline coordinator_hears() {
@@ -140,7 +141,8 @@ inline hear_coordinator(words) {
     take(words)
 }
 
-#define COORDINATOR_NEWS(words) ((words.frames >> axis[i].held) || (axis[i].open && RULE_VETO_WINS(words.veto, axis[i].veto)))
+#define COORDINATOR_NEWS(words) \
+    ((words.frames >> axis[i].held) || (axis[i].open && RULE_VETO_WINS(words.veto, axis[i].veto)))
 
 inline listen_to_coordinator() {
     if

@@ -31,7 +31,7 @@ struct ByMethod : testing::TestWithParam<StepMethod> {
     static constexpr Tick kStart{5'000};
 
     OwnMove move(std::int64_t steps, bool backward) const {
-        const OwnMoveRequest request{steps, limits.max_velocity};
+        const OwnMoveRequest request{steps, axis.max_velocity_mm_s};
         return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request).value(),
                        {rest_position(0, backward), backward, steps, kStart}, limits, kSpan);
     }
@@ -99,7 +99,7 @@ TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
     AxisConfig axis = axis_by(StepMethod::Lam);
     axis.max_velocity_mm_s = 100;
     const AxisLimits limits = limits_of(axis, 1000);
-    auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, limits.max_velocity});
+    auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, axis.max_velocity_mm_s});
     ASSERT_TRUE(pieces);
     OwnMove frames(*pieces, {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000});
     Position rest;
@@ -115,8 +115,8 @@ TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
 }
 
 TEST(OwnPieces, InATimeAreRanadesAlone) {
-    EXPECT_TRUE(OwnPieces::plan(axis_by(StepMethod::Ranade), 1000, StepMethod::Ranade, {80, 0.012, Ticks{100'000}}));
-    const auto other = OwnPieces::plan(axis_by(StepMethod::Lai), 1000, StepMethod::Lai, {80, 0.004, Ticks{100'000}});
+    EXPECT_TRUE(OwnPieces::plan(axis_by(StepMethod::Ranade), 1000, StepMethod::Ranade, {80, 150, Ticks{100'000}}));
+    const auto other = OwnPieces::plan(axis_by(StepMethod::Lai), 1000, StepMethod::Lai, {80, 50, Ticks{100'000}});
     ASSERT_FALSE(other);
     EXPECT_NE(other.error().find("method lai"), std::string::npos) << other.error();
 }
