@@ -53,7 +53,7 @@ struct ProtocolTiming {
     std::int64_t slot_us = 10'000;
     int stall_slots = 10;       // s: how long a process may stall and the machine still runs on
     int freshness_slots = 11;   // m >= s + 1
-    int send_ahead_slots = 30;  // A >= V + m + 5
+    int send_ahead_slots = 39;  // A >= V + m + s + 4
     int frame_slots = 23;       // >= m + s + 2
 
     constexpr int check_slots() const { return RULE_CHECK_AHEAD(stall_slots); }  // V

@@ -11,6 +11,7 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     ring_room_ = device.free_segments;
     if (mode_ == Mode::Rest) { run_ = std::max(run_, device.run); }  // a device may have outlived another process
     if (mode_ != Mode::Rest && device.run == run_) {
+        veto_when_left_behind(device);
         record_progress(device, out);
         follow_speed(device);
         if (device.finished) { end_run(device, out); }
@@ -21,6 +22,13 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
         homed_ = false;
         fail(FaultCode::FollowingError, out);
     }
+}
+
+/// The device has fallen to a tail, perhaps while this process stalled with a frame decided on: others may be running
+/// it. What this axis holds from here on must be no evidence to them.
+void AxisController::veto_when_left_behind(const DeviceStatus& device) {
+    const bool fell = device.in_tail || (device.finished && !follower_.is_complete(device.frame));
+    if (mode_ == Mode::Following && fell) { follower_.veto_for_own_reasons(rules::slot_of(now_, slot_)); }
 }
 
 /// Records each body when the next has begun, and the last with its tail when the run has ended.

@@ -51,6 +51,8 @@ public:
     /// The device has ended the run of this epoch: nothing more of it is held or checked.
     void close() { open_ = false; }
     bool open() const { return open_; }
+    /// Whether an epoch is at its very end when its frames up to `ran` have been run.
+    bool is_complete(FrameNumber ran) const { return last_held_ && ran == held_; }
 
     /// Frames the device has done with are forgotten.
     void forget_before(FrameNumber number);

@@ -19,6 +19,7 @@ void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot n
     sent_ = 0;
     ended_ = late_ = false;
     veto_.reset();
+    heard_veto_.reset();
     in_flight_.clear();
     endings_.assign(1, Ending{0, path_.moves.front().profile.phases[0].from, at_, false});
 }
@@ -28,13 +29,14 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
     for (const AxisView& axis : axes) {
         const bool follows = axis.state && axis.state->epoch == epoch_;
         held_by_all = std::min(held_by_all, follows ? axis.state->held : 0);
-        if (follows && axis.state->veto) { ended_ = true; }  // what would come behind it nobody may run
+        if (follows) { heard_veto_ = rules::merge(heard_veto_, axis.state->veto); }
     }
+    if (heard_veto_) { ended_ = true; }  // what would come behind it nobody may run
     std::vector<Frame> frames;
     std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });
     for (const Frame& frame : in_flight_) {
         const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), machine_.timing);
-        if (in_time && frame.number > held_by_all && !(veto_ && *veto_ <= frame.number)) { frames.push_back(frame); }
+        if (in_time && frame.number > held_by_all && !(veto() && *veto() <= frame.number)) { frames.push_back(frame); }
     }
     while (!ended_) {
         const Slot start = rules::slot_of(start_ + made_, slot_);

@@ -69,7 +69,8 @@ public:
     Tick start() const { return start_; }
     Epoch epoch() const { return epoch_; }
     FrameNumber sent() const { return sent_; }
-    std::optional<FrameNumber> veto() const { return veto_; }
+    /// The lowest of the coordinator's own and those heard: a veto is repeated by whoever hears it.
+    std::optional<FrameNumber> veto() const { return rules::merge(veto_, heard_veto_); }
     bool was_late() const { return late_; }
 
 private:
@@ -95,9 +96,10 @@ private:
     FrameNumber sent_ = 0;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;
-    std::optional<FrameNumber> veto_;
-    std::deque<Frame> in_flight_;  // not begun yet
-    std::deque<Ending> endings_;   // how the epoch ends if this frame is the last run; the newest is sent_
+    std::optional<FrameNumber> veto_;        // the coordinator's own
+    std::optional<FrameNumber> heard_veto_;  // the lowest of the axes'
+    std::deque<Frame> in_flight_;            // not begun yet
+    std::deque<Ending> endings_;             // how the epoch ends if this frame is the last run; the newest is sent_
 };
 
 }  // namespace lockstep

@@ -80,9 +80,9 @@ constexpr FrameNumber veto_when_too_late(FrameNumber k) { return RULE_VETO_WHEN_
 
 /// Whether an axis may still veto a frame that starts at `start` for reasons of its own (a switch, a fault).
 constexpr bool axis_may_veto(Slot now, Slot start) { return RULE_AXIS_MAY_VETO(now, start); }
-/// Whether the coordinator may veto it (a stop, a hold): before any axis has decided.
+/// Whether the coordinator may veto it (a stop, a hold): as long as it could send it.
 constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) {
-    return RULE_COORDINATOR_MAY_VETO(now, start, t.check_slots());
+    return RULE_COORDINATOR_MAY_VETO(now, start, t.check_slots(), t.freshness_slots);
 }
 
 /// When a frame is first sent, and the last slot in which it is sent at all.

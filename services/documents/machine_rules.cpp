@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/coordinator/lai_path.hpp"
+#include "core/protocol/rules.inc"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
 
@@ -36,9 +37,10 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     };
     const int s = t.stall_slots;
     const int m = t.freshness_slots;
-    require("timing.freshness_slots", m, s + 1, "stall_slots + 1");
-    require("timing.send_ahead_slots", t.send_ahead_slots, 4 + s + m + 5, "4 + stall_slots + freshness_slots + 5");
-    require("timing.frame_slots", t.frame_slots, m + s + 2, "freshness_slots + stall_slots + 2");
+    require("timing.freshness_slots", m, RULE_LEAST_FRESHNESS(s), "stall_slots + 1");
+    require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(RULE_CHECK_AHEAD(s), m, s),
+            "freshness_slots + 2 x stall_slots + 8");
+    require("timing.frame_slots", t.frame_slots, RULE_LEAST_FRAME(m, s), "freshness_slots + stall_slots + 2");
     // Three frames of the longest kind are what a device's segment ring holds ahead of the one in progress.
     problems.require_between({"timing.send_ahead_slots", "timing.frame_slots"}, t.send_ahead_slots < 3 * t.frame_slots,
                              "timing.send_ahead_slots is " + std::to_string(t.send_ahead_slots) +

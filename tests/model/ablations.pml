@@ -25,9 +25,9 @@
 #define JUDGES_SILENCE_LATER
 #endif
 
-#ifdef STOPS_EARLY /* as early as new frames have to be sent */
+#ifdef WITHOUT_EARLY_STOPS /* the coordinator vetoes until the first axis decides */
 #undef RULE_COORDINATOR_MAY_VETO
-#define RULE_COORDINATOR_MAY_VETO(now, start, v) RULE_MAY_SEND(now, start, v, M)
+#define RULE_COORDINATOR_MAY_VETO(now, start, v, m) RULE_IS_EARLY(now, start, v)
 #endif
 
 #ifdef LAST_CHECK_EARLIER_BY
@@ -37,6 +37,6 @@
 #ifdef FRESHER_BY
 #define M (RULE_LEAST_FRESHNESS(S) + FRESHER_BY)
 #endif
-#ifdef SENT_AHEAD_FOR_A_STALL
-#define A (RULE_SEND_DEADLINE(V, M) + S)
+#ifdef WITHOUT_SEND_AHEAD_FOR_A_STALL /* of more than two slots */
+#define A (RULE_SEND_DEADLINE(V, M) + 2)
 #endif

@@ -288,7 +288,7 @@ inline lowest_open(may_veto) {
 /* An axis that cannot go on; or, as proposed, one whose device has not begun the frame that it was to arm. */
 #if defined(OWN_REASONS)
 #define CANNOT_GO_ON (i == 0 && since == 0)
-#elif defined(VETOES_WHEN_LEFT_BEHIND)
+#elif !defined(WITHOUT_VETO_WHEN_LEFT_BEHIND)
 #define CANNOT_GO_ON (axis[i].ran < axis[i].cleared && CLOCK(i) > START(axis[i].cleared))
 #else
 #define CANNOT_GO_ON false
@@ -307,7 +307,7 @@ inline may_stop() {
 #ifdef STOP
     if
     :: true ->
-        lowest_open(RULE_COORDINATOR_MAY_VETO(slot, START(k), V));
+        lowest_open(RULE_COORDINATOR_MAY_VETO(slot, START(k), V, M));
         LOWEST(coordinator_veto, k)
     :: true
     fi

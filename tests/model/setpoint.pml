@@ -29,7 +29,7 @@
 #define V RULE_CHECK_AHEAD(S)
 #endif
 #ifndef A
-#define A RULE_LEAST_SEND_AHEAD(V, M)
+#define A RULE_LEAST_SEND_AHEAD(V, M, S)
 #endif
 #ifndef FRAME
 #define FRAME RULE_LEAST_FRAME(M, S)

@@ -14,7 +14,7 @@ ProtocolTiming draw_timing(Draw& draw) {
     t.stall_slots = slots(1, t.slot_us < 2000 ? 12 : 5);
     t.freshness_slots = t.stall_slots + slots(1, 3);
     t.frame_slots = t.freshness_slots + t.stall_slots + 2 + slots(0, 8);
-    t.send_ahead_slots = std::min(4 + t.stall_slots + t.freshness_slots + 5 + slots(0, 4), 3 * t.frame_slots - 1);
+    t.send_ahead_slots = std::min(2 * t.stall_slots + t.freshness_slots + 8 + slots(0, 4), 3 * t.frame_slots - 1);
     return t;
 }
 

@@ -53,9 +53,9 @@ TEST(Rules, TooLateToVetoAFrameVetoesTheNext) {
     EXPECT_EQ(rules::veto_when_too_late(7), 8u);
 }
 
-TEST(Rules, TheCoordinatorVetoesOnlyWhatNobodyHasDecided) {
-    EXPECT_TRUE(rules::coordinator_may_veto(94, kStart, kTiming));
-    EXPECT_FALSE(rules::coordinator_may_veto(95, kStart, kTiming));
+TEST(Rules, TheCoordinatorVetoesOnlyWhatItCouldStillSend) {
+    EXPECT_TRUE(rules::coordinator_may_veto(90, kStart, kTiming));
+    EXPECT_FALSE(rules::coordinator_may_veto(91, kStart, kTiming));
 }
 
 TEST(Rules, AnAxisVetoesOnlyWhatStillReachesEveryone) {

@@ -30,6 +30,25 @@ std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumbe
          slot}};
 }
 
+/// With two axes nobody else is there to repeat it when the link between them breaks.
+TEST(EpochRunner, RepeatsTheLowestVetoItHears) {
+    const MachineConfig machine = one_slow_axis();
+    const ProgramPlanner planner(machine);
+    Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
+    const auto legs = planner.plan(program, {0});
+    ASSERT_TRUE(legs.has_value());
+    EpochRunner runner(machine, 1);
+    runner.begin(1, planner.path((*legs)[0].moves, {}), {Position::steps(0)}, 100);
+    (void)runner.send(110, says(110, 0, {}, 0, {}));
+    EXPECT_EQ(runner.veto(), std::nullopt);
+    (void)runner.send(111, says(111, 1, 3, 0, {}));
+    (void)runner.send(112, says(112, 1, 2, 0, {}));
+    (void)runner.send(113, says(113, 1, 3, 0, {}));
+    EXPECT_EQ(runner.veto(), 2u);
+    runner.stop(100);
+    EXPECT_EQ(runner.veto(), 1u);
+}
+
 /// Two seconds of braking are far more frames than the coordinator remembers the ends of.
 TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
     const MachineConfig machine = one_slow_axis();

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("timing { slot_us: 499 }"), 11, 10, "500 to 1000000"},
                     Refusal{machine_with("timing { stall_slots: 0 }"), 11, 10, "1 to 200"},
                     Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
-                    Refusal{machine_with("timing { send_ahead_slots: 29 }"), 11, 10, "at least 30"},
+                    Refusal{machine_with("timing { send_ahead_slots: 38 }"), 11, 10, "at least 39"},
                     Refusal{machine_with("timing { frame_slots: 22 }"), 11, 10, "at least 23"},
                     Refusal{machine_with("network { interface: \"\" }"), 11, 11, "name an interface"},
                     Refusal{machine_with("network { interface: \"<lo>\" }"), 11, 11, "<lo>"},

@@ -21,7 +21,7 @@ TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
     EXPECT_EQ(machine.timing.slot_us, 10'000);
     EXPECT_EQ(machine.timing.stall_slots, 10);
     EXPECT_EQ(machine.timing.freshness_slots, 11);
-    EXPECT_EQ(machine.timing.send_ahead_slots, 30);
+    EXPECT_EQ(machine.timing.send_ahead_slots, 39);
     EXPECT_EQ(machine.timing.frame_slots, 23);
     EXPECT_EQ(machine.network.interface, "lo");
     EXPECT_EQ(machine.network.domain, 0U);
@@ -88,7 +88,7 @@ TEST(MachineFile, TheHashIsOfWhatIsMeantAndNotOfHowItIsWritten) {
     EXPECT_NE(config_hash(parse(axis_with("homing { park_mm: 1 }"))), hash);
 }
 
-TEST(MachineFile, TheHashIsTheSameOnEveryHost) { EXPECT_EQ(config_hash(parse(kShortest)), 10936139190952407926U); }
+TEST(MachineFile, TheHashIsTheSameOnEveryHost) { EXPECT_EQ(config_hash(parse(kShortest)), 16736186074892331303U); }
 
 }  // namespace
 }  // namespace lockstep

@@ -119,6 +119,32 @@ TEST_F(Rig, AnEmergencyStopCeasesPulsesAtOnceAndAsksForHoming) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
 }
 
+TEST_F(Rig, AnEmergencyStopNeedsNoCoordinator) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = 2, .at = vm.now(), .lasts = Ticks{10'000'000}});
+    vm.command(CommandKind::EmergencyStop);
+    wait(0.003);
+    const auto at = counts();
+    EXPECT_LT(at[0], 8500);
+    wait(0.5);
+    EXPECT_EQ(counts(), at) << "position is kept";
+    for (std::size_t i = 0; i < 2; ++i) { EXPECT_EQ(axis_fault(i), FaultCode::EmergencyStopped); }
+}
+
+TEST_F(Rig, AnEmergencyStopThatIsRepeatedStopsNothingAfterItsReset) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.8);
+    (void)ask(CommandKind::EmergencyStop);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    vm.repeat_command();
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    home();
+    EXPECT_EQ(fault(), FaultCode::None);
+}
+
 TEST_F(Rig, ALimitSwitchStopsItsAxisAtOnceAndTheOthersOnTheirLine) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
