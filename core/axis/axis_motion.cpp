@@ -16,8 +16,7 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
         if (device.finished) { end_run(device, out); }
     }
     if (phase_ == AxisPhase::Stop && mode_ == Mode::Rest) { happen(AxisEvent::Released); }
-    if (std::abs(device.encoder_count - device.position.count()) > kMaxFollowingError && homed_ &&
-        fault_ == FaultCode::None) {
+    if (std::abs(following_error()) > kMaxFollowingError && homed_ && fault_ == FaultCode::None) {
         homed_ = false;
         fail(FaultCode::FollowingError, out);
     }
