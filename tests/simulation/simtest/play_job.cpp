@@ -196,7 +196,9 @@ void JobPlayer::hold(const Interrupt& interrupt) {
         return;
     }
     const auto rests = [this] { return in(MachinePhase::Holding) || in(MachinePhase::Paused) || ended(); };
-    if (!bench_.await(rests, 2 * protocol_seconds(bench_) + job_.course.seconds, "coming to rest")) { return; }
+    if (!bench_.await(rests, 2 * protocol_seconds(bench_) + job_.course.seconds, "coming to rest") || ended()) {
+        return;
+    }
     const auto before = bench_.steps_made();
     bench_.wait(interrupt.rest_s);
     if (bench_.steps_made() != before) { return bench_.object("hold", "steps are made while the machine is held"); }

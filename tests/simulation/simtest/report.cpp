@@ -56,7 +56,7 @@ void print_text(const Tally& t) {
                 " steps judged; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
                 t.runs, t.failed, t.faulted, t.parted, t.steps, hours, t.wall_s, hours / t.wall_s,
                 static_cast<double>(t.runs) / t.wall_s);
-    print_coverage(t.coverage);
+    if (t.runs > 1) { print_coverage(t.coverage); }
 }
 
 }  // namespace
