@@ -1,21 +1,21 @@
 #include <algorithm>
 
 #include "tests/simulation/simtest/checks.hpp"
-#include "tests/simulation/simtest/epoch_runs.hpp"
 #include "tests/simulation/simtest/explain.hpp"
 
 namespace lockstep::simtest {
 namespace {
 
-/// Something that the machine need not bear without a pause had a say in the epoch that is over at this tick.
-bool is_disturbed(const Recording& recording, Tick at) {
-    const SentEpoch* interrupted = nullptr;
-    for (const auto& [number, epoch] : recording.epochs) {
-        if (epoch.frames.begin()->second.start <= at) { interrupted = &epoch; }
-    }
-    if (recording.lossy() || interrupted == nullptr) { return true; }
-    return std::ranges::any_of(faults_in(recording, *interrupted),
-                               [&](const VirtualFault& fault) { return !is_tolerable(fault, recording.machine); });
+/// Something that the machine need not bear without a pause had a say in the epoch that was over at this tick.
+bool is_disturbed(const Recording& recording, Tick over) {
+    if (recording.lossy()) { return true; }
+    Tick begun = recording.began;
+    for (const Tick tick : recording.epochs_begun) { begun = tick < over ? tick : begun; }
+    const Ticks echo = recording.machine.slot_ticks() * recording.machine.timing.send_ahead_slots;
+    return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        const bool meets = fault.at <= over && fault.end() + echo >= begun;
+        return meets && !is_tolerable(fault, recording.machine);
+    });
 }
 
 void check_emergency(const Recording& recording, const Emergency& emergency, Violations& violations) {

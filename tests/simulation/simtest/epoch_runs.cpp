@@ -30,6 +30,19 @@ LastFrame from_steps(const AxisRecord& axis, const LostRun& lost, const SentEpoc
     return found.value_or(LastFrame{lost.recorded, lost.recorded});
 }
 
+/// Faults that can have had a say in an epoch, from when its first frame was made to the end of its last.
+std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
+    const ProtocolTiming& t = recording.machine.timing;
+    const Ticks slot = recording.machine.slot_ticks();
+    const Tick from = epoch.frames.begin()->second.start - slot * (2 * t.send_ahead_slots);
+    const SentFrame& last = epoch.frames.rbegin()->second;
+    std::vector<VirtualFault> faults;
+    for (const VirtualFault& fault : recording.faults) {
+        if (fault.at <= last.start + last.ticks && fault.end() >= from) { faults.push_back(fault); }
+    }
+    return faults;
+}
+
 bool is_emergency_in(const Recording& recording, const SentEpoch& epoch) {
     const SentFrame& last = epoch.frames.rbegin()->second;
     const Tick from = epoch.frames.begin()->second.start -
@@ -75,18 +88,6 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
 }
 
 }  // namespace
-
-std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
-    const ProtocolTiming& t = recording.machine.timing;
-    const Ticks slot = recording.machine.slot_ticks();
-    const Tick from = epoch.frames.begin()->second.start - slot * (2 * t.send_ahead_slots);
-    const SentFrame& last = epoch.frames.rbegin()->second;
-    std::vector<VirtualFault> faults;
-    for (const VirtualFault& fault : recording.faults) {
-        if (fault.at <= last.start + last.ticks && fault.end() >= from) { faults.push_back(fault); }
-    }
-    return faults;
-}
 
 std::int64_t steps_to_rest(const SentEpoch& epoch, std::size_t axis, FrameNumber recorded, FrameNumber k) {
     if (k == 0) { return 0; }

@@ -19,9 +19,6 @@ struct EpochRuns {
     std::optional<Tick> parted;  // apart: when the first frame that not all ran began
 };
 
-/// Faults that can have had a say in an epoch, from when its first frame was made to the end of its last.
-std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch);
-
 /// Net steps of a lost run from after its last recorded frame to rest behind frame k.
 std::int64_t steps_to_rest(const SentEpoch& epoch, std::size_t axis, FrameNumber recorded, FrameNumber k);
 

@@ -45,8 +45,9 @@ void print_coverage(const Coverage& coverage) {
         for (const auto& [name, times] : counts) {
             if (times == 0) { never.push_back(name); }
         }
+        const bool some = !never.empty() && never.size() < counts.size();
         std::printf("  %-17s %2zu of %2zu%s%s\n", group.c_str(), counts.size() - never.size(), counts.size(),
-                    never.empty() ? "" : ", never: ", joined(never, ", ").c_str());
+                    some ? ", never: " : "", some ? joined(never, ", ").c_str() : "");
     }
 }
 
