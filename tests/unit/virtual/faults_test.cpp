@@ -100,6 +100,16 @@ TEST_F(Faults, AnAxisThatRestartsWhileItIsHomedIsLost) {
     expect_usable();
 }
 
+TEST_F(Faults, AnAxisThatRestartsWhileTheJobIsHeldIsLost) {
+    start_job();
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
+    befall(Kind::Crash, kY, 0.005);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << "nothing is resumed with it";
+    EXPECT_EQ(fault(), FaultCode::AxisLost);
+    expect_usable();
+}
+
 TEST_F(Faults, ANewCoordinatorIsIdleOnlyWhenEveryAxisRests) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
