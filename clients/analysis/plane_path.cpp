@@ -132,7 +132,8 @@ std::optional<PlaneComparison> compare_in_plane(const Analysis& analysis) {
     PlaneComparison result;
     NearestLine asked;
     for (const JobLog& job : analysis.jobs) {
-        const auto points = job.program ? asked_points(*job.program) : std::vector<PlanePoint>{};
+        const bool has_line = job.program && job.kind != "own-move";  // axes on their own are asked for no line
+        const auto points = has_line ? asked_points(*job.program) : std::vector<PlanePoint>{};
         if (points.size() < 2) { continue; }
         asked.add(points);
         add_asked(points, result.asked);

@@ -197,7 +197,7 @@ AxisState AxisController::state(Slot slot) const {
             .position = machine_position(device_.position),
             .velocity = device_.velocity,
             .tick = device_.now,
-            .following_error_steps = device_.encoder_count - device_.position.count(),
+            .following_error_steps = following_error(),
             .command_done = command_done_,
             .command_fault = static_cast<std::uint16_t>(command_fault_),
             .config_hash = config_hash_,

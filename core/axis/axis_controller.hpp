@@ -140,6 +140,7 @@ private:
     bool may_follow() const {
         return homed_ && mode_ == Mode::Rest && phase_ == AxisPhase::Standby && fault_ == FaultCode::None;
     }
+    std::int64_t following_error() const { return device_.encoder_count - device_.position.count() - encoder_zero_; }
     Position machine_position(Position device) const { return device - Displacement::steps(zero_count_); }
     AxisState state(Slot slot) const;
 
@@ -162,9 +163,10 @@ private:
     FaultCode fault_ = FaultCode::None;
     bool homed_ = false;
     std::int64_t zero_count_ = 0;
-    std::uint64_t run_ = 0;     // the device run begun last
-    FrameNumber recorded_ = 0;  // bodies of the run recorded so far
-    FrameNumber ran_ = 0;       // bodies of the epoch begun so far
+    std::int64_t encoder_zero_ = 0;  // of the encoder minus the count, at the homing
+    std::uint64_t run_ = 0;          // the device run begun last
+    FrameNumber recorded_ = 0;       // bodies of the run recorded so far
+    FrameNumber ran_ = 0;            // bodies of the epoch begun so far
     bool was_in_tail_ = false;
     std::optional<LocalRun> local_;
     std::size_t ring_room_ = 0;  // of the device's segment ring, in this loop

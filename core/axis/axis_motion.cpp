@@ -17,8 +17,7 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
         if (device.finished) { end_run(device, out); }
     }
     if (phase_ == AxisPhase::Stop && mode_ == Mode::Rest) { happen(AxisEvent::Released); }
-    if (std::abs(device.encoder_count - device.position.count()) > kMaxFollowingError && homed_ &&
-        fault_ == FaultCode::None) {
+    if (std::abs(following_error()) > kMaxFollowingError && homed_ && fault_ == FaultCode::None) {
         homed_ = false;
         fail(FaultCode::FollowingError, out);
     }
@@ -56,7 +55,8 @@ void AxisController::record_end(const HeldFrame& frame, const DeviceStatus& devi
     const std::int64_t here = device.position.count() - zero_count_;
     const std::int64_t body_end = frame.body_end().count();
     const bool beyond = here != body_end && (here > body_end) == (body_end > frame.track.from.count());
-    const bool in_tail = !frame.last && (!stopped || was_in_tail_ || beyond);
+    const bool may_be = device.now > frame.end() && beyond;  // stopped since the last look: by where it stands
+    const bool in_tail = !frame.last && (!stopped || was_in_tail_ || may_be);
     record(frame, false, stopped && !in_tail ? std::optional(here) : std::nullopt, out);
     if (in_tail && !frame.track.tail.empty()) {
         record(frame, true, stopped ? std::optional(here) : std::nullopt, out);

@@ -46,6 +46,7 @@ void AxisController::take_homing_step(const HomingStep& step, AxisOutputs& out) 
     out.notices.push_back({AxisNotice::Kind::HomingStage, step.fault, static_cast<std::uint64_t>(homing_.stage())});
     if (step.zeroed) {
         zero_count_ = step.zero_count;
+        encoder_zero_ = device_.encoder_count - device_.position.count();  // what was lost before is lost
         homed_ = true;
         happen(AxisEvent::Zeroed);
     } else if (phase_ == AxisPhase::Stop && step.fault == FaultCode::None) {

@@ -53,8 +53,7 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
         if (view.state && !same && !view.believes(state)) { continue; }
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
-        const bool needed = in_motion() || phase_ == MachinePhase::Homing;
-        if (view.state && !same && needed) { fail(FaultCode::AxisLost, state.axis, out); }
+        if (view.state && !same && job_) { fail(FaultCode::AxisLost, state.axis, out); }  // held or not
         if (!same) { orders_[state.axis].reset(); }
         view = {state, now_slot_};
     }

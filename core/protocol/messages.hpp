@@ -72,7 +72,7 @@ struct AxisState {
     Position position;        // machine coordinates, as the pulses have it
     Velocity velocity;
     Tick tick;                               // when position and velocity were read
-    std::int64_t following_error_steps = 0;  // encoder minus count
+    std::int64_t following_error_steps = 0;  // encoder minus count, since it was homed
     std::uint64_t command_done = 0;          // the newest AxisCommand carried out or refused
     std::uint16_t command_fault = 0;         // why it was refused; 0: it was carried out
     std::uint64_t config_hash = 0;           // of the configuration it runs with

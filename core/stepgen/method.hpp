@@ -1,7 +1,8 @@
 // What the published step generation methods have in common: a planned move in, the times of its steps out.
 //
-// Each method is as its authors published it, with their numbers as defaults; they are here to be compared with each
-// other and with the continuous ideal. The product itself runs core/step/engine.hpp.
+// Each method is as its authors published it, with their numbers as defaults. They are compared with each other and with
+// the continuous ideal, and an axis may make its own moves by any of them (step_source.hpp, core/axis/own_pieces.hpp).
+// Programs run by core/motion and core/step alone.
 #pragma once
 
 #include <cstdint>

@@ -6,23 +6,16 @@
 namespace lockstep::simtest {
 namespace {
 
-/// Far more than any stop on the path takes.
-Ticks longest_stop(const MachineConfig& machine) {
-    double seconds = 0;
-    for (const AxisConfig& axis : machine.axes) {
-        seconds = std::max(seconds, 2 * axis.max_velocity_mm_s / axis.max_decel_mm_s2);
-    }
-    return {static_cast<std::int64_t>(seconds * machine.ticks_per_second())};
-}
-
-/// A fault that the machine need not bear without a pause has begun, and its last effects are not yet over.
-bool is_disturbed(const Recording& recording, Tick at) {
-    const ProtocolTiming& t = recording.machine.timing;
-    const Ticks after =
-        recording.machine.slot_ticks() * (2 * t.send_ahead_slots + 2 * t.frame_slots) + longest_stop(recording.machine);
-    return recording.lossy() || std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
-               return fault.at <= at && at <= fault.end() + after && !is_tolerable(fault, recording.machine);
-           });
+/// Something that the machine need not bear without a pause had a say in the epoch that was over at this tick.
+bool is_disturbed(const Recording& recording, Tick over) {
+    if (recording.lossy()) { return true; }
+    Tick begun = recording.began;
+    for (const Tick tick : recording.epochs_begun) { begun = tick < over ? tick : begun; }
+    const Ticks echo = recording.machine.slot_ticks() * recording.machine.timing.send_ahead_slots;
+    return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        const bool meets = fault.at <= over && fault.end() + echo >= begun;
+        return meets && !is_tolerable(fault, recording.machine);
+    });
 }
 
 void check_emergency(const Recording& recording, const Emergency& emergency, Violations& violations) {

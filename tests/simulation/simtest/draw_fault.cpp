@@ -61,7 +61,7 @@ std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine,
     PlannedFault planned{.fault = *event};
     planned.epoch = draw.chance(0.8) ? 0 : 1;
     planned.frame = draw.chance(0.4) ? 1 + draw.index(3) : 1 + static_cast<FrameNumber>(draw.magnitude(1, 100));
-    planned.edge = static_cast<PlannedFault::Edge>(draw.index(4));
+    planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kEdges));
     planned.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
     return planned;
 }

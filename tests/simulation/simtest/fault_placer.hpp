@@ -36,6 +36,7 @@ private:
         const double start = static_cast<double>(planned_->frame - 1) * t.frame_slots;
         switch (planned_->edge) {
             case PlannedFault::Edge::FirstSend: return start - t.send_ahead_slots;
+            case PlannedFault::Edge::Evidence: return start - t.check_slots() - 1 - t.freshness_slots;
             case PlannedFault::Edge::Check: return start - t.check_slots();
             case PlannedFault::Edge::LastCheck: return start - 4;
             case PlannedFault::Edge::Start: return start;

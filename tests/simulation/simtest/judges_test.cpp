@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/claims.hpp"
 #include "tests/simulation/simtest/play.hpp"
 #include "tests/simulation/simtest/run.hpp"
 
@@ -48,6 +49,17 @@ protected:
     std::span<StepEdge> job_steps(std::size_t i) {
         const JobRecord& job = recording.jobs[1];
         return std::span(recording.axes[i].steps).subspan(job.first_step[i], job.end_step[i] - job.first_step[i]);
+    }
+    /// From all others, for the whole job.
+    void cut_off(std::size_t axis) {
+        const Tick from = recording.jobs[1].began;
+        recording.faults.push_back(
+            {.kind = VirtualFault::Kind::Cut, .process = axis, .at = from, .lasts = recording.ended - from});
+    }
+    void drop_last_frame_of(std::size_t i) {
+        AxisRecord& record = recording.axes[i];
+        while (record.steps.back().tick > record.tracks.back().start) { record.steps.pop_back(); }
+        record.tracks.pop_back();
     }
     static bool has(const Violations& violations, const std::string& rule) {
         return std::ranges::any_of(violations, [&](const Violation& v) { return v.rule == rule; });
@@ -144,6 +156,73 @@ TEST_F(Judges, SeeAFrameRunTwiceOrNotAtAll) {
 TEST_F(Judges, SeeAFrameRunAtAnotherTime) {
     recording.axes[0].tracks.back().start += Ticks{1};
     EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, SeeAPulseAfterAnEmergencyStop) {
+    const Tick asked = job_steps(0)[200].tick;
+    recording.emergencies.push_back({asked, recording.ended});
+    EXPECT_TRUE(has(check_stops(recording), "emergency"));
+}
+
+TEST_F(Judges, SeeAPauseForNothingAndExcuseOneForAnOutage) {
+    recording.interruptions.push_back(recording.ended);
+    EXPECT_TRUE(has(check_stops(recording), "needless stop"));
+    const Ticks allowed = recording.machine.slot_ticks() * recording.machine.timing.stall_slots;
+    recording.faults.push_back({.process = 1, .at = recording.jobs[1].began, .lasts = allowed});
+    EXPECT_TRUE(has(check_stops(recording), "needless stop")) << "so short a stall is no excuse";
+    recording.faults.back().lasts = allowed + allowed;
+    EXPECT_TRUE(check_stops(recording).empty());
+}
+
+TEST_F(Judges, ExcuseTheVictimOfAnOutageFromOneFrameButNotFromTwo) {
+    ASSERT_GT(recording.epochs.rbegin()->second.frames.size(), 2U);
+    cut_off(1);
+    drop_last_frame_of(1);
+    EXPECT_TRUE(check_frames(recording).empty());
+    drop_last_frame_of(1);
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+}
+
+TEST_F(Judges, ObjectWhereAxesPartedAndTheMachineWentOn) {
+    cut_off(1);
+    drop_last_frame_of(1);
+    const auto [number, epoch] = *recording.epochs.rbegin();
+    SentEpoch next{epoch.writer, {{1, epoch.frames.at(1)}}};
+    next.frames.at(1).start = recording.ended;
+    recording.epochs[number + 1] = next;
+    EXPECT_TRUE(has(check_frames(recording), "frames"));
+    recording.machine_faults.push_back(recording.ended);
+    EXPECT_TRUE(check_frames(recording).empty()) << "it was said";
+}
+
+/// Passes on what an axis says, with a step more than it has made.
+class Liar : public VirtualObserver {
+public:
+    explicit Liar(ClaimCheck& claims) : claims_(claims) {}
+    void on_step(std::size_t axis, StepEdge step) override { claims_.on_step(axis, step); }
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override {
+        AxisOutputs said = out;
+        if (said.state) { said.state->position = said.state->position + Displacement::steps(lie); }
+        claims_.on_axis(axis, now, said, node);
+    }
+    std::int64_t lie = 0;
+
+private:
+    ClaimCheck& claims_;
+};
+
+TEST(Claims, OfAStepTooManyAreUntrue) {
+    const Scenario scenario = two_axes();
+    Recording recording{.machine = scenario.machine, .axes = std::vector<AxisRecord>(2)};
+    VirtualMachine vm({.machine = scenario.machine});
+    ClaimCheck claims(vm, recording);
+    Liar liar(claims);
+    vm.observe(liar);
+    for (int n = 0; n < 100; ++n) { vm.advance(); }
+    EXPECT_TRUE(recording.untrue.empty());
+    liar.lie = 1;
+    for (int n = 0; n < 100; ++n) { vm.advance(); }
+    EXPECT_FALSE(recording.untrue.empty());
 }
 
 TEST(Seeds, GiveTheSameStepsEachTimeAndOthersForAnotherSeed) {

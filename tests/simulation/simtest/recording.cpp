@@ -80,6 +80,7 @@ void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const Axi
 void Recorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {
     for (const Frame& frame : out.frames) { keep(frame); }
     for (const CoordinatorNotice& notice : out.notices) {
+        if (notice.kind == CoordinatorNotice::Kind::EpochBegun) { recording_.epochs_begun.push_back(now); }
         if (notice.kind == CoordinatorNotice::Kind::Interrupted) { recording_.interruptions.push_back(now); }
         if (notice.kind != CoordinatorNotice::Kind::Fault) { continue; }
         recording_.machine_faults.push_back(now);

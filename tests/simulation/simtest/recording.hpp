@@ -88,6 +88,7 @@ struct Recording {
     std::map<Epoch, SentEpoch> epochs;
     std::vector<VirtualFault> faults;  // as they began
     std::vector<Emergency> emergencies;
+    std::vector<Tick> epochs_begun;     // the coordinator sets out, and may not come to send a frame
     std::vector<Tick> interruptions;    // the coordinator says that a motion was interrupted by nobody's wish
     std::vector<Tick> machine_faults;   // the coordinator enters Fault, or is about to
     std::vector<Violation> untrue;      // what an axis said of itself

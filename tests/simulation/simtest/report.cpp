@@ -45,8 +45,9 @@ void print_coverage(const Coverage& coverage) {
         for (const auto& [name, times] : counts) {
             if (times == 0) { never.push_back(name); }
         }
+        const bool some = !never.empty() && never.size() < counts.size();
         std::printf("  %-17s %2zu of %2zu%s%s\n", group.c_str(), counts.size() - never.size(), counts.size(),
-                    never.empty() ? "" : ", never: ", joined(never, ", ").c_str());
+                    some ? ", never: " : "", some ? joined(never, ", ").c_str() : "");
     }
 }
 
@@ -56,7 +57,7 @@ void print_text(const Tally& t) {
                 " steps judged; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
                 t.runs, t.failed, t.faulted, t.parted, t.steps, hours, t.wall_s, hours / t.wall_s,
                 static_cast<double>(t.runs) / t.wall_s);
-    print_coverage(t.coverage);
+    if (t.runs > 1) { print_coverage(t.coverage); }
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ struct WrongCommand {
 
 /// A fault of a process or a link, placed by what the protocol is doing then.
 struct PlannedFault {
-    enum class Edge : std::uint8_t { FirstSend, Check, LastCheck, Start };
+    enum class Edge : std::uint8_t { FirstSend, Evidence, Check, LastCheck, Start };
+    static constexpr std::size_t kEdges = 5;
     VirtualFault fault;  // `at` is filled in when the epoch, or the homing, has begun
     int epoch = 0;       // of the job, counted from 0
     FrameNumber frame = 1;

@@ -25,15 +25,15 @@ std::string text_of(const std::filesystem::path& path) {
 }
 
 /// A right angle: X 0 to 10 mm, then Y.
-void record_right_angle(const std::filesystem::path& log, double bulge_mm) {
+void record_right_angle(const std::filesystem::path& log, double bulge_mm, const std::string& kind = "run") {
     const Program program = path_through({{0, 0}, {10, 0}, {10, 10}});
     LogMaker maker(log);
     const auto bulge = static_cast<int>(bulge_mm * 100);
-    maker.job("begun", 0, program);
-    maker.job("epoch", 1000, program);
+    maker.job("begun", 0, program, "", kind);
+    maker.job("epoch", 1000, program, "", kind);
     maker.steps("X", 0, 0, even_steps(1000, 200, 1000 + bulge));
     maker.steps("Y", 0, 0, even_steps(500'000, 200, 1000));
-    maker.job("ended", 800'000, program, "done");
+    maker.job("ended", 800'000, program, "done", kind);
 }
 
 struct AnalysisTest : testing::Test {
@@ -193,6 +193,13 @@ TEST_F(AnalysisTest, MeasuresHowFarThePathSteppedIsFromThePathAsked) {
     EXPECT_LE(analyze_log(log)->largest_distance_mm.value(), 0.01) << "a step";
     record_right_angle(log, 0.5);
     EXPECT_NEAR(analyze_log(log)->largest_distance_mm.value(), 0.5, 0.01);
+}
+
+TEST_F(AnalysisTest, MeasuresNoLineWhereAxesMovedOnTheirOwn) {
+    record_right_angle(log, 0.5, "own-move");
+    const auto found = analyze_log(log);
+    EXPECT_FALSE(found->largest_distance_mm);
+    EXPECT_EQ(found->jobs.at(0).kind, "own-move");
 }
 
 TEST_F(AnalysisTest, DrawsThreeWellFormedFigures) {

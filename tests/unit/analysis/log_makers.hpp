@@ -71,8 +71,10 @@ public:
         writer_.write_message(channels_of("mill", machine.axes[axis].name).position, tick, to_lcm(machine, state));
     }
 
-    void job(const std::string& event, std::int64_t tick, const Program& program, std::string outcome = "") {
-        JobRecord record{.machine = "mill", .job = 3, .kind = "run", .event = event, .outcome = std::move(outcome)};
+    void job(const std::string& event, std::int64_t tick, const Program& program, std::string outcome = "",
+             std::string kind = "run") {
+        JobRecord record{
+            .machine = "mill", .job = 3, .kind = std::move(kind), .event = event, .outcome = std::move(outcome)};
         record.start = Tick{tick};
         record.config = machine_text(two_axes());
         record.program = program_text(program);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stepgen/limit_watch.hpp"
 #include "core/stepgen/methods.hpp"
 #include "core/stepgen/ranade.hpp"
 #include "core/stepgen/step_source.hpp"
@@ -84,6 +85,21 @@ protected:
         for (const double at_s : times_s) { ticks.push_back(std::llround(at_s * 1e6)); }
         return ticks;
     }
+    /// By the steps alone, but for what a tick more or less makes of the speed.
+    void expect_within_limits() const {
+        const auto limits = stepgen::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
+        const double rounding = 1.1 * limits.max * limits.max * limits.tick_s;
+        stepgen::LimitWatch watch({limits.start + rounding, limits.acceleration, limits.deceleration});
+        // Ranade's first step falls half a step on its way.
+        const std::int64_t first = (log.steps.front().tick - log.tracks.front().start).value;
+        EXPECT_FALSE(watch.step(static_cast<double>(GetParam() == StepMethod::Ranade ? 2 * first : first) * 1e-6));
+        for (std::size_t k = 1; k < log.steps.size(); ++k) {
+            const Ticks wait = log.steps[k].tick - log.steps[k - 1].tick;
+            ASSERT_FALSE(watch.step(static_cast<double>(wait.value) * 1e-6)) << "step " << k + 1;
+        }
+        const auto at_rest = watch.rest();
+        EXPECT_FALSE(at_rest) << "the speed falls by " << at_rest->change << " steps/s too much";
+    }
     void expect_steps(std::int64_t steps) const {
         const auto count = std::abs(steps);
         ASSERT_EQ(std::ssize(log.steps), count);
@@ -130,6 +146,7 @@ TEST_P(ByEachMethod, AStopBrakesWithinTheLimitsAndTheMachineIsReadyAgain) {
     EXPECT_GT(counts()[0], 600);
     EXPECT_LT(counts()[0], 9'500);
     EXPECT_TRUE(log.tracks.back().tail);
+    expect_within_limits();
     EXPECT_EQ(vm.axis_states()[0]->following_error_steps, 0);
     expect_done({10, 10});
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));
