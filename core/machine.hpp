@@ -15,6 +15,10 @@ inline constexpr std::size_t kMaxAxes = 32;
 /// How the steps of an axis's own moves are made (core/stepgen): homing, and moves from point to point by itself.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
 
+/// Where machine time comes from (core/clock). Shared: all processes read one host's clock. Network: axes estimate the
+/// coordinator's by asking. Ptp: every host's TAI clock is held to the others' by a PTP service.
+enum class TimeSource : std::uint8_t { Shared, Network, Ptp };
+
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
     int sequence = 0;  // axes with lower numbers home first; equal ones together
@@ -55,11 +59,15 @@ struct ProtocolTiming {
     int freshness_slots = 11;   // m >= s + 1
     int send_ahead_slots = 39;  // A >= V + m + s + 4
     int frame_slots = 23;       // >= m + s + 2
+    TimeSource time_source = TimeSource::Shared;
+    std::int64_t clock_error_limit_us = 2500;  // of an axis's machine time, to move; at most most_clock_error_us()
 
     constexpr int check_slots() const { return RULE_CHECK_AHEAD(stall_slots); }  // V
     constexpr int send_deadline_slots() const {                                  // V + m + 3
         return RULE_SEND_DEADLINE(check_slots(), freshness_slots);
     }
+    /// What a hop leaves for the error of two clocks (core/protocol/rules.hpp), half a slot being the network's.
+    constexpr std::int64_t most_clock_error_us() const { return RULE_MOST_CLOCK_ERROR(slot_us, slot_us / 2); }
 };
 
 struct NetworkConfig {
@@ -78,6 +86,7 @@ struct MachineConfig {
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }
     Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
+    Ticks clock_error_limit() const { return {timing.clock_error_limit_us * 1000 / tick_ns}; }
     Ticks frame_ticks() const { return slot_ticks() * timing.frame_slots; }
 };
 

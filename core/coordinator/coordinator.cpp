@@ -70,6 +70,11 @@ std::optional<std::size_t> Coordinator::missing_axis() const {
     return std::nullopt;
 }
 
+/// Whether an axis's clock may be further off than the protocol can bear.
+bool Coordinator::is_uncertain(std::size_t axis) const {
+    return views_[axis].state && views_[axis].state->clock_error > machine_.clock_error_limit();
+}
+
 /// Who is there, who is not, and who is in trouble.
 void Coordinator::watch_axes(CoordinatorOutputs& out) {
     for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -86,6 +91,8 @@ void Coordinator::watch_axes(CoordinatorOutputs& out) {
             const bool being_homed = phase_ == MachinePhase::Homing && !order_done(i);
             const bool being_reset = orders_[i] && orders_[i]->kind == AxisCommandKind::Reset && !order_done(i);
             if (!being_homed && !being_reset) { fail(static_cast<FaultCode>(view.state->fault), i, out); }
+        } else if (moving_ && is_uncertain(i)) {
+            fail(FaultCode::ClockUncertain, i, out);
         }
     }
 }

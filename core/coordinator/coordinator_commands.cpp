@@ -52,6 +52,21 @@ std::optional<Reply> Coordinator::refuse_unless_ready(const Command& command) co
     return std::nullopt;
 }
 
+/// Coordinated moves are for axes that agree on the time.
+std::optional<Reply> Coordinator::refuse_uncertain_clocks(const Command& command) const {
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        if (!is_uncertain(i)) { continue; }
+        const Int128 bound_us = Int128{views_[i].state->clock_error.value} * machine_.tick_ns / 1000;
+        return refused(command, FaultCode::ClockUncertain,
+                       "axis " + machine_.axes[i].name + ": its clock may be " +
+                           std::to_string(static_cast<std::int64_t>(bound_us)) + " us off, the limit is " +
+                           std::to_string(machine_.timing.clock_error_limit_us) +
+                           " us (timing.clock_error_limit_us); wait until the axis has heard the coordinator for some "
+                           "seconds, check the network to it, or give the slots more time");
+    }
+    return std::nullopt;
+}
+
 Reply Coordinator::home(const Command& command, CoordinatorOutputs& out) {
     if (auto refusal = refuse_unless_ready(command)) { return *refusal; }
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << views_.size()) - 1);
@@ -75,6 +90,7 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
             return refused(command, FaultCode::NotHomed, "axis " + machine_.axes[i].name + " is not homed");
         }
     }
+    if (auto refusal = refuse_uncertain_clocks(command)) { return *refusal; }
     auto plan = planner_.plan(*program->second, counts());
     if (!plan) {
         const std::string line = plan.error().line > 0 ? "line " + std::to_string(plan.error().line) + ": " : "";
@@ -119,6 +135,7 @@ Reply Coordinator::resume(const Command& command, CoordinatorOutputs& out) {
     if (const auto missing = missing_axis()) {
         return refused(command, FaultCode::AxisMissing, "axis " + machine_.axes[*missing].name + " is not heard");
     }
+    if (auto refusal = refuse_uncertain_clocks(command)) { return *refusal; }
     phase_ == MachinePhase::Paused ? begin_leg(out) : go_on(out);
     return accepted(command);
 }

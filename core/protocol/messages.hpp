@@ -33,11 +33,12 @@ constexpr bool is_epoch_of(Epoch epoch, Identity coordinator) {
 inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the planner keeps moves long enough
 inline constexpr std::size_t kMaxTailPieces = 60;   // the planner keeps stops short enough
 
-/// One axis's share of a frame. The tail starts where the body ends.
+/// One axis's share of a frame. The tail starts where the body ends. An axis may need a piece more for its device
+/// (core/axis/retime.hpp).
 struct AxisTrack {
     Position from;
-    StaticVector<Piece, kMaxBodyPieces> body;
-    StaticVector<Piece, kMaxTailPieces> tail;
+    StaticVector<Piece, kMaxBodyPieces + 1> body;
+    StaticVector<Piece, kMaxTailPieces + 1> tail;
     bool operator==(const AxisTrack&) const = default;
 };
 
@@ -77,7 +78,25 @@ struct AxisState {
     std::uint16_t command_fault = 0;         // why it was refused; 0: it was carried out
     std::uint64_t config_hash = 0;           // of the configuration it runs with
     std::uint64_t refused_frames = 0;        // since start
+    Ticks clock_error;                       // its machine time is at most so far off
     bool operator==(const AxisState&) const = default;
+};
+
+/// An axis asks what time it is. Answered at once, whatever the coordinator is doing; see core/clock.
+struct ClockRequest {
+    std::uint32_t axis = 0;
+    Identity identity = 0;
+    std::uint64_t sequence = 0;
+    Tick sent;  // by the axis's own clock
+    bool operator==(const ClockRequest&) const = default;
+};
+
+/// The request it answers, and when it came and went.
+struct ClockReply {
+    ClockRequest request;
+    Tick received;  // machine time
+    Tick answered;  // machine time
+    bool operator==(const ClockReply&) const = default;
 };
 
 /// MoveOwn: to a place by itself, not coordinated with others. Halt: a move of its own is braked and given up.

@@ -17,6 +17,10 @@
 //     kHopSlots * slot >= 2 * loop_period + network_delay + 2 * clock_error
 //     slot >= network_delay + 2 * clock_error
 //
+// With loops of at most half a slot the second is the narrower one. The configuration leaves the network half a slot,
+// and refuses a clock_error_limit_us above what then remains, a quarter; no coordinated move is made with an axis whose
+// clock may be further off than the limit (core/clock says how far that is).
+//
 // Then clocks whose counts differ by a slot at times are as good as one. Where the two slots are used up without the
 // clocks and counts still differ by one, V has to be 5 + s: a late clock's veto, or an early one's start, takes a slot
 // from the two hops.

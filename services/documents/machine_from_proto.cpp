@@ -30,15 +30,27 @@ private:
     std::optional<std::size_t> axis_;
 };
 
+TimeSource read_time_source(proto::TimeSource source) {
+    switch (source) {
+        case proto::NETWORK: return TimeSource::Network;
+        case proto::PTP: return TimeSource::Ptp;
+        default: return TimeSource::Shared;
+    }
+}
+
 ProtocolTiming read_timing(const proto::Timing& message) {
     const ProtocolTiming preset;
-    return {
+    ProtocolTiming timing{
         .slot_us = message.has_slot_us() ? message.slot_us() : preset.slot_us,
         .stall_slots = message.has_stall_slots() ? message.stall_slots() : preset.stall_slots,
         .freshness_slots = message.has_freshness_slots() ? message.freshness_slots() : preset.freshness_slots,
         .send_ahead_slots = message.has_send_ahead_slots() ? message.send_ahead_slots() : preset.send_ahead_slots,
         .frame_slots = message.has_frame_slots() ? message.frame_slots() : preset.frame_slots,
+        .time_source = read_time_source(message.time_source()),
     };
+    timing.clock_error_limit_us =
+        message.has_clock_error_limit_us() ? message.clock_error_limit_us() : timing.most_clock_error_us();
+    return timing;
 }
 
 NetworkConfig read_network(const proto::Network& message) {
@@ -128,6 +140,11 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     Reader(draft.missing).require(message.has_name(), message.name(), draft.machine.name, "name");
     draft.machine.tick_ns = message.has_tick_ns() ? message.tick_ns() : draft.machine.tick_ns;
     draft.machine.timing = read_timing(message.timing());
+    if (!proto::TimeSource_IsValid(message.timing().time_source())) {
+        Reader(draft.missing)
+            .refuse("timing.time_source", "timing.time_source is " + std::to_string(message.timing().time_source()) +
+                                              "; it is one of SHARED, NETWORK and PTP");
+    }
     draft.machine.network = read_network(message.network());
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;

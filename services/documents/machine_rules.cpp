@@ -47,6 +47,16 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
                                  "; below 3 x frame_slots, " + std::to_string(3 * t.frame_slots));
 }
 
+/// What the setpoint protocol leaves for clocks: a hop has to hold their error twice, beside the network's delay.
+void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
+    if (t.time_source == TimeSource::Shared) { return; }
+    const std::int64_t most = t.most_clock_error_us();
+    problems.require_between({"timing.clock_error_limit_us", "timing.slot_us"},
+                             t.clock_error_limit_us >= 1 && t.clock_error_limit_us <= most,
+                             "timing.clock_error_limit_us is " + std::to_string(t.clock_error_limit_us) + "; 1 to " +
+                                 std::to_string(most) + " (a quarter of slot_us); lengthen the slot, or lower it");
+}
+
 bool is_interface_name(std::string_view name) {
     const auto may_stand = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -79,6 +89,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     problems.require_range("tick_ns", static_cast<double>(machine.tick_ns), 100, 1e6);
     check_timing(machine, problems);
     check_protocol(machine.timing, problems);
+    check_clocks(machine.timing, problems);
     check_network(machine.network, problems);
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
                      "the machine has " + std::to_string(machine.axes.size()) +

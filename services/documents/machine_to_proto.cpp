@@ -11,6 +11,10 @@ void write_timing(const ProtocolTiming& timing, proto::Timing& message) {
     message.set_freshness_slots(timing.freshness_slots);
     message.set_send_ahead_slots(timing.send_ahead_slots);
     message.set_frame_slots(timing.frame_slots);
+    if (timing.time_source == TimeSource::Shared) { return; }  // the limit has no meaning
+    constexpr std::array kSources{proto::SHARED, proto::NETWORK, proto::PTP};
+    message.set_time_source(kSources[static_cast<std::size_t>(timing.time_source)]);
+    message.set_clock_error_limit_us(timing.clock_error_limit_us);
 }
 
 void write_network(const NetworkConfig& network, proto::Network& message) {

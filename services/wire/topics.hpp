@@ -12,11 +12,14 @@
 // deep per axis: after a stall the arming rule looks for states by their stamps, not for the newest.
 //
 // Commands, program parts and replies are reliable and 64 deep: a client has fewer than 64 unanswered.
+//
+// Clock requests and replies are best effort: a copy sent again would tell a wrong time. Only the newest few matter.
 #pragma once
 
 #include "core/protocol/messages.hpp"
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
+#include "idl/dds/clock.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
 
@@ -50,6 +53,8 @@ LOCKSTEP_TOPIC(MachineState, MachineState, {"lockstep/machine_state", kType, Del
 LOCKSTEP_TOPIC(Command, Command, {"lockstep/command", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(ProgramChunk, ProgramChunk, {"lockstep/program", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(Reply, Reply, {"lockstep/reply", kType, Delivery::Reliable, 64})
+LOCKSTEP_TOPIC(ClockRequest, ClockRequest, {"lockstep/clock_request", kType, Delivery::BestEffort, 8})
+LOCKSTEP_TOPIC(ClockReply, ClockReply, {"lockstep/clock_reply", kType, Delivery::BestEffort, 8})
 
 #undef LOCKSTEP_TOPIC
 

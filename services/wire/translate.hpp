@@ -13,6 +13,7 @@
 #include "core/protocol/messages.hpp"
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
+#include "idl/dds/clock.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
 
@@ -40,6 +41,8 @@ SetpointMessage to_wire(const Frame& frame);
 lockstep_wire_AxisState to_wire(const AxisState& state);
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command);
 lockstep_wire_MachineState to_wire(const MachineState& state);
+lockstep_wire_ClockRequest to_wire(const ClockRequest& request);
+lockstep_wire_ClockReply to_wire(const ClockReply& reply);
 lockstep_wire_Command to_wire(const Command& command);
 /// Points to the chunk's bytes: valid as long as they are. At most kMaxChunkBytes.
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk);
@@ -53,6 +56,8 @@ FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire);
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire);
 FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire);
 FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire);
+FromWire<ClockRequest> from_wire(const lockstep_wire_ClockRequest& wire);
+FromWire<ClockReply> from_wire(const lockstep_wire_ClockReply& wire);
 FromWire<Command> from_wire(const lockstep_wire_Command& wire);
 FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire);
 FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);

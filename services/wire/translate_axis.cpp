@@ -3,6 +3,8 @@
 
 namespace lockstep {
 
+constexpr std::int64_t kLongestClockError = std::int64_t{1} << 62;
+
 // The enumerations on the wire have core's order.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
 static_assert(lockstep_wire_AXIS_HALT == static_cast<int>(AxisCommandKind::Halt));
@@ -28,7 +30,8 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .command_done = state.command_done,
             .command_fault = state.command_fault,
             .config_hash = state.config_hash,
-            .refused_frames = state.refused_frames};
+            .refused_frames = state.refused_frames,
+            .clock_error_ticks = state.clock_error.value};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -39,6 +42,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.rate("velocity", wire.velocity);
     check.far("tick", wire.tick);
     check.far("following_error_steps", wire.following_error_steps);
+    check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return AxisState{.identity = wire.identity,
@@ -59,7 +63,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .command_done = wire.command_done,
                      .command_fault = wire.command_fault,
                      .config_hash = wire.config_hash,
-                     .refused_frames = wire.refused_frames};
+                     .refused_frames = wire.refused_frames,
+                     .clock_error = {wire.clock_error_ticks}};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -30,6 +30,16 @@ TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
     EXPECT_EQ(machine.axes[0].max_decel_mm_s2, 1500);
 }
 
+TEST(MachineFile, TimeComesFromOneHostUnlessSaidOtherwise) {
+    EXPECT_EQ(parse(kShortest).timing.time_source, TimeSource::Shared);
+    const ProtocolTiming timing = parse(machine_with("timing { time_source: NETWORK slot_us: 4000 }")).timing;
+    EXPECT_EQ(timing.time_source, TimeSource::Network);
+    EXPECT_EQ(timing.clock_error_limit_us, 1000) << "what a hop leaves: a quarter of the slot";
+    const auto ptp = machine_with("timing { time_source: PTP clock_error_limit_us: 5 }");
+    EXPECT_EQ(parse(ptp).timing.clock_error_limit_us, 5);
+    EXPECT_EQ(parse(machine_text(parse(ptp))).timing.time_source, TimeSource::Ptp);
+}
+
 TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     const HomingConfig homing = parse(kShortest).axes.at(0).homing;
     EXPECT_TRUE(homing.toward_min);

@@ -103,6 +103,22 @@ TEST(HostileAxisState, IsRefused) {
     refused("position_count", [](auto& w) { w.position_count = INT64_MIN; });
     refused("velocity", [](auto& w) { w.velocity = INT64_MIN; });
     refused("following_error_steps", [](auto& w) { w.following_error_steps = INT64_MIN; });
+    refused("clock_error_ticks", [](auto& w) { w.clock_error_ticks = -1; });
+}
+
+TEST(HostileClockMessages, AreRefused) {
+    auto request = to_wire(ClockRequest{});
+    request.axis = kMaxAxes;
+    expect_refused(request, "axis");
+    request = to_wire(ClockRequest{});
+    request.sent = INT64_MIN;
+    expect_refused(request, "sent");
+    auto reply = to_wire(ClockReply{});
+    reply.received = INT64_MAX;
+    expect_refused(reply, "received");
+    reply = to_wire(ClockReply{});
+    reply.answered = INT64_MIN;
+    expect_refused(reply, "answered");
 }
 
 TEST(HostileMachineState, IsRefused) {

@@ -37,7 +37,8 @@ AxisState RandomMessages::axis_state() {
             .command_done = bits(),
             .command_fault = fault(),
             .config_hash = bits(),
-            .refused_frames = bits()};
+            .refused_frames = bits(),
+            .clock_error = {between(0, std::int64_t{1} << 62)}};
 }
 
 AxisCommand RandomMessages::axis_command() {
@@ -47,6 +48,14 @@ AxisCommand RandomMessages::axis_command() {
             .kind = static_cast<AxisCommandKind>(index(5)),
             .target_steps = far(),
             .ticks = {between(0, INT32_MAX)}};
+}
+
+ClockRequest RandomMessages::clock_request() {
+    return {.axis = index(kMaxAxes), .identity = bits(), .sequence = bits(), .sent = {far()}};
+}
+
+ClockReply RandomMessages::clock_reply() {
+    return {.request = clock_request(), .received = {far()}, .answered = {far()}};
 }
 
 MachineState RandomMessages::machine_state() {

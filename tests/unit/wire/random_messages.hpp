@@ -14,6 +14,8 @@ public:
     Frame frame();
     AxisState axis_state();
     AxisCommand axis_command();
+    ClockRequest clock_request();
+    ClockReply clock_reply();
     MachineState machine_state();
     Command command();
     ProgramChunk chunk();

@@ -22,6 +22,8 @@ void expect_round_trips(Message (RandomMessages::*make)()) {
 TEST(RoundTrip, AFrameArrivesAsItWasSent) { expect_round_trips(&RandomMessages::frame); }
 TEST(RoundTrip, AnAxisStateArrivesAsItWasSent) { expect_round_trips(&RandomMessages::axis_state); }
 TEST(RoundTrip, AnAxisCommandArrivesAsItWasSent) { expect_round_trips(&RandomMessages::axis_command); }
+TEST(RoundTrip, AClockRequestArrivesAsItWasSent) { expect_round_trips(&RandomMessages::clock_request); }
+TEST(RoundTrip, AClockReplyArrivesAsItWasSent) { expect_round_trips(&RandomMessages::clock_reply); }
 TEST(RoundTrip, AMachineStateArrivesAsItWasSent) { expect_round_trips(&RandomMessages::machine_state); }
 TEST(RoundTrip, ACommandArrivesAsItWasSent) { expect_round_trips(&RandomMessages::command); }
 TEST(RoundTrip, AProgramChunkArrivesAsItWasSent) { expect_round_trips(&RandomMessages::chunk); }
@@ -30,8 +32,8 @@ TEST(RoundTrip, AReplyArrivesAsItWasSent) { expect_round_trips(&RandomMessages::
 TEST(RoundTrip, TheLargestFrameFits) {
     Frame frame{.number = 1, .ticks = {1}, .axes = std::vector<AxisTrack>(kMaxAxes)};
     for (AxisTrack& axis : frame.axes) {
-        while (axis.body.push_back({{1}, {2}, {3}})) {}
-        while (axis.tail.push_back({{4}, {5}, {6}})) {}
+        while (axis.body.size() < kMaxBodyPieces) { (void)axis.body.push_back({{1}, {2}, {3}}); }
+        while (axis.tail.size() < kMaxTailPieces) { (void)axis.tail.push_back({{4}, {5}, {6}}); }
     }
     const auto message = to_wire(frame);
     EXPECT_EQ(from_wire(message), frame);
