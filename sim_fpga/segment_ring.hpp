@@ -29,7 +29,7 @@ struct LoadedFrame {
     FrameNumber number = 0;
     bool last = false;
     std::size_t body_pieces = 0;
-    StaticVector<Piece, kMaxBodyPieces + kMaxTailPieces> pieces;
+    StaticVector<Piece, kMaxBodyPieces + 1 + kMaxTailPieces + 1> pieces;
 };
 
 class SegmentRing {

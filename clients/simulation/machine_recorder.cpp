@@ -13,12 +13,12 @@ void MachineRecorder::on_step(std::size_t axis, StepEdge step) {
     ++steps_;
 }
 
-void MachineRecorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
+void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& node) {
     auto& recorder = axes_[axis];
     if (!recorder && out.state) {
         recorder = std::make_unique<AxisRecorder>(machine_, axis, out.state->identity, sink_);
     }
-    if (recorder) { recorder->loop(now, out, node.controller().zero_count()); }
+    if (recorder) { recorder->loop(node.now(), out, node.controller().zero_count()); }
 }
 
 void MachineRecorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {

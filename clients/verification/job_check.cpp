@@ -1,6 +1,7 @@
 #include "clients/verification/job_check.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "clients/verification/run_difference.hpp"
 #include "services/documents/machine_file.hpp"
@@ -34,6 +35,14 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail) {
     run.start += frame.ticks;
     run.pieces.assign(track.tail.begin(), track.tail.end());
     return run;
+}
+
+/// Where axes have clocks of their own, what is compared exactly is places; of times, what clocks can differ by.
+std::string clock_note(const std::string& job, std::int64_t most_longer) {
+    return job +
+           ": each axis went by its device's clock; its places are as planned, its times are by that clock, and a "
+           "frame lasted up to " +
+           std::to_string(most_longer) + " ticks longer or shorter";
 }
 
 }  // namespace
@@ -105,8 +114,10 @@ void JobCheck::end(const job_t& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
+    const bool own_clocks = job_->replay && has_own_clocks();
     const Job job = *std::exchange(job_, std::nullopt);
     if (!job.replay) { return; }
+    if (own_clocks) { findings_.notes.push_back(clock_note(job.label, job.most_longer)); }
     if (record.outcome == "failed") {
         findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
                                   "; what was run of it is as planned");
@@ -212,11 +223,15 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
     }
     const Frame* frame = epoch_->replay.frame(run.frame);
     if (frame == nullptr) { return differ("axis " + name + ": the plan has no " + name_of(run), name, &run); }
-    if (const auto found = compare_runs(planned_run(*frame, axis, run.tail), run)) {
+    const Run planned = planned_run(*frame, axis, run.tail);
+    const auto found = has_own_clocks() ? compare_retimed(planned, run, progress.end) : compare_runs(planned, run);
+    if (found) {
         return findings_.differ({"axis " + name + ": " + name_of(run) + " " + found->text, name, found->tick_expected,
                                  found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))});
     }
-    progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to()};
+    progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to(),
+                run.start + run.ticks()};
+    job_->most_longer = std::max(job_->most_longer, std::abs((run.ticks() - planned.ticks()).value));
     ++findings_.runs;
     epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
 }

@@ -39,18 +39,21 @@ private:
         std::optional<JobReplay> replay;  // none for homing and own moves
         std::string broken;               // why what was run is not the whole plan; empty: it is
         std::string broken_axis;
+        std::int64_t most_longer = 0;  // ticks by which a run's length differs from the plan's, by a clock of its own
     };
     struct Progress {  // of an axis in an epoch
         FrameNumber ran = 0;
         bool in_tail = false;
         bool cut = false;
         Position at;
+        std::optional<Tick> end;  // of its last run
     };
     struct EpochCheck {
         EpochReplay replay;
         std::vector<Progress> axes;
     };
 
+    bool has_own_clocks() const { return job_->replay->machine().timing.time_source == TimeSource::Network; }
     void handle(const job_t& record);
     void begin(const job_t& record);
     void begin_epoch(const job_t& record);

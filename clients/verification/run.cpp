@@ -31,7 +31,9 @@ Ticks Run::ticks() const {
 
 std::expected<Run, std::string> to_run(const run_t& message) {
     if (!is_countable_run(message)) { return std::unexpected("a run with numbers that no machine counts to"); }
-    if (message.ticks.size() > kMaxBodyPieces) { return std::unexpected("a run of more pieces than a frame carries"); }
+    if (message.ticks.size() > kMaxBodyPieces + 1) {
+        return std::unexpected("a run of more pieces than a frame carries");
+    }
     Run run{.incarnation = message.incarnation,
             .sequence = message.sequence,
             .epoch = static_cast<Epoch>(message.epoch),

@@ -1,6 +1,7 @@
 #include "clients/verification/run_difference.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lockstep::verification {
 namespace {
@@ -38,7 +39,48 @@ void find_step(const Run& planned, const Run& seen, RunDifference& difference) {
     if (found.next() != nullptr) { difference.tick_seen = found.next()->tick; }
 }
 
+constexpr double kStretchSlack_ticks = 512;     // pieces of a tick each keep theirs
+constexpr Displacement kHair{Int128{1} << 40};  // 2^-24 step: what rounding leaves of a piece, and more
+
+/// The first piece after which the axis would not be where it is planned to be; none: everywhere it is.
+std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) {
+    Position expected = planned.from;
+    Position found = seen.from;
+    const bool split = seen.pieces.size() == planned.pieces.size() + 1;
+    if (!split && seen.pieces.size() != planned.pieces.size()) { return seen.pieces.size(); }
+    for (std::size_t i = 0; i < planned.pieces.size(); ++i) {
+        expected = expected + planned.pieces[i].covered();
+        found = found + seen.pieces[i].covered();
+        const bool last = i + 1 == planned.pieces.size();
+        if (last && split) { found = found + seen.pieces.back().covered(); }
+        const Displacement off = found - expected;
+        if (last ? off != Displacement{} : off > kHair || -off > kHair) { return i + 1; }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
+
+std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins) {
+    if (joins && seen.start != *joins) {
+        return RunDifference{"starts at tick " + std::to_string(seen.start.value) +
+                                 "; the one before it ends at tick " + std::to_string(joins->value),
+                             joins, seen.start};
+    }
+    const auto length = static_cast<double>(planned.ticks().value);
+    const double longer = std::abs(static_cast<double>((seen.ticks() - planned.ticks()).value));
+    if (longer > length * kMostStretch + kStretchSlack_ticks) {
+        return RunDifference{"lasts " + std::to_string(seen.ticks().value) + " ticks of its device, planned are " +
+                                 std::to_string(planned.ticks().value),
+                             std::nullopt, seen.start};
+    }
+    if (seen.from != planned.from) { return RunDifference{what_differs(planned, seen), std::nullopt, seen.start}; }
+    if (const auto piece = misplaced_piece(planned, seen)) {
+        return RunDifference{"is not where it is planned to be after piece " + std::to_string(*piece), std::nullopt,
+                             seen.start};
+    }
+    return std::nullopt;
+}
 
 std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen) {
     if (seen.start != planned.start) {

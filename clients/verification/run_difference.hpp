@@ -17,4 +17,13 @@ struct RunDifference {
 /// By start, position and pieces; none where they are the same.
 std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen);
 
+/// How much longer or shorter a run may be by a clock of the device's own: what machine time is slewed by, and the
+/// rates of clocks, with some reserve.
+inline constexpr double kMostStretch = 2e-3;
+
+/// By place alone, for a device with a clock of its own, whose run is `planned` retimed (core/axis/retime.hpp): the
+/// same place at the end of every piece, bit for bit at both ends, and a length that clocks can differ by. `joins`:
+/// when the run before it ended, by the same clock.
+std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins);
+
 }  // namespace lockstep::verification

@@ -16,6 +16,7 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
 AxisOutputs AxisController::step(const AxisInputs& inputs) {
     AxisOutputs out;
     now_ = inputs.now;
+    clock_error_ = inputs.clock_error;
     const Slot slot = rules::slot_of(now_, slot_);
     observe(inputs.device, out);
     if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
@@ -190,7 +191,7 @@ AxisState AxisController::state(Slot slot) const {
             .held = follower_.held(),
             .veto = follower_.veto(),
             .ran = ran_,
-            .at_rest = mode_ == Mode::Rest && !device_.moving,  // it may run out what another process began
+            .at_rest = at_rest(),  // it may run out what another process began
             .homed = homed_,
             .phase = phase_,
             .fault = static_cast<std::uint16_t>(fault_),
@@ -201,7 +202,8 @@ AxisState AxisController::state(Slot slot) const {
             .command_done = command_done_,
             .command_fault = static_cast<std::uint16_t>(command_fault_),
             .config_hash = config_hash_,
-            .refused_frames = refused_frames_};
+            .refused_frames = refused_frames_,
+            .clock_error = clock_error_};
 }
 
 }  // namespace lockstep

@@ -27,9 +27,11 @@ struct AxisInputs {
     std::span<const MachineState> coordinator;
     std::span<const AxisCommand> commands;
     std::span<const Command> requests;  // clients', to the coordinator: an emergency stop is the axis's matter too
+    Ticks clock_error;                  // now is at most so far off
 };
 
-/// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against.
+/// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against. From the
+/// controller it is in machine time, as commanded; recorded in the device's, as given (core/axis/device_time.hpp).
 struct ExecutedTrack {
     Epoch epoch = 0;  // 0: the axis's own move
     FrameNumber frame = 0;
@@ -66,6 +68,7 @@ struct AxisOutputs {
     std::vector<DeviceOrder> orders;
     std::vector<ExecutedTrack> tracks;
     std::vector<AxisNotice> notices;
+    Ticks device_ahead;  // of machine time: steps and tracks are recorded in the device's (core/axis/device_time.hpp)
 };
 
 using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;
@@ -79,6 +82,7 @@ public:
 
     AxisPhase phase() const { return phase_; }
     bool homed() const { return homed_; }
+    bool at_rest() const { return mode_ == Mode::Rest && !device_.moving; }
     /// How often each row of kAxisTransitions has been taken.
     const TransitionCounts& transitions() const { return transitions_; }
     /// Machine coordinates are the device's counts minus this.
@@ -174,6 +178,7 @@ private:
 
     DeviceStatus device_;
     Tick now_;
+    Ticks clock_error_;
     std::optional<Slot> state_slot_;
     std::optional<Identity> coordinator_;
     Slot coordinator_heard_ = 0;

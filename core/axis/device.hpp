@@ -43,6 +43,7 @@ namespace device {
 struct BeginRun {
     std::uint64_t run = 0;
     Trigger trigger = Trigger::None;
+    bool own = false;  // a move of the axis's own: its lengths are in ticks of the device, whatever machine time does
 };
 /// Loads one frame's body and tail behind those loaded before. Positions are the device's own.
 struct LoadFrame {

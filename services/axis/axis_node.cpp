@@ -6,7 +6,7 @@ namespace lockstep {
 
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
     RegisterWindow window = RegisterWindow::in_process();
-    return {window, std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now)};
+    return {window, std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now), {}};
 }
 
 std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDevice device) {
@@ -19,30 +19,42 @@ AxisNode::AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver)
     : device_(std::move(device)),
       driver_(std::move(driver)),
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash),
+      time_(setup.machine),
       longest_standstill_(setup.machine.slot_ticks() * rules::silence_slots(setup.machine.timing)) {}
 
-AxisOutputs AxisNode::step(Tick now, const AxisMail& mail, const OnStep& on_step) {
-    if (device_.simulated) { device_.simulated->advance(now); }
-    look(now);
-    AxisOutputs out = controller_.step({.now = now,
-                                        .device = status_,
+AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
+    if (device_.simulated) { device_.simulated->advance(own); }
+    for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
+    look(own);
+    knows_time_ = time_.look(own, status_.now, device_.lag, !controller_.at_rest());
+    AxisOutputs out = knows_time_ ? decide(mail) : AxisOutputs{};
+    if (device_.simulated) { device_.simulated->advance(own); }
+    if (const auto drained = driver_.drain_capture(on_step); !drained) { note(drained.error()); }
+    return out;
+}
+
+AxisOutputs AxisNode::decide(const AxisMail& mail) {
+    AxisOutputs out = controller_.step({.now = time_.now(),
+                                        .device = time_.in_machine_time(status_),
                                         .device_failed = std::exchange(failed_, false),
                                         .frames = mail.frames,
                                         .peers = mail.peers,
                                         .coordinator = mail.coordinator,
                                         .commands = mail.commands,
-                                        .requests = mail.requests});
+                                        .requests = mail.requests,
+                                        .clock_error = time_.error()});
+    for (ExecutedTrack& track : out.tracks) { track = time_.in_device_time(std::move(track)); }
+    for (DeviceOrder& order : out.orders) { order = time_.in_device_time(std::move(order)); }
+    out.device_ahead = time_.device_ahead();
     give(out.orders);
-    if (device_.simulated) { device_.simulated->advance(now); }
-    if (const auto drained = driver_.drain_capture(on_step); !drained) { note(drained.error()); }
     return out;
 }
 
-void AxisNode::look(Tick now) {
+void AxisNode::look(Tick own) {
     const auto status = driver_.read();
     if (!status) { return note(status.error()); }
-    if (status->now != status_.now || clock_moved_ == Tick{}) { clock_moved_ = now; }
-    if (now - clock_moved_ > longest_standstill_) {
+    if (status->now != status_.now || clock_moved_ == Tick{}) { clock_moved_ = own; }
+    if (own - clock_moved_ > longest_standstill_) {
         note("the device's clock stands still at tick " + std::to_string(status->now.value) +
              "; is its process, or its board, still running?");
     }

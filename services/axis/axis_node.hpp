@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/axis/axis_controller.hpp"
+#include "core/axis/device_time.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -18,6 +19,7 @@ namespace lockstep {
 struct AxisDevice {
     RegisterWindow window;
     std::unique_ptr<SimulatedDevice> simulated;  // null: another process's, or hardware
+    Ticks lag;                                   // how old its registers may be
 };
 
 /// A simulated device in this process, powered up at `now`.
@@ -30,6 +32,7 @@ struct AxisMail {
     std::span<const MachineState> coordinator;
     std::span<const AxisCommand> commands;
     std::span<const Command> requests;  // clients'
+    std::span<const ClockExchange> clock;
 };
 
 class AxisNode {
@@ -45,25 +48,33 @@ public:
     /// Error: the device is not there or is another.
     static std::expected<AxisNode, std::string> attach(const Setup& setup, AxisDevice device);
 
-    /// One loop at `now`: lets a simulated device run up to it, decides, and gives the device its orders. Every step
-    /// made since the last loop goes to on_step, in order. Trouble with the device becomes a fault.
-    AxisOutputs step(Tick now, const AxisMail& mail, const OnStep& on_step);
+    /// One loop when this process's clock reads `own`, which is machine time where that is shared: lets a simulated
+    /// device run up to it, decides, and gives the device its orders. Every step made since the last loop goes to
+    /// on_step, in order, in the device's time. Trouble with the device becomes a fault. Nothing is decided or said
+    /// before the machine time is known.
+    AxisOutputs step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
     /// What was last wrong with the device; empty: nothing ever was.
     const std::string& trouble() const { return trouble_; }
+    /// Machine time at the last step, and whether it is known.
+    Tick now() const { return time_.now(); }
+    bool knows_time() const { return knows_time_; }
     const AxisController& controller() const { return controller_; }
 
 private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
-    void look(Tick now);
+    void look(Tick own);
+    AxisOutputs decide(const AxisMail& mail);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
     AxisDevice device_;
     DeviceDriver driver_;
     AxisController controller_;
+    DeviceTime time_;
+    bool knows_time_ = false;
     DeviceStatus status_;
-    Tick clock_moved_;          // when the device's clock was last seen to go on
+    Tick clock_moved_;          // when, by this process's clock, the device's clock was last seen to go on
     Ticks longest_standstill_;  // of it: a device that is late looks the same for a while
     std::string trouble_;
     bool failed_ = false;  // since the controller was last told

@@ -14,11 +14,15 @@
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
+#include "services/wire/clock_link.hpp"
 
 namespace lockstep {
 namespace {
 
 using std::chrono::nanoseconds;
+
+/// How often lockstep-fpga renews its registers, and some more.
+Ticks register_age(std::int64_t tick_ns) { return {2'000'000 / tick_ns}; }
 
 std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis,
                                                    std::int64_t tick_ns, Tick now) {
@@ -29,28 +33,33 @@ std::expected<AxisDevice, std::string> open_device(const std::string& fpga, cons
     }
     auto window = RegisterWindow::open_shared(fpga.substr(kShared.size()));
     if (!window) { return std::unexpected(window.error() + "; start it: lockstep-fpga --name NAME"); }
-    return AxisDevice{std::move(*window), nullptr};
+    return AxisDevice{std::move(*window), nullptr, register_age(tick_ns)};
 }
 
 /// The loop's state: what came, what is said, what is complained about.
 class AxisService {
 public:
-    AxisService(const AxisNode::Setup& setup, AxisNode node, AxisBus bus, std::unique_ptr<RecordSink> sink)
+    AxisService(const AxisNode::Setup& setup, const MachineClock& clock, AxisNode node, AxisBus bus,
+                std::unique_ptr<RecordSink> sink)
         : setup_(setup),
-          clock_(setup.machine.tick_ns),
+          clock_(clock),
           node_(std::move(node)),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
-          recorder_(setup.machine, setup.axis, setup.identity, *sink_) {}
+          recorder_(setup.machine, setup.axis, setup.identity, *sink_) {
+        if (setup.machine.timing.time_source != TimeSource::Network) { return; }
+        const ClockAsker asker(static_cast<std::uint32_t>(setup.axis), setup.identity, setup.machine.tick_ns);
+        clock_client_ = std::make_unique<ClockClient>(bus_.participant, asker, [clock] { return clock.now(); });
+    }
 
     /// False: another process runs this axis.
     bool loop() {
         hear();
         const Tick now = clock_.now();
-        const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_},
+        const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
-        recorder_.loop(now, out, node_.controller().zero_count());
+        recorder_.loop(node_.now(), out, node_.controller().zero_count());
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
         return !doubled_;
@@ -65,6 +74,7 @@ private:
         machine_.clear();
         commands_.clear();
         requests_.clear();
+        if (clock_client_) { exchanges_ = clock_client_->take(); }
         bus_.frames.take([&](Frame&& m) { frames_.push_back(std::move(m)); });
         bus_.states.take([&](AxisState&& m) { states_.push_back(m); });
         bus_.machine.take([&](MachineState&& m) { machine_.push_back(m); });
@@ -88,6 +98,7 @@ private:
             log_warning(std::to_string(refused) + " messages refused so far: " + bus_.frames.refusals().last + " " +
                         bus_.states.refusals().last);
         }
+        if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
         if (node_.trouble() != trouble_) {
             trouble_ = node_.trouble();
             log_event(spdlog::level::err, FaultCode::DeviceFault, trouble_);
@@ -105,6 +116,8 @@ private:
     std::vector<MachineState> machine_;
     std::vector<AxisCommand> commands_;
     std::vector<Command> requests_;
+    std::unique_ptr<ClockClient> clock_client_;  // where the coordinator is asked for the time
+    std::vector<ClockExchange> exchanges_;
     Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
@@ -120,7 +133,7 @@ int fail(const std::string& why) {
 int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis) {
     StopSignal stop;
     if (options.priority > 0) { log_info(try_real_time(options.priority)); }
-    const MachineClock clock(machine.tick_ns);
+    const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
     const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine)};
     auto device = open_device(options.fpga, machine.axes[axis], machine.tick_ns, clock.now());
     if (!device) { return fail(device.error()); }
@@ -128,7 +141,7 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     if (!node) { return fail(node.error()); }
     auto bus = open_bus<AxisBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
-    AxisService service(setup, std::move(*node), std::move(*bus), open_record(machine.network, options.record));
+    AxisService service(setup, clock, std::move(*node), std::move(*bus), open_record(machine.network, options.record));
     log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + options.fpga);
 
     PeriodicLoop periodic(loop_period(machine));
@@ -157,6 +170,10 @@ int serve_axis(const AxisServiceOptions& options) {
         std::cerr << options.machine_file.string() << ": has no axis " << options.axis << "; it has:";
         for (const AxisConfig& axis : machine->axes) { std::cerr << ' ' << axis.name; }
         std::cerr << '\n';
+        return kServiceBadInput;
+    }
+    if (options.clock_error != ClockError{} && machine->timing.time_source != TimeSource::Network) {
+        std::cerr << "--clock-error: the machine's time_source is not NETWORK; nothing would correct the clock\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"axis", options.axis, options.log_file}); !log) {

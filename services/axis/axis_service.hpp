@@ -3,12 +3,14 @@
 
 #include <string>
 
+#include "services/runtime/clock_error.hpp"
 #include "services/runtime/service_options.hpp"
 
 namespace lockstep {
 
 struct AxisServiceOptions : ServiceOptions {
     std::string axis;          // its name in the file
+    ClockError clock_error;    // of this process's clock and of the device simulated in it, for tests
     std::string fpga = "sim";  // "sim": simulated in this process; "shm:NAME": of lockstep-fpga
 };
 

@@ -1,5 +1,6 @@
 // lockstep-axis: the command line.
 #include <CLI/CLI.hpp>
+#include <iostream>
 
 #include "services/axis/axis_service.hpp"
 
@@ -16,6 +17,10 @@ int main(int argc, char** argv) {
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
     app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
         ->check(CLI::Range(0, 99));
+    std::string clock_error;
+    app.add_option("--clock-error", clock_error,
+                   "for tests: makes this process's clock, and the device simulated in it, wrong: "
+                   "offset=SECONDS,ppm=N,step=SECONDS@SECONDS (after the start); needs time_source: NETWORK");
     app.add_flag("--no-lcm", no_lcm, "do not publish the record");
     app.footer(
         "Example: lockstep-axis --machine machine.textproto --axis X\n"
@@ -24,5 +29,11 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : lockstep::kServiceBadInput; }
     options.record = !no_lcm;
+    const auto error = lockstep::parse_clock_error(clock_error);
+    if (!error) {
+        std::cerr << "--clock-error: " << error.error() << '\n';
+        return lockstep::kServiceBadInput;
+    }
+    options.clock_error = *error;
     return lockstep::serve_axis(options);
 }

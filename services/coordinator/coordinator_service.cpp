@@ -14,6 +14,7 @@
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
+#include "services/wire/clock_link.hpp"
 
 namespace lockstep {
 namespace {
@@ -31,11 +32,14 @@ public:
     CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorBus bus,
                        std::unique_ptr<RecordSink> sink)
         : machine_(machine),
-          clock_(machine.tick_ns),
+          clock_(machine.tick_ns, machine.timing.time_source),
           coordinator_(machine, identity, config_hash(machine)),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
-          recorder_(machine, identity, *sink_) {}
+          recorder_(machine, identity, *sink_) {
+        if (machine.timing.time_source != TimeSource::Network) { return; }
+        clock_server_ = std::make_unique<ClockServer>(bus_.participant, [clock = clock_] { return clock.now(); });
+    }
 
     /// False: an older coordinator runs this machine.
     bool loop() {
@@ -119,6 +123,7 @@ private:
     MachineClock clock_;
     Coordinator coordinator_;
     CoordinatorBus bus_;
+    std::unique_ptr<ClockServer> clock_server_;  // where axes ask for the time
     std::unique_ptr<RecordSink> sink_;
     JobRecorder recorder_;
     ProgramInbox inbox_;
@@ -140,7 +145,7 @@ int run(const ServiceOptions& options, const MachineConfig& machine) {
     if (options.priority > 0) { log_info(try_real_time(options.priority)); }
     auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
-    const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns).now().value);
+    const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
     CoordinatorService service(machine, identity, std::move(*bus), open_record(machine.network, options.record));
     log_info("coordinator of machine " + machine.name + " is up");
 

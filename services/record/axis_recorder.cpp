@@ -28,7 +28,9 @@ void AxisRecorder::place(const AxisState& state) {
 }
 
 void AxisRecorder::loop(Tick now, const AxisOutputs& out, std::int64_t zero_count) {
-    if (!placed_ && out.state) { place(*out.state); }
+    std::optional<AxisState> state = out.state;
+    if (state) { state->tick += out.device_ahead; }
+    if (!placed_ && state) { place(*state); }
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,
                                .axis = machine_.axes[axis_].name,
@@ -48,8 +50,8 @@ void AxisRecorder::loop(Tick now, const AxisOutputs& out, std::int64_t zero_coun
         batcher_.set_position(batcher_.position_steps() - (zero_count - zero_count_));
         zero_count_ = zero_count;
     }
-    batcher_.poll(now);
-    if (out.state) { sink_.publish(channels_.position, to_lcm(machine_, *out.state)); }
+    batcher_.poll(now + out.device_ahead);
+    if (state) { sink_.publish(channels_.position, to_lcm(machine_, *state)); }
 }
 
 }  // namespace lockstep

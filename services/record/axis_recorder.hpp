@@ -21,7 +21,8 @@ public:
 
     /// Every step, in order, before the loop's outputs.
     void step(StepEdge step) { placed_ ? batcher_.add(step) : early_.push_back(step); }
-    /// After each loop: its outputs, and what the axis's zero then is.
+    /// After each loop, at this machine time: its outputs, and what the axis's zero then is. Times in the record are
+    /// the device's, which are machine time where that is shared.
     void loop(Tick now, const AxisOutputs& out, std::int64_t zero_count);
     /// At the end: what is still in hand.
     void finish() { batcher_.flush(); }

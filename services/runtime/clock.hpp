@@ -1,11 +1,14 @@
-// Machine time: CLOCK_MONOTONIC, which all processes of one host share. The tick is its nanoseconds in units of
-// tick_ns. It does not jump when the wall clock is set, and its origin is the host's start.
+// The clock a process reads, in ticks. Where machine time is shared, or comes over the network, it is CLOCK_MONOTONIC:
+// it does not jump when the wall clock is set, and its origin is the host's start. With PTP it is CLOCK_TAI, which the
+// PTP service keeps the same on all hosts.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 
+#include "core/machine.hpp"
 #include "core/units.hpp"
+#include "services/runtime/clock_error.hpp"
 
 namespace lockstep {
 
@@ -14,18 +17,23 @@ std::chrono::nanoseconds monotonic_now();
 
 class MachineClock {
 public:
-    /// tick_ns: nanoseconds in a tick, at least 1.
-    explicit MachineClock(std::int64_t tick_ns) : tick_ns_(tick_ns) {}
+    /// tick_ns: nanoseconds in a tick, at least 1. `error`: for tests, from now on.
+    explicit MachineClock(std::int64_t tick_ns, TimeSource source = TimeSource::Shared, const ClockError& error = {});
 
     /// The last tick that has begun.
-    Tick now() const { return tick_at(monotonic_now()); }
+    Tick now() const { return tick_at(read()); }
     Tick tick_at(std::chrono::nanoseconds time) const { return {time.count() / tick_ns_}; }
     std::chrono::nanoseconds time_of(Tick tick) const { return std::chrono::nanoseconds{tick.value * tick_ns_}; }
     /// Microseconds of machine time, as LCM messages carry it.
     std::int64_t utime_of(Tick tick) const { return time_of(tick).count() / 1000; }
 
 private:
+    std::chrono::nanoseconds read() const;
+
     std::int64_t tick_ns_;
+    TimeSource source_;
+    ClockError error_;
+    std::chrono::nanoseconds start_;
 };
 
 }  // namespace lockstep

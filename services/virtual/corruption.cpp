@@ -61,6 +61,8 @@ public:
 
     Alteration operator()(Command&) { return Alteration::None; }
     Alteration operator()(Reply&) { return Alteration::None; }
+    Alteration operator()(ClockRequest&) { return Alteration::None; }
+    Alteration operator()(ClockReply&) { return Alteration::None; }
 
 private:
     std::size_t index(std::size_t size) { return static_cast<std::size_t>(random_() % size); }

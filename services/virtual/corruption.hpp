@@ -14,7 +14,8 @@
 
 namespace lockstep {
 
-using VirtualMessage = std::variant<Frame, AxisState, MachineState, AxisCommand, Command, Reply>;
+using VirtualMessage =
+    std::variant<Frame, AxisState, MachineState, AxisCommand, Command, Reply, ClockRequest, ClockReply>;
 
 enum class Alteration : std::uint8_t {
     None,              // the message has nothing that could be altered so

@@ -1,6 +1,8 @@
 #include "services/virtual/virtual_machine.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace lockstep {
 namespace {
@@ -13,6 +15,8 @@ struct Mail {
     std::vector<AxisCommand> axis_commands;
     std::vector<Command> commands;
     std::vector<Reply> replies;
+    std::vector<ClockRequest> clock_requests;
+    std::vector<ClockReply> clock_replies;
 
     void operator()(const Frame& m) { frames.push_back(m); }
     void operator()(const AxisState& m) { axes.push_back(m); }
@@ -20,6 +24,8 @@ struct Mail {
     void operator()(const AxisCommand& m) { axis_commands.push_back(m); }
     void operator()(const Command& m) { commands.push_back(m); }
     void operator()(const Reply& m) { replies.push_back(m); }
+    void operator()(const ClockRequest& m) { clock_requests.push_back(m); }
+    void operator()(const ClockReply& m) { clock_replies.push_back(m); }
 };
 
 Mail collect(VirtualNetwork& network, Tick now, std::size_t address) {
@@ -44,8 +50,8 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 
 void VirtualMachine::power_up() {
     const MachineConfig& machine = options_.machine;
-    for (const AxisConfig& axis : machine.axes) {
-        axes_.push_back({simulated_device(axis, machine.tick_ns, now_), {}});
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        axes_.push_back({simulated_device(machine.axes[i], machine.tick_ns, device_time(i)), {}, {}, {}});
     }
     processes_.resize(axes_.size() + 1);
     std::mt19937_64 random(options_.seed ^ 0x9e3779b97f4a7c15U);
@@ -62,8 +68,9 @@ void VirtualMachine::start(std::size_t process) {
         coordinator_.emplace(options_.machine, static_cast<Identity>(now_.value), options_.config_hash);
     } else {
         const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash};
+        axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
         // A device made here is of this version: attaching cannot fail.
-        axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
+        axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr, {}}));
     }
     processes_[process] = {true, now_};
 }
@@ -75,7 +82,7 @@ void VirtualMachine::crash(std::size_t process) {
 
 void VirtualMachine::restart(std::size_t process) {
     (void)collect(network_, now_, process);  // nobody was there to receive it
-    if (process != coordinator_address()) { device(process).advance(now_); }
+    if (process != coordinator_address()) { device(process).advance(device_time(process)); }
     start(process);
 }
 
@@ -87,8 +94,14 @@ void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
     };
     for (std::size_t peer = 0; peer < processes_.size(); ++peer) {
         if (peer == fault.process || (fault.peer && peer != *fault.peer)) { continue; }
-        if (fault.outgoing) { turn(fault.process, peer); }
-        if (fault.incoming) { turn(peer, fault.process); }
+        if (fault.outgoing) {
+            turn(fault.process, peer);
+            turn(fault.process, clock_address(peer));
+        }
+        if (fault.incoming) {
+            turn(peer, fault.process);
+            turn(peer, clock_address(fault.process));
+        }
     }
 }
 
@@ -118,7 +131,51 @@ std::optional<std::size_t> VirtualMachine::next_process() const {
     return next;
 }
 
+bool VirtualMachine::is_up(std::size_t process) const {
+    const bool frozen = processes_[process].next > now_ + period_;
+    return processes_[process].alive && !frozen;
+}
+
+/// Whose clock messages come before anything else happens.
+std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
+    Tick soonest{std::numeric_limits<std::int64_t>::max()};
+    if (const auto process = next_process()) { soonest = processes_[*process].next; }
+    if (!turns_.empty()) { soonest = std::min(soonest, turns_.begin()->first); }
+    std::optional<std::size_t> next;
+    for (std::size_t i = 0; i < processes_.size(); ++i) {
+        const auto arrival = network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(i)));
+        if (!arrival || *arrival >= soonest) { continue; }
+        next = i;
+        soonest = *arrival;
+    }
+    return next;
+}
+
+void VirtualMachine::take_clock_mail(std::size_t process) {
+    now_ = std::max(now_, *network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(process))));
+    const Mail mail = collect(network_, now_, clock_address(process));
+    if (!is_up(process)) { return; }
+    for (const ClockRequest& request : mail.clock_requests) {
+        send(process, clock_address(request.axis),
+             std::make_shared<const VirtualMessage>(ClockReply{request, now_, now_}));
+    }
+    for (const ClockReply& reply : mail.clock_replies) {
+        Axis& axis = axes_[process];
+        if (const auto exchange = axis.asker->hear(reply, process_time(process))) {
+            axis.exchanges.push_back(*exchange);
+        }
+    }
+}
+
+void VirtualMachine::ask_time(std::size_t i) {
+    if (options_.machine.timing.time_source != TimeSource::Network) { return; }
+    if (const auto request = axes_[i].asker->ask(process_time(i))) {
+        send(i, clock_address(coordinator_address()), std::make_shared<const VirtualMessage>(*request));
+    }
+}
+
 void VirtualMachine::advance() {
+    if (const auto mail = next_clock_mail()) { return take_clock_mail(*mail); }
     const auto process = next_process();
     if (!turns_.empty() && (!process || turns_.begin()->first <= processes_[*process].next)) {
         now_ = turns_.begin()->first;
@@ -148,10 +205,12 @@ void VirtualMachine::step_axis(std::size_t i) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
     };
     AxisNode& node = *axes_[i].node;
-    device(i).advance(now_);
-    const AxisOutputs out =
-        node.step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands}, on_step);
-    device(i).advance(now_);  // it acts on its orders
+    const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
+    device(i).advance(device_time(i));
+    const AxisOutputs out = node.step(
+        process_time(i), {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands, exchanges}, on_step);
+    device(i).advance(device_time(i));  // it acts on its orders
+    ask_time(i);
     if (out.state) { multicast(*out.state, i); }
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
 }

@@ -10,8 +10,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/clock/clock_asker.hpp"
 #include "core/coordinator/coordinator.hpp"
 #include "services/axis/axis_node.hpp"
+#include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_network.hpp"
 
@@ -36,6 +38,9 @@ struct VirtualOptions {
     NetworkBehaviour network;
     Tick start{1'000'000};
     int loops_per_slot = 2;  // each process's loop, at a phase of its own
+    /// By axis; those not here read the machine's time. The coordinator's is the machine's, and the true one. More than
+    /// one time asks for a machine whose time_source is Network.
+    std::vector<AxisClocks> clocks;
 };
 
 class VirtualMachine {
@@ -75,6 +80,8 @@ public:
     /// The newest the client has heard.
     const std::optional<MachineState>& state() const { return machine_state_; }
     const std::vector<std::optional<AxisState>>& axis_states() const { return axis_states_; }
+    /// What an axis's device's clock reads now.
+    Tick device_time(std::size_t i) const { return clocks_of(i).device.at(now_, options_.start); }
     /// An axis's device, which outlives its processes.
     SimulatedDevice& device(std::size_t i) { return *axes_[i].device.simulated; }
     const AlterationCounts& alterations() const { return network_.alterations(); }
@@ -84,6 +91,8 @@ private:
     struct Axis {
         AxisDevice device;
         std::optional<AxisNode> node;
+        std::optional<ClockAsker> asker;
+        std::vector<ClockExchange> exchanges;  // not used yet
     };
     /// When a process's loop runs next; that of a dead one does not.
     struct Process {
@@ -104,6 +113,13 @@ private:
     void restart(std::size_t process);
     void cut(const VirtualFault& fault, bool begins);
 
+    AxisClocks clocks_of(std::size_t i) const { return i < options_.clocks.size() ? options_.clocks[i] : AxisClocks{}; }
+    Tick process_time(std::size_t i) const { return clocks_of(i).process.at(now_, options_.start); }
+    bool is_up(std::size_t process) const;
+    std::optional<std::size_t> next_clock_mail() const;
+    void take_clock_mail(std::size_t process);
+    void ask_time(std::size_t i);
+
     void step_axis(std::size_t i);
     void step_coordinator();
     void listen();
@@ -111,6 +127,8 @@ private:
     void multicast(VirtualMessage message, std::size_t from);
     std::size_t coordinator_address() const { return axes_.size(); }
     std::size_t client_address() const { return axes_.size() + 1; }
+    /// Clock messages are answered when they come, not in the loop.
+    std::size_t clock_address(std::size_t process) const { return axes_.size() + 2 + process; }
 
     static constexpr Identity kClient = 1;
 

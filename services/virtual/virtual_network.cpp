@@ -32,6 +32,11 @@ void VirtualNetwork::post(Tick now, Address to, SharedMessage message) {
     mailboxes_[to].push({now + delay, sent_++, std::move(message)});
 }
 
+std::optional<Tick> VirtualNetwork::next_arrival(Address to) const {
+    if (to >= mailboxes_.size() || mailboxes_[to].empty()) { return std::nullopt; }
+    return mailboxes_[to].top().arrives;
+}
+
 SharedMessage VirtualNetwork::receive(Tick now, Address to) {
     if (to >= mailboxes_.size() || mailboxes_[to].empty() || mailboxes_[to].top().arrives > now) { return nullptr; }
     SharedMessage message = mailboxes_[to].top().message;

@@ -37,6 +37,9 @@ public:
     /// The next message that has arrived at `to` by `now`, oldest arrival first. Null: no more.
     SharedMessage receive(Tick now, Address to);
 
+    /// When the next message arrives there. None: none is on its way.
+    std::optional<Tick> next_arrival(Address to) const;
+
     /// A link may be cut several times over; it carries messages again when it has been mended as often.
     void cut(Address from, Address to) { ++cuts_[{from, to}]; }
     void mend(Address from, Address to) { --cuts_[{from, to}]; }

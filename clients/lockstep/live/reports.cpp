@@ -65,6 +65,8 @@ proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, cons
     status.set_at_rest(state->at_rest);
     status.set_following_error_steps(state->following_error_steps);
     status.set_refused_frames(state->refused_frames);
+    const double error_us = static_cast<double>(state->clock_error.value) * static_cast<double>(tick_ns) * 1e-3;
+    if (error_us > 0) { status.set_clock_error_us(error_us); }
     return status;
 }
 

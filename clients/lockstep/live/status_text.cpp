@@ -50,11 +50,23 @@ std::string axis_row(const proto::AxisStatus& axis) {
                axis.present() ? axis.state() : "not heard", axis.homed() ? "yes" : "no");
 }
 
+/// Where axes have clocks of their own: how far each may be off.
+std::string clock_line(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (!axis.has_clock_error_us()) { continue; }
+        text += (text.empty() ? "clock error at most: " : ", ") + axis.name() + " " + fixed(axis.clock_error_us(), 0) +
+                " us";
+    }
+    return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
+}
+
 }  // namespace
 
 std::string status_text(const proto::StatusReport& status) {
     std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
+    text += clock_line(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
     for (const proto::AxisStatus& axis : status.axes()) {
         const bool is_said = status.has_fault() && status.fault().number() == axis.fault().number() &&

@@ -35,6 +35,35 @@ TEST_F(Exact, AProgramRunToItsEnd) {
     expect_exact(1);
 }
 
+/// Two boards: what each device was given verifies, by its own clock.
+VirtualOptions own_clocks(MachineConfig machine) {
+    machine.timing.time_source = TimeSource::Network;
+    const std::uint64_t hash = config_hash(machine);
+    VirtualOptions options{.machine = std::move(machine), .config_hash = hash, .start = Tick{20'000'000}};
+    options.clocks = {{.process = {.offset = {5'000'000}, .ppm = 90}, .device = {.offset = {9'000'000}, .ppm = -70}},
+                      {.process = {.offset = {-4'000'000}, .ppm = -60}, .device = {.offset = {123}, .ppm = 100}}};
+    return options;
+}
+
+TEST_F(Exact, BoardsWithClocksOfTheirOwn) {
+    {
+        RecordedMachine recorded(own_clocks(machine), log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, kSquare));
+        recorded.advance_ms(900);
+        recorded.command(CommandKind::Hold);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
+        recorded.command(CommandKind::Resume);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        recorded.begin_own(test::program_of(machine, "G0 X40 Y10\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    expect_exact(1);
+    const auto findings = verify_log(log());
+    ASSERT_FALSE(findings->notes.empty());
+    EXPECT_NE(findings->notes.front().find("by its device's clock"), std::string::npos) << findings->notes.front();
+}
+
 TEST_F(Exact, TwoProgramsOneAfterTheOther) {
     {
         RecordedMachine recorded(machine, log());

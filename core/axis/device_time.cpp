@@ -1,0 +1,124 @@
+#include "core/axis/device_time.hpp"
+
+#include <algorithm>
+
+#include "core/axis/retime.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kRemembered = 64;  // frames: more than can be loaded and not yet recorded
+
+template <typename Pieces>
+Ticks length(const Pieces& pieces) {
+    Ticks all;
+    for (const Piece& piece : pieces) { all += piece.ticks; }
+    return all;
+}
+
+Ticks at_least_one_each(Ticks ticks, std::size_t pieces) {
+    return {std::max(ticks.value, static_cast<std::int64_t>(pieces))};
+}
+
+}  // namespace
+
+DeviceTime::DeviceTime(const MachineConfig& machine)
+    : source_(machine.timing.time_source),
+      ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
+      machine_(machine.tick_ns),
+      shown_(machine.tick_ns) {}
+
+bool DeviceTime::look(Tick own, Tick device, Ticks lag, bool in_use) {
+    if (source_ != TimeSource::Network) {
+        now_ = own;
+        device_ = device;
+        return true;
+    }
+    if (!shown_.known() || device != device_) { shown_.take({own - lag, device, device, own}); }
+    own_ = own;
+    device_ = device;
+    if (!machine_.known()) { return false; }
+    now_ = machine_.advance(own, in_use);
+    return true;
+}
+
+Ticks DeviceTime::error_at(Tick machine) const {
+    const Tick own = machine_.own_at(machine);
+    return machine_.error(own) + shown_.at(own).error;
+}
+
+Ticks DeviceTime::error() const {
+    if (source_ != TimeSource::Network) { return ptp_error_; }
+    Ticks most = error_at(now_);
+    for (const Loaded& loaded : loaded_) {
+        if (loaded.end > device_) { most = std::max(most, loaded.error); }
+    }
+    return most;
+}
+
+/// Relative to the last look: the two clocks' rates differ by parts in ten thousand, a status is a loop old at most.
+Tick DeviceTime::to_machine(Tick device) const {
+    if (source_ != TimeSource::Network) { return device; }
+    return machine_.at(own_ + (device - shown_.at(own_).other));
+}
+
+DeviceStatus DeviceTime::in_machine_time(DeviceStatus status) const {
+    status.now = to_machine(status.now);
+    return status;
+}
+
+DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
+    if (source_ != TimeSource::Network) { return order; }
+    if (const auto* begin = std::get_if<device::BeginRun>(&order)) {
+        own_run_ = begin->own;
+        machine_end_.reset();
+        loaded_.clear();
+    } else if (auto* frame = std::get_if<device::LoadFrame>(&order)) {
+        load(*frame);
+    }
+    return order;
+}
+
+void DeviceTime::load(device::LoadFrame& frame) {
+    const Tick machine_end = frame.start + length(frame.track.body);
+    const Tick start = machine_end_ == frame.start ? device_end_ : to_device(frame.start);
+    Loaded loaded{.error = error_at(machine_end)};
+    if (own_run_) {
+        frame.start = start;
+        loaded.body_end = start + length(frame.track.body);
+        loaded.end = loaded.body_end + length(frame.track.tail);
+    } else {
+        loaded.body_end = start;
+        stretch(frame, machine_end, loaded);
+    }
+    machine_end_ = machine_end;
+    device_end_ = loaded.body_end;
+    loaded.frame = frame;
+    loaded_.push_back(loaded);
+    if (loaded_.size() > kRemembered) { loaded_.pop_front(); }
+}
+
+/// `loaded.body_end` is where the frame is to start, and becomes what it says.
+void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
+    const auto map = [this](Tick machine) { return to_device(machine); };
+    const Tick start = loaded.body_end;
+    const Ticks body = at_least_one_each(map(machine_end) - start, frame.track.body.size());
+    loaded.body_end = start + body;
+    const Tick machine_rest = machine_end + length(frame.track.tail);
+    const Ticks tail = at_least_one_each(map(machine_rest) - loaded.body_end, frame.track.tail.size());
+    loaded.end = frame.track.tail.empty() ? loaded.body_end : loaded.body_end + tail;
+    (void)retime(frame.track.body, {frame.start, start, loaded.body_end}, map);
+    (void)retime(frame.track.tail, {machine_end, loaded.body_end, loaded.end}, map);
+    frame.start = start;
+}
+
+ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) const {
+    const auto found = std::ranges::find(loaded_, track.frame, [](const Loaded& l) { return l.frame.number; });
+    if (source_ != TimeSource::Network || found == loaded_.end()) { return track; }
+    const auto take = [&track](const auto& pieces) { track.pieces.assign(pieces.begin(), pieces.end()); };
+    track.tail ? take(found->frame.track.tail) : take(found->frame.track.body);
+    track.start = track.tail ? found->body_end : found->frame.start;
+    return track;
+}
+
+}  // namespace lockstep

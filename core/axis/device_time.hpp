@@ -1,0 +1,74 @@
+// Between the controller, which thinks in machine time, and the device, which counts ticks of its own clock.
+//
+// Where machine time is shared, or kept by PTP, the two are one number, and everything passes through unchanged. Over
+// the network there are three clocks: the coordinator's (machine time), this process's, and the device's. The first is
+// estimated from exchanges of messages, the last from looks at the device; their rates and offsets may change at any
+// time, so each frame's end is mapped anew when the frame is loaded, and its start is where the frame before ended.
+//
+// An axis's own moves are not coordinated: they keep the device's ticks, so that each step is made at its method's own
+// tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/axis/axis_controller.hpp"
+#include "core/axis/device.hpp"
+#include "core/clock/machine_time.hpp"
+
+namespace lockstep {
+
+class DeviceTime {
+public:
+    explicit DeviceTime(const MachineConfig& machine);
+
+    /// An exchange with the coordinator, by this process's clock.
+    void take(const ClockExchange& exchange) { machine_.take(exchange); }
+
+    /// Each loop: the device showed `device` when this process's clock read between `own` - `lag` and `own`. False:
+    /// the machine time is not known yet. `in_use`: the axis moves, its time is slewed and not set.
+    bool look(Tick own, Tick device, Ticks lag, bool in_use);
+
+    /// At the last look, as all below.
+    Tick now() const { return now_; }
+    /// How far `now` may be off, and the motion loaded into the device and not yet made.
+    Ticks error() const;
+    /// The device's time less machine time.
+    Ticks device_ahead() const { return device_ - to_machine(device_); }
+
+    DeviceStatus in_machine_time(DeviceStatus status) const;
+    /// In the order in which they are to be given. A frame that does not fit the device's segments is left as it is,
+    /// and refused by the device.
+    DeviceOrder in_device_time(DeviceOrder order);
+    /// As the device was given it: of the run in progress, before the next is begun.
+    ExecutedTrack in_device_time(ExecutedTrack track) const;
+
+private:
+    struct Loaded {
+        device::LoadFrame frame;  // as the device has it
+        Tick body_end;
+        Tick end;
+        Ticks error;
+    };
+
+    Tick to_device(Tick machine) const { return shown_.at(machine_.own_at(machine)).other; }
+    Tick to_machine(Tick device) const;
+    Ticks error_at(Tick machine) const;
+    void load(device::LoadFrame& frame);
+    void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
+
+    TimeSource source_;
+    Ticks ptp_error_;
+    MachineTime machine_;
+    ClockEstimator shown_;  // by the device
+    Tick own_;
+    Tick now_;
+    Tick device_;
+
+    bool own_run_ = false;
+    std::optional<Tick> machine_end_;  // of the frame loaded last in this run
+    Tick device_end_;
+    std::deque<Loaded> loaded_;
+};
+
+}  // namespace lockstep

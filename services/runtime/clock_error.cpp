@@ -1,0 +1,64 @@
+#include "services/runtime/clock_error.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace lockstep {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr double kMost = 1e6;  // seconds or ppm
+
+nanoseconds nanoseconds_of(double seconds) { return nanoseconds{std::llround(seconds * 1e9)}; }
+
+std::optional<double> number(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc{} && end == text.data() + text.size();
+    return whole && std::abs(value) <= kMost ? std::optional(value) : std::nullopt;
+}
+
+/// One part, such as ppm=50. False: it cannot be read.
+bool read_part(std::string_view part, ClockError& error) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos) { return false; }
+    const std::string_view key = part.substr(0, equals);
+    std::string_view value = part.substr(equals + 1);
+    if (key == "step") {
+        const std::size_t at = value.find('@');
+        const auto when = at == std::string_view::npos ? std::nullopt : number(value.substr(at + 1));
+        if (!when || *when < 0) { return false; }
+        error.step_at_s = *when;
+        value = value.substr(0, at);
+    }
+    const auto read = number(value);
+    if (!read || (key != "offset" && key != "ppm" && key != "step")) { return false; }
+    (key == "offset" ? error.offset_s : key == "ppm" ? error.ppm : error.step_s) = *read;
+    return true;
+}
+
+}  // namespace
+
+nanoseconds ClockError::applied(nanoseconds time, nanoseconds since) const {
+    const double since_s = static_cast<double>(since.count()) * 1e-9;
+    const double step = step_s != 0 && since_s >= step_at_s ? step_s : 0;
+    return time + nanoseconds_of(offset_s + since_s * ppm * 1e-6 + step);
+}
+
+std::expected<ClockError, std::string> parse_clock_error(std::string_view text) {
+    ClockError error;
+    while (!text.empty()) {
+        const std::string_view part = text.substr(0, text.find(','));
+        if (!read_part(part, error)) {
+            return std::unexpected("\"" + std::string(part) +
+                                   "\" is none of offset=SECONDS, ppm=N, step=SECONDS@SECONDS, up to 1e6 each");
+        }
+        text.remove_prefix(std::min(part.size() + 1, text.size()));
+    }
+    return error;
+}
+
+}  // namespace lockstep

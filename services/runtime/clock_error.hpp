@@ -1,0 +1,26 @@
+// A clock made wrong on purpose, to test how the machine bears it.
+#pragma once
+
+#include <chrono>
+#include <expected>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+struct ClockError {
+    double offset_s = 0;
+    double ppm = 0;        // fast
+    double step_s = 0;     // set forward by this...
+    double step_at_s = 0;  // ...so long after the clock's start
+
+    bool operator==(const ClockError&) const = default;
+
+    /// What the wrong clock reads, `since` its start, when a right one reads `time`.
+    std::chrono::nanoseconds applied(std::chrono::nanoseconds time, std::chrono::nanoseconds since) const;
+};
+
+/// From "offset=SECONDS,ppm=N,step=SECONDS@SECONDS", each part once and none needed. Error: what cannot be read.
+std::expected<ClockError, std::string> parse_clock_error(std::string_view text);
+
+}  // namespace lockstep

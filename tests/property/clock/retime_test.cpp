@@ -1,0 +1,104 @@
+// Random motion for a device whose clock differs: every end is met bit for bit, each step within two ticks.
+#include "core/axis/retime.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "core/step/engine.hpp"
+
+namespace lockstep {
+namespace {
+
+using Body = StaticVector<Piece, kMaxBodyPieces + 1>;
+
+/// What a frame has: phases of constant acceleration, some of a single tick.
+Body random_body(std::mt19937_64& random) {
+    const auto real = [&](double least, double most) { return std::uniform_real_distribution(least, most)(random); };
+    Body body;
+    const double direction = random() % 2 == 0 ? 1 : -1;
+    double speed = direction * real(0.01, 0.2);
+    for (std::size_t n = 1 + random() % kMaxBodyPieces; n > 0; --n) {
+        const Ticks ticks{random() % 10 == 0 ? 1 : static_cast<std::int64_t>(real(1, 20'000))};
+        const double to = direction * real(0.01, 0.2);
+        const double acceleration = (to - speed) / static_cast<double>(ticks.value);
+        (void)body.push_back(
+            {ticks, {std::llround((speed - acceleration / 2) * 0x1p64)}, {std::llround(acceleration * 0x1p64)}});
+        speed = to;
+    }
+    return body;
+}
+
+struct Made {
+    std::vector<Tick> steps;
+    Position end;
+};
+
+Made run(const Body& body, Tick start) {
+    StepEngine engine(start, Position::steps(3));
+    Made made;
+    for (const Piece& piece : body) {
+        engine.begin(piece);
+        engine.run(engine.now() + piece.ticks, [&](StepEdge edge) { made.steps.push_back(edge.tick); });
+    }
+    made.end = engine.position();
+    return made;
+}
+
+Ticks length(const Body& body) {
+    Ticks all;
+    for (const Piece& piece : body) { all += piece.ticks; }
+    return all;
+}
+
+TEST(Retime, EveryEndIsMetBitForBitAndEveryStepWithinTwoTicks) {
+    std::mt19937_64 random(5);
+    for (int run_number = 0; run_number < 300; ++run_number) {
+        const Body body = random_body(random);
+        const double rate = 1 + std::uniform_real_distribution(-300e-6, 300e-6)(random);
+        const Tick start{1'000'000};
+        const auto to_device = [&](Tick machine) {
+            return Tick{std::llround(static_cast<double>((machine - start).value) * rate) + 7'000'000};
+        };
+        const Tick device_end = std::max(to_device(start + length(body)), to_device(start) + Ticks{300});
+        Body device = body;
+        ASSERT_TRUE(retime(device, {start, to_device(start), device_end}, to_device));
+        EXPECT_LE(device.size(), body.size() + 1);
+        EXPECT_EQ(to_device(start) + length(device), device_end);
+        const Made planned = run(body, start);
+        const Made made = run(device, to_device(start));
+        ASSERT_EQ(made.end, planned.end) << "run " << run_number;
+        ASSERT_EQ(made.steps.size(), planned.steps.size());
+        for (std::size_t i = 0; i < made.steps.size(); ++i) {
+            ASSERT_LE(std::abs((made.steps[i] - to_device(planned.steps[i])).value), 2) << "step " << i;
+        }
+    }
+}
+
+TEST(Retime, AClockOfTheSameRateChangesNothing) {
+    std::mt19937_64 random(6);
+    for (int i = 0; i < 100; ++i) {
+        const Body body = random_body(random);
+        Body device = body;
+        const Ticks ahead{123};
+        const Tick start{50};
+        ASSERT_TRUE(retime(device, {start, start + ahead, start + ahead + length(body)},
+                           [&](Tick machine) { return machine + ahead; }));
+        EXPECT_EQ(device, body);
+    }
+}
+
+TEST(Retime, PiecesOfASingleTickKeepATickEach) {
+    Body body;
+    for (int i = 0; i < 100; ++i) { (void)body.push_back({{1}, {std::int64_t{1} << 60}, {}}); }
+    Body device = body;
+    ASSERT_TRUE(retime(device, {{0}, {0}, {100}}, [](Tick machine) { return Tick{machine.value / 2}; }));
+    EXPECT_EQ(device.size(), 100u);
+    EXPECT_EQ(run(device, {0}).end, run(body, {0}).end);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,212 @@
+// Boards with clocks of their own: offsets of seconds, rates 100 ppm apart, and still one machine.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "core/step/engine.hpp"
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+MachineConfig network_machine(std::int64_t limit_us = 250) {
+    MachineConfig machine = small_machine();
+    machine.timing.time_source = TimeSource::Network;
+    machine.timing.clock_error_limit_us = limit_us;
+    return machine;
+}
+
+VirtualOptions own_clocks(std::int64_t limit_us = 250) {
+    VirtualOptions options{.machine = network_machine(limit_us)};
+    options.network = {.delay_min{20}, .delay_max{300}, .lost = 0.02};
+    options.start = Tick{10'000'000};
+    options.clocks = {{.process = {.offset = {3'000'000}, .ppm = 100}, .device = {.offset = {77'000'000}, .ppm = -80}},
+                      {.process = {.offset = {-1'500'000}, .ppm = -100}, .device = {.offset = {-400}, .ppm = 100}}};
+    return options;
+}
+
+/// What was commanded in machine time, what the devices did in true time, and how far apart axes said they may be.
+class TrueTime : public VirtualObserver {
+public:
+    TrueTime(const VirtualOptions& options, VirtualMachine& vm) : options_(options) { vm.observe(*this); }
+
+    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+        for (const Frame& frame : out.frames) { sent_.emplace(std::pair{frame.epoch, frame.number}, frame); }
+    }
+    void on_step(std::size_t axis, StepEdge step) override {
+        if (recording_) { made_[axis].push_back(truth_of(axis, step.tick)); }
+    }
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
+        for (const ExecutedTrack& track : out.tracks) { run_[axis].push_back({track.epoch, track.frame, track.tail}); }
+        if (out.state) { bounds_[axis][static_cast<double>(now.value)] = out.state->clock_error.value; }
+    }
+    void record() { recording_ = true; }
+
+    /// Every step within the bound that its axis published last before it, and two ticks.
+    void expect_within_bounds() {
+        for (std::size_t axis = 0; axis < options_.clocks.size(); ++axis) {
+            const std::vector<Tick> commanded = commanded_of(axis);
+            ASSERT_EQ(made_[axis].size(), commanded.size()) << "axis " << axis;
+            for (std::size_t i = 0; i < commanded.size(); ++i) {
+                const double off = made_[axis][i] - static_cast<double>(commanded[i].value);
+                const auto bound = std::prev(bounds_[axis].upper_bound(made_[axis][i]));
+                ASSERT_LE(std::abs(off), static_cast<double>(bound->second) + 2) << "axis " << axis << ", step " << i;
+                worst_ = std::max(worst_, std::abs(off));
+                widest_ = std::max(widest_, bound->second);
+            }
+        }
+    }
+    /// In ticks, over all steps judged.
+    double worst() const { return worst_; }
+    std::int64_t widest() const { return widest_; }
+    std::size_t steps() const { return made_.at(0).size(); }
+
+private:
+    double truth_of(std::size_t axis, Tick device) const {
+        const VirtualClock& clock = options_.clocks[axis].device;
+        const double since = static_cast<double>((device - clock.offset - options_.start).value);
+        return static_cast<double>(options_.start.value) + since / (1 + clock.ppm * 1e-6);
+    }
+    std::vector<Tick> commanded_of(std::size_t axis) const {
+        std::vector<Tick> steps;
+        for (const Run& run : run_.at(axis)) {
+            const auto frame = sent_.find({run.epoch, run.frame});
+            if (frame != sent_.end()) { append_steps(frame->second, frame->second.axes[axis], run.tail, steps); }
+        }
+        return steps;
+    }
+
+    static void append_steps(const Frame& frame, const AxisTrack& track, bool tail, std::vector<Tick>& steps) {
+        StepEngine engine(frame.start, track.from);
+        const auto execute = [&](const auto& pieces, bool counts) {
+            for (const Piece& piece : pieces) {
+                engine.begin(piece);
+                engine.run(engine.now() + piece.ticks, [&](StepEdge edge) {
+                    if (counts) { steps.push_back(edge.tick); }
+                });
+            }
+        };
+        execute(track.body, !tail);
+        if (tail) { execute(track.tail, true); }
+    }
+
+    struct Run {
+        Epoch epoch = 0;
+        FrameNumber frame = 0;
+        bool tail = false;
+    };
+
+    VirtualOptions options_;
+    bool recording_ = false;
+    std::map<std::pair<Epoch, FrameNumber>, Frame> sent_;
+    std::map<std::size_t, std::vector<Run>> run_;
+    std::map<std::size_t, std::vector<double>> made_;
+    std::map<std::size_t, std::map<double, std::int64_t>> bounds_;
+    double worst_ = 0;
+    std::int64_t widest_ = 0;
+};
+
+class OwnClocks : public Rig {
+protected:
+    OwnClocks() : Rig(own_clocks()), truth(own_clocks(), vm) {}
+    std::int64_t widest_error() const {
+        std::int64_t widest = 0;
+        for (const auto& state : vm.axis_states()) { widest = std::max(widest, state->clock_error.value); }
+        return widest;
+    }
+    TrueTime truth;
+};
+
+TEST_F(OwnClocks, AnAxisSaysHowFarOffItsTimeMayBe) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    wait(10);
+    EXPECT_GT(widest_error(), 0);
+    EXPECT_LT(widest_error(), 120);
+}
+
+TEST_F(OwnClocks, AJobOfMinutesIsExactAndNothingAccumulates) {
+    home();
+    wait(1);
+    std::vector<std::vector<double>> targets;
+    for (int i = 0; i < 60; ++i) { targets.push_back(i % 2 == 0 ? std::vector{90.0, 12.25} : std::vector{7.5, 83.0}); }
+    targets.push_back({5, 5});
+    truth.record();
+    const Reply reply = run(program_of(targets, 50));
+    ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 400)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
+    truth.expect_within_bounds();
+    EXPECT_GT(truth.steps(), 100'000u);
+    std::printf("worst error %.1f us, widest bound %lld us, %zu steps\n", truth.worst(),
+                static_cast<long long>(truth.widest()), truth.steps());
+}
+
+TEST_F(OwnClocks, HoldAndResumeMeetTheSamePlaces) {
+    home();
+    wait(1);
+    ASSERT_EQ(run(program_of({{80, 30}, {5, 5}}, 20)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Running, 2));
+    wait(1.5);
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 5)) << describe();
+    ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 60)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
+}
+
+class TightLimit : public Rig {
+protected:
+    TightLimit() : Rig(own_clocks(1)) {}
+};
+
+TEST_F(TightLimit, NoCoordinatedMoveBeginsWhereAClockMayBeFurtherOffThanTheLimit) {
+    home();
+    const Reply reply = run(program_of({{20, 20}}, 20));
+    EXPECT_EQ(reply.status, ReplyStatus::Refused);
+    EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::ClockUncertain);
+    EXPECT_NE(reply.text.find("axis X: its clock may be"), std::string::npos) << reply.text;
+    EXPECT_NE(reply.text.find("the limit is 1 us"), std::string::npos) << reply.text;
+}
+
+/// The own clock of X's process is set forward while it moves.
+class SetClock : public Rig {
+protected:
+    static VirtualOptions options() {
+        VirtualOptions options = own_clocks();
+        options.clocks[0].process.step = {800};
+        options.clocks[0].process.step_at = options.start + Ticks{40'000'000};
+        return options;
+    }
+    SetClock() : Rig(options()) {}
+};
+
+TEST_F(SetClock, AClockThatIsSetDuringAMoveBrakesTheMachineOnThePath) {
+    home();
+    ASSERT_TRUE(vm.now() < Tick{45'000'000});
+    const double until = 48.5 - static_cast<double>(vm.now().value) * 1e-6;
+    wait(until);
+    ASSERT_EQ(run(program_of({{95, 95}, {5, 5}, {95, 95}}, 20)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 10)) << describe();
+    EXPECT_EQ(fault(), FaultCode::ClockUncertain);
+    EXPECT_EQ(vm.state()->fault_axis, 0u);
+    EXPECT_EQ(counts()[0], counts()[1]) << "on the line";
+    EXPECT_TRUE(vm.axis_states()[0]->homed);
+    wait(10);
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+}
+
+/// The network between X and the coordinator is lost for clock messages and all else.
+TEST_F(OwnClocks, WithoutTheCoordinatorTheBoundGrows) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    wait(10);
+    const std::int64_t before = widest_error();
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = 2, .at = vm.now(), .lasts = {100'000'000}});
+    wait(60);
+    EXPECT_GT(widest_error(), before + 60);
+}
+
+}  // namespace
+}  // namespace lockstep
