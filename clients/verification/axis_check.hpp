@@ -7,11 +7,14 @@
 #include <optional>
 #include <string>
 
+#include "clients/analysis/run.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/verification/findings.hpp"
-#include "clients/verification/run.hpp"
 
 namespace lockstep::verification {
+
+using analysis::Run;
+using analysis::StepMaker;
 
 class AxisCheck final : public analysis::StepListener {
 public:

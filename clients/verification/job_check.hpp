@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/run.hpp"
 #include "clients/verification/epoch_replay.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/job_replay.hpp"
-#include "clients/verification/run.hpp"
 
 namespace lockstep::verification {
+
+using analysis::Run;
 
 class JobCheck {
 public:

@@ -26,7 +26,7 @@ void LogCheck::on_steps(const step_batch_t& message, std::uint64_t offset) {
 void LogCheck::on_run(const run_t& message, std::uint64_t offset) {
     Axis* to = axis(message.machine, message.axis, offset);
     if (to == nullptr) { return; }
-    auto run = to_run(message);
+    auto run = analysis::to_run(message);
     run ? to->runs.take(std::move(*run)) : on_damage(offset, run.error());
 }
 
