@@ -7,7 +7,9 @@
 namespace lockstep::verification {
 
 LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck& jobs)
-    : check(name, findings, [&jobs](const Run& run, Tick tick) { return jobs.commanded(run, tick); }),
+    : check(
+          name, findings, [&jobs](const Run& run, Tick tick) { return jobs.commanded(run, tick); },
+          [&jobs, name](Tick tick) { return jobs.planned(name, tick); }),
       runs(
           [this, name, &findings, &jobs](Run run) {
               if (!findings.going()) { return; }

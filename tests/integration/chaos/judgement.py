@@ -29,11 +29,9 @@ def judge(machine, story, log):
     found = Judgement(failures=list(story.failures))
     record = Record(log)
     found.timed = [timed(chapter, record) for chapter in story.chapters]
-    code, report, said = machine.call("verify", str(log))
-    text = machine_text(machine, log)
-    found.verify = text
-    if code != 0:
-        found.failures.append(f"verify: {text or said}")
+    found.verify, is_exact = machine.verify(log)
+    if not is_exact:
+        found.failures.append("the record is not exact: " + found.verify.splitlines()[0])
     found.failures += list(partings(story, record)) + list(deaths(machine, story)) + list(alarms(machine))
     found.failures += [f"{chapter.injected.text}: the machine answers with {chapter.fault}"
                        for chapter in story.chapters if chapter.fault not in FAULTS_OF_LATENESS]
@@ -42,7 +40,7 @@ def judge(machine, story, log):
 
 def timed(chapter, record):
     since = chapter.injected.at_us
-    reaction = record.reaction_us(since, chapter.over_us)
+    reaction = record.reaction_us(since, chapter.watched_us)
     if reaction is None:
         return Timed(chapter)
     axes = [axis for axis in AXES if f"axis-{axis}" != chapter.injected.killed]
@@ -76,9 +74,3 @@ def alarms(machine):
     for process in ("supervisor", "coordinator", *(f"axis-{axis}" for axis in AXES)):
         for alarm in ALARMS.findall(machine.log(process)):
             yield f"{process} says: {alarm}"
-
-
-def machine_text(machine, log):
-    import subprocess
-    ran = subprocess.run([machine.lockstep, "verify", str(log)], env=machine.environment, capture_output=True, text=True)
-    return (ran.stdout + ran.stderr).strip()

@@ -66,6 +66,11 @@ class Machine:
     def call(self, *words):
         return self.end(self.begin(*words))
 
+    def verify(self, log):
+        """In words, and whether the log is exact."""
+        ran = subprocess.run([self.lockstep, "verify", str(log)], env=self.environment, capture_output=True, text=True)
+        return (ran.stdout + ran.stderr).strip(), ran.returncode == 0
+
     def status(self):
         return self.call("status")[1]
 

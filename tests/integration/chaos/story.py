@@ -12,6 +12,7 @@ class Chapter:
     fault: str = ""           # the name of its fault; empty: none
     job: str = ""             # how the job ended that was running
     remedies: list = dataclasses.field(default_factory=list)
+    watched_us: int = 0       # until then the machine was left to itself
     over_us: int = 0
 
 
@@ -53,6 +54,7 @@ class Story:
 
     def _watch(self, chapter, job):
         time.sleep(self.RUNS_ON_S)
+        chapter.watched_us = self.now_us()
         status = self._wait_for(lambda found: found.get("phase") not in (None, "Waiting", "Stopping"))
         chapter.phase = status.get("phase", "not heard")
         chapter.fault = status.get("fault", {}).get("name", "")
