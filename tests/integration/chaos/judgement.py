@@ -8,6 +8,7 @@ from story import Chapter
 
 # An axis or coordinator that is late, silent or restarted may bring these about; anything else is a fault of its own.
 FAULTS_OF_LATENESS = {"", "axis-lost", "frames-differ", "frame-late", "emergency-stopped"}
+STALL_US = 80_000  # the machine allows for 100 ms
 ALARMS = re.compile(r"ERROR: \w+Sanitizer|runtime error:|terminate called|Assertion|check failed|Segmentation", re.I)
 
 
@@ -49,12 +50,13 @@ def timed(chapter, record):
 
 
 def partings(story, record):
-    """Axes that were not hit end an epoch with the same frame. Where all were hit, nobody is asked."""
+    """Axes that nothing has hit end an epoch with the same frame. The host may have stalled one: that hits it too."""
     for epoch, ends in record.ends().items():
         last_us = max(run.start_us for run in ends.values())
         hit = set().union(*(chapter.injected.hit for chapter in story.chapters
                             if chapter.injected.at_us - 1_000_000 <= last_us <= chapter.over_us))
-        spared = {axis: run for axis, run in ends.items() if f"axis-{axis}" not in hit}
+        spared = {axis: run for axis, run in ends.items() if f"axis-{axis}" not in hit
+                  and record.longest_silence_us(axis, last_us - 1_000_000, last_us + 1_000_000) < STALL_US}
         if len({(run.frame, run.tail) for run in spared.values()}) > 1:
             told = ", ".join(f"{axis} frame {run.frame}{' tail' * run.tail}" for axis, run in sorted(ends.items()))
             yield f"epoch {epoch}: axes that no fault had hit are a frame apart: {told}"

@@ -7,6 +7,7 @@ import subprocess
 AXES = ("X", "Y", "Z")
 TRAVEL_MM = 60
 LCM_URL = "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304"
+NEVER_ENDED = -1
 CALL_PATIENCE_S = 90  # nothing is measured by it: a command that hangs must not hang the test
 
 
@@ -24,8 +25,8 @@ def machine_text(name):
             + "".join(axis.format(name=axis_name, travel=TRAVEL_MM) for axis_name in AXES))
 
 
-def random_job(rng, lines=60):
-    """G-code within travel, for some ten seconds: long moves and short, jerky and smooth, with rests."""
+def random_job(rng, lines):
+    """G-code within travel, about two lines a second: long moves and short, jerky and smooth, with rests."""
     place = lambda: round(rng.uniform(1, TRAVEL_MM - 1), 3)
     text = ["G21 G90"]
     for _ in range(lines):
@@ -60,7 +61,11 @@ class Machine:
     @staticmethod
     def end(command):
         """How it ended: exit code, its report or nothing, what it said to a person."""
-        out, err = command.communicate(timeout=CALL_PATIENCE_S)
+        try:
+            out, err = command.communicate(timeout=CALL_PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            command.kill()
+            return NEVER_ENDED, {}, f"it has not ended after {CALL_PATIENCE_S} s"
         return command.returncode, json.loads(out) if out.strip() else {}, err.strip()
 
     def call(self, *words):
@@ -74,10 +79,10 @@ class Machine:
     def status(self):
         return self.call("status")[1]
 
-    def begin_job(self):
+    def begin_job(self, lines=60):
         self.jobs += 1
         path = self.folder / f"job-{self.jobs}.gcode"
-        path.write_text(random_job(self.rng))
+        path.write_text(random_job(self.rng, lines))
         return self.begin("run", str(path))
 
     def processes(self):

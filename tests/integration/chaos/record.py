@@ -3,6 +3,7 @@ import dataclasses
 import struct
 
 SYNC = 0xEDA1DA01
+FRAME_US = 230_000
 
 
 class Reader:
@@ -81,14 +82,21 @@ class Record:
 
     def reaction_us(self, since, until):
         """When the first axis left its frames for a tail, or ceased its pulses, in that time. None: none did."""
-        return min((run.start_us if run.tail else max(run.start_us, since) for run in self.runs
-                    if since <= run.start_us < until and (run.tail or run.cut)), default=None)
+        tails = [run.start_us for run in self.runs if run.tail and since <= run.start_us < until]
+        cut = {run.axis for run in self.runs if run.cut and since - FRAME_US <= run.start_us < until}
+        ceased = [self.rest_us(since, [axis]) for axis in cut]
+        return min(tails + [at for at in ceased if at is not None], default=None)
 
     def rest_us(self, since, axes):
         """When the last of these axes first said it is at rest, from that time on. None: one never did."""
         rests = [min((s.tick_us for s in self.states if s.axis == axis and s.tick_us >= since and s.at_rest),
                      default=None) for axis in axes]
         return None if None in rests else max(rests)
+
+    def longest_silence_us(self, axis, since, until):
+        """Between an axis's states, which it makes every 10 ms."""
+        ticks = [state.tick_us for state in self.states if state.axis == axis and since <= state.tick_us < until]
+        return max((after - before for before, after in zip(ticks, ticks[1:])), default=until - since)
 
     def ends(self):
         """Of each epoch: where each axis came to in it, (frame, in its tail, cut short), and when it began the last."""

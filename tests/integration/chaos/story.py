@@ -3,6 +3,7 @@ import dataclasses
 import time
 
 from faults import Injected
+from machine import NEVER_ENDED
 
 
 @dataclasses.dataclass
@@ -47,10 +48,11 @@ class Story:
         chapter = Chapter(chaos.strike())
         self.chapters.append(chapter)
         self._watch(chapter, job)
-        _, told, said = self.machine.end(job)
+        code, told, said = self.machine.end(job)
+        if code == NEVER_ENDED:
+            self.fail(f"{chapter.injected.text}: lockstep run: {said}")
         chapter.job = told.get("outcome") or (said.splitlines()[0] if said else "no report")
         chapter.over_us = self.now_us()
-        self._tell(chapter)
 
     def _watch(self, chapter, job):
         time.sleep(self.RUNS_ON_S)
@@ -76,6 +78,12 @@ class Story:
         return {}
 
     def bring_back(self):
+        """To where a job can begin."""
+        self._remedy_all()
+        if self.chapters and not self.quiet:
+            self._tell(self.chapters[-1])
+
+    def _remedy_all(self):
         """As a user does: what the machine says decides what is done."""
         status = self._wait_for(lambda found: found.get("phase") in ("Idle", "Fault", "Holding", "Paused")
                                 and all(axis.get("present") for axis in found["axes"]))
@@ -94,8 +102,6 @@ class Story:
         self.expect_done(word, self.machine.call(word))
 
     def _tell(self, chapter):
-        if self.quiet:
-            return
         at = (chapter.injected.at_us - self.begin_us) / 1e6
         print(f"{at:7.2f} s  {chapter.injected.text:<52} {chapter.phase}{' ' * bool(chapter.fault)}{chapter.fault}; "
-              f"job {chapter.job}", flush=True)
+              f"job {chapter.job}{'; then ' * bool(chapter.remedies)}{', '.join(chapter.remedies)}", flush=True)
