@@ -17,6 +17,8 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     AxisOutputs out;
     now_ = inputs.now;
     const Slot slot = rules::slot_of(now_, slot_);
+    // A coordinator that it has not heard because it did not run is not silent.
+    if (state_slot_) { coordinator_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
     observe(inputs.device, out);
     if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
         homed_ = false;

@@ -52,7 +52,6 @@ public:
     /// What was last wrong with the device; empty: nothing ever was.
     const std::string& trouble() const { return trouble_; }
     const AxisController& controller() const { return controller_; }
-    SimulatedDevice* simulated() { return device_.simulated.get(); }
 
 private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);

@@ -149,7 +149,8 @@ void VirtualMachine::step_axis(std::size_t i) {
     };
     AxisNode& node = *axes_[i].node;
     device(i).advance(now_);
-    const AxisOutputs out = node.step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands}, on_step);
+    const AxisOutputs out =
+        node.step(now_, {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands}, on_step);
     device(i).advance(now_);  // it acts on its orders
     if (out.state) { multicast(*out.state, i); }
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }

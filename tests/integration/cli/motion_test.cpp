@@ -143,5 +143,18 @@ TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
     EXPECT_EQ(run_lockstep({"home", "X", "y"}).code, 0);
 }
 
+TEST_F(Motion, CeasesOnAnEmergencyStopThoughTheCoordinatorIsStuck) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ASSERT_TRUE(becomes("Running"));
+    kill(process("coordinator"), SIGSTOP);
+    const Ran ran = run_lockstep({"estop", "--json"});
+    kill(process("coordinator"), SIGCONT);
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_EQ(ran.json<proto::CommandReport>().text(), "no coordinator answers; at rest by themselves: X, Y");
+    EXPECT_NE(run.wait().code, 0);
+    ASSERT_TRUE(becomes("Fault"));
+    EXPECT_EQ(status().fault().name(), "emergency-stopped") << "not that the axes fell silent";
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -51,9 +51,7 @@ bool Bench::await(const std::function<bool()>& done, double seconds, const std::
     if (done()) { return true; }
     if (faulted() && !explains(played_.recording, watch_.fault())) {
         object("fault", "while " + what + ": " + std::string(name_of(watch_.fault())));
-    } else if (faulted()) {
-        played_.fault = watch_.fault();
-    } else if (!in_time) {
+    } else if (!faulted() && !in_time) {
         object("liveness", what + " takes longer than " + std::to_string(seconds + outage_s_) + " s");
     }
     return false;

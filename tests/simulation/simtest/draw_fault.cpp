@@ -32,7 +32,7 @@ double draw_outage_slots(Draw& draw, const ProtocolTiming& t) {
 
 void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
     if (draw.chance(0.6)) { fault.peer = (fault.process + 1 + draw.index(processes - 1)) % processes; }
-    const std::size_t way = draw.index(3);
+    const std::size_t way = draw.index(4);
     fault.outgoing = way != 1;
     fault.incoming = way != 2;
 }
@@ -63,6 +63,14 @@ std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine,
     planned.frame = draw.chance(0.4) ? 1 + draw.index(3) : 1 + static_cast<FrameNumber>(draw.magnitude(1, 100));
     planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kEdges));
     planned.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
+    // The one slot of a frame in which a process can be cut off with its word heard and the others' not.
+    const bool cut_off = event->kind == Kind::Cut && !event->peer && event->outgoing && event->incoming;
+    if (cut_off && draw.chance(0.5)) {
+        planned.edge = PlannedFault::Edge::Evidence;
+        planned.slots = draw.real(0, 1);
+        const int whole_round = machine.timing.freshness_slots + machine.timing.check_slots();
+        planned.fault.lasts = std::max(planned.fault.lasts, machine.slot_ticks() * whole_round);
+    }
     return planned;
 }
 

@@ -11,8 +11,7 @@ namespace lockstep::simtest {
 struct Played {
     Recording recording;
     Coverage coverage;
-    Violations violations;              // of what was asked and answered, and of ends that did not come
-    FaultCode fault = FaultCode::None;  // the last one, where what went wrong on purpose explains it
+    Violations violations;  // of what was asked and answered, and of ends that did not come
 };
 
 /// also: another observer, or null.

@@ -84,6 +84,7 @@ void Recorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {
         if (notice.kind == CoordinatorNotice::Kind::Interrupted) { recording_.interruptions.push_back(now); }
         if (notice.kind != CoordinatorNotice::Kind::Fault) { continue; }
         recording_.machine_faults.push_back(now);
+        recording_.fault = notice.fault;
         if (!explains(recording_, notice.fault)) {
             recording_.troubles.push_back("coordinator: fault " + std::string(name_of(notice.fault)));
         }

@@ -92,6 +92,7 @@ struct Recording {
     std::vector<Tick> interruptions;    // the coordinator says that a motion was interrupted by nobody's wish
     std::vector<Tick> machine_faults;   // the coordinator enters Fault, or is about to
     std::vector<Violation> untrue;      // what an axis said of itself
+    FaultCode fault = FaultCode::None;  // the last of them
     std::vector<std::string> troubles;  // what must not happen at all, as it happened
     Tick began;
     Tick ended;

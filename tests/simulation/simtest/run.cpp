@@ -30,7 +30,7 @@ Verdict run_seed(std::uint64_t seed, const RunOptions& options) {
     Played played = play(scenario, options.trace ? &trace : nullptr);
     const Recording& recording = played.recording;
     verdict.violations = std::move(played.violations);
-    verdict.fault = played.fault;
+    verdict.fault = recording.fault;
     verdict.coverage = std::move(played.coverage);
     for (const auto& [number, runs] : epoch_runs(recording)) { verdict.parted += runs.apart ? 1 : 0; }
     append(verdict.violations, check_all(recording));

@@ -1,0 +1,139 @@
+#include "core/clock/clock_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+constexpr double kWindow_s = 8;
+constexpr double kStretch_s = 0.25;
+constexpr double kRounding = 1;   // ticks: a clock shows the last tick that has begun
+constexpr double kWander = 1e-6;  // a quartz's rate within the window, from warmth
+
+double ticks_in(double seconds, std::int64_t tick_ns) { return seconds * 1e9 / static_cast<double>(tick_ns); }
+
+double between(Tick from, Tick to) { return static_cast<double>((to - from).value); }
+
+}  // namespace
+
+ClockEstimator::ClockEstimator(std::int64_t tick_ns)
+    : window_(ticks_in(kWindow_s, tick_ns)), stretch_(ticks_in(kStretch_s, tick_ns)) {}
+
+ClockEstimator::Sample ClockEstimator::sample_of(const ClockExchange& exchange) const {
+    const double sent = between(own_origin_, exchange.sent);
+    const double arrived = between(own_origin_, exchange.arrived);
+    const double least = between(other_origin_, exchange.answered) - arrived - kRounding;
+    const double most = between(other_origin_, exchange.received) - sent + kRounding;
+    return {(sent + arrived) / 2, (least + most) / 2, (most - least) / 2 + kMaxRate * (arrived - sent)};
+}
+
+void ClockEstimator::take(const ClockExchange& exchange) {
+    if (exchange.arrived < exchange.sent || exchange.answered < exchange.received) { return; }
+    if (!known()) {
+        own_origin_ = exchange.sent;
+        other_origin_ = exchange.received;
+        keep(sample_of(exchange));
+        return fit();
+    }
+    const Sample sample = sample_of(exchange);
+    const Span expected = ahead_at(sample.own);
+    const double apart =
+        std::max({0.0, expected.low - sample.ahead - sample.half, sample.ahead - sample.half - expected.high});
+    if (apart == 0) {
+        doubtful_.reset();
+        keep(sample);
+    } else if (doubtful_ && agree(*doubtful_, sample)) {  // twice the same: it is so
+        kept_.assign(1, sample);
+        doubtful_.reset();
+        ++steps_;
+    } else {
+        doubtful_ = sample;
+    }
+    doubt_ = doubtful_ ? apart + 2 * doubtful_->half : 0;
+    fit();
+}
+
+bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
+    const double drift = kMaxRate * std::abs(one.own - other.own);
+    return std::abs(one.ahead - other.ahead) <= one.half + other.half + drift;
+}
+
+/// The best of its stretch of time; those that have left the window go.
+void ClockEstimator::keep(const Sample& sample) {
+    const auto stretch_of = [this](const Sample& s) { return std::floor(s.own / stretch_); };
+    if (!kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample)) {
+        if (sample.half <= kept_.back().half) { kept_.back() = sample; }
+    } else {
+        kept_.push_back(sample);
+    }
+    while (kept_.front().own < sample.own - window_) { kept_.pop_front(); }
+}
+
+/// The rate that the exchanges suggest, within what they prove.
+void ClockEstimator::fit() {
+    const Span proven = proven_rates();
+    rate_ = std::clamp(slope(), proven.low, proven.high);
+    rate_error_ = std::max(proven.high - rate_, rate_ - proven.low) + kWander;
+}
+
+/// From any two exchanges: what was least ahead then and most ahead now, and the other way round.
+ClockEstimator::Span ClockEstimator::proven_rates() const {
+    Span rates{-kMaxRate, kMaxRate};
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+        for (std::size_t j = i + 1; j < kept_.size(); ++j) {
+            const double time = kept_[j].own - kept_[i].own;
+            if (time <= 0) { continue; }
+            const double gained = kept_[j].ahead - kept_[i].ahead;
+            const double slack = kept_[j].half + kept_[i].half;
+            rates.low = std::max(rates.low, (gained - slack) / time);
+            rates.high = std::min(rates.high, (gained + slack) / time);
+        }
+    }
+    return {std::min(rates.low, rates.high), std::max(rates.low, rates.high)};
+}
+
+/// Linear regression, each exchange weighted by how much it proves.
+double ClockEstimator::slope() const {
+    double weights = 0;
+    double own = 0;
+    double ahead = 0;
+    for (const Sample& s : kept_) {
+        const double weight = 1 / (s.half * s.half);
+        weights += weight;
+        own += weight * s.own;
+        ahead += weight * s.ahead;
+    }
+    own /= weights;
+    ahead /= weights;
+    double together = 0;
+    double spread = 0;
+    for (const Sample& s : kept_) {
+        const double weight = 1 / (s.half * s.half);
+        together += weight * (s.own - own) * (s.ahead - ahead);
+        spread += weight * (s.own - own) * (s.own - own);
+    }
+    return spread > 0 ? together / spread : 0;
+}
+
+/// What all that is kept proves together.
+ClockEstimator::Span ClockEstimator::ahead_at(double own) const {
+    Span all{-1e300, 1e300};
+    for (const Sample& s : kept_) {
+        const double time = own - s.own;
+        const double slack = s.half + rate_error_ * std::abs(time);
+        all.low = std::max(all.low, s.ahead + rate_ * time - slack);
+        all.high = std::min(all.high, s.ahead + rate_ * time + slack);
+    }
+    return {std::min(all.low, all.high), std::max(all.low, all.high)};
+}
+
+ClockEstimator::Reading ClockEstimator::at(Tick own) const {
+    const double since = between(own_origin_, own);
+    const Span ahead = ahead_at(since);
+    const auto other = static_cast<std::int64_t>(std::llround(ahead.middle()));
+    const auto error = static_cast<std::int64_t>(std::ceil(ahead.width() / 2 + doubt_ + kRounding));
+    return {other_origin_ + (own - own_origin_) + Ticks{other}, {error}};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,90 @@
+// What another clock reads, estimated from exchanges of messages with it, and how wrong that may be.
+//
+// An exchange is four times, as in NTP (RFC 5905): sent and arrived by the own clock, received and answered by the
+// other. It proves that, then, the other clock was ahead by
+//
+//     at least answered - arrived   and at most   received - sent,
+//
+// however the delay was shared between the two ways. The estimate is the middle of what all exchanges kept prove
+// together, each widened by what its age may have added; the bound is half of that span, so the true error never
+// exceeds it as long as the two rates differ by at most kMaxRate and neither clock steps by less than a round trip
+// (that looks like delay). Of each stretch of the window only the exchange with the least round trip is kept, so the
+// bound comes to about half the least round trip.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "core/units.hpp"
+
+namespace lockstep {
+
+struct ClockExchange {
+    Tick sent;      // own clock
+    Tick received;  // the other's
+    Tick answered;  // the other's
+    Tick arrived;   // own clock
+};
+
+class ClockEstimator {
+public:
+    /// The most that two clocks' rates may differ by: twice what a cheap quartz is specified for.
+    static constexpr double kMaxRate = 200e-6;
+
+    /// tick_ns: both clocks' tick, nominally.
+    explicit ClockEstimator(std::int64_t tick_ns);
+
+    /// Exchanges that cannot be (answered before received, arrived before sent) are left out.
+    void take(const ClockExchange& exchange);
+
+    /// Whether there has been an exchange; before that nothing else may be asked.
+    bool known() const { return !kept_.empty(); }
+
+    struct Reading {
+        Tick other;   // what the other clock reads
+        Ticks error;  // at most so far off, either way
+    };
+    /// When the own clock reads `own`.
+    Reading at(Tick own) const;
+
+    /// The other clock's ticks in one own tick, minus 1.
+    double rate() const { return rate_; }
+    /// How often one of the clocks was found to have been set.
+    std::uint64_t steps() const { return steps_; }
+
+private:
+    /// Relative to the first exchange, so that fractions of a tick are kept.
+    struct Sample {
+        double own = 0;
+        double ahead = 0;  // the other clock, of the own, beyond what it was at first
+        double half = 0;   // ahead is right within this
+    };
+    struct Span {
+        double low = 0;
+        double high = 0;
+        double width() const { return high - low; }
+        double middle() const { return (low + high) / 2; }
+    };
+
+    Sample sample_of(const ClockExchange& exchange) const;
+    void keep(const Sample& sample);
+    void fit();
+    Span proven_rates() const;
+    double slope() const;
+    Span ahead_at(double own) const;
+    bool agree(const Sample& one, const Sample& other) const;
+
+    double window_;
+    double stretch_;  // of which one exchange is kept
+    Tick own_origin_;
+    Tick other_origin_;
+    std::deque<Sample> kept_;
+    std::optional<Sample> doubtful_;  // contradicts those kept: was a clock set?
+    double doubt_ = 0;                // how far it is from them
+    double rate_ = 0;
+    double rate_error_ = kMaxRate;
+    std::uint64_t steps_ = 0;
+};
+
+}  // namespace lockstep

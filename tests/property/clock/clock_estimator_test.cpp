@@ -1,0 +1,95 @@
+// Offsets of seconds, rates 100 ppm apart, delays of their own each way, losses: the bound holds, and is narrow.
+#include "core/clock/clock_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "tests/property/clock/two_clocks.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kTick_ns = 1000;
+
+void expect_within_bound(const ClockEstimator& estimator, const TwoClocks& clocks, double truth, std::uint64_t seed) {
+    const auto [other, error] = estimator.at(clocks.own(truth));
+    ASSERT_LE(std::abs((other - TwoClocks::coordinator(truth)).value), error.value) << "seed " << seed;
+}
+
+TEST(ClockEstimator, TheTrueErrorNeverExceedsTheBound) {
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        TwoClocks clocks(seed);
+        ClockEstimator estimator(kTick_ns);
+        for (int i = 0; i < 400; ++i) {
+            estimator.take(clocks.exchange());
+            for (const double later : {0.0, 10e3, 1e6, 30e6}) {
+                ASSERT_NO_FATAL_FAILURE(expect_within_bound(estimator, clocks, clocks.truth() + later, seed));
+            }
+        }
+        EXPECT_EQ(estimator.steps(), 0u);
+    }
+}
+
+TEST(ClockEstimator, TheBoundComesToHalfTheLeastRoundTrip) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        TwoClocks clocks(seed);
+        ClockEstimator estimator(kTick_ns);
+        std::int64_t least = INT64_MAX;
+        for (int i = 0; i < 120; ++i) {
+            const ClockExchange e = clocks.exchange();
+            least = std::min(least, ((e.arrived - e.sent) - (e.answered - e.received)).value);
+            estimator.take(e);
+        }
+        const std::int64_t error = estimator.at(clocks.own(clocks.truth())).error.value;
+        EXPECT_LE(error, least / 2 + least / 8 + 60) << "seed " << seed;
+    }
+}
+
+TEST(ClockEstimator, TheRateIsFound) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        TwoClocks clocks(seed);
+        ClockEstimator estimator(kTick_ns);
+        for (int i = 0; i < 200; ++i) { estimator.take(clocks.exchange()); }
+        EXPECT_NEAR(estimator.rate(), -clocks.drift(), 1e-4) << "seed " << seed;
+    }
+}
+
+TEST(ClockEstimator, WithoutExchangesTheBoundGrowsByWhatDriftMayAdd) {
+    TwoClocks clocks(7);
+    ClockEstimator estimator(kTick_ns);
+    for (int i = 0; i < 200; ++i) { estimator.take(clocks.exchange()); }
+    const Tick now = clocks.own(clocks.truth());
+    const Ticks hour{3'600'000'000};
+    const std::int64_t grown = (estimator.at(now + hour).error - estimator.at(now).error).value;
+    EXPECT_GT(grown, 3'600);
+    EXPECT_LE(grown, 2 * 720'000);
+}
+
+TEST(ClockEstimator, AClockThatIsSetWidensTheBoundUntilASecondExchangeSaysTheSame) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        TwoClocks clocks(seed);
+        ClockEstimator estimator(kTick_ns);
+        for (int i = 0; i < 100; ++i) { estimator.take(clocks.exchange()); }
+        const double step = (seed % 2 == 0 ? 1 : -1) * clocks.real(20e3, 3e6);
+        clocks.step(step);
+        for (int i = 0; i < 200; ++i) {
+            estimator.take(clocks.exchange());
+            if (i == 0) { EXPECT_GE(estimator.at(clocks.own(clocks.truth())).error.value, std::abs(step) / 2); }
+            ASSERT_NO_FATAL_FAILURE(expect_within_bound(estimator, clocks, clocks.truth(), seed));
+        }
+        EXPECT_EQ(estimator.steps(), 1u) << "seed " << seed;
+        EXPECT_LT(estimator.at(clocks.own(clocks.truth())).error.value, 3000) << "seed " << seed;
+    }
+}
+
+TEST(ClockEstimator, AnExchangeThatCannotBeIsLeftOut) {
+    ClockEstimator estimator(kTick_ns);
+    estimator.take({.sent = {100}, .received = {500}, .answered = {499}, .arrived = {110}});
+    estimator.take({.sent = {100}, .received = {500}, .answered = {501}, .arrived = {90}});
+    EXPECT_FALSE(estimator.known());
+}
+
+}  // namespace
+}  // namespace lockstep
