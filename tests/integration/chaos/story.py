@@ -15,10 +15,12 @@ class Chapter:
     remedies: list = dataclasses.field(default_factory=list)
     watched_us: int = 0       # until then the machine was left to itself
     over_us: int = 0
+    is_told: bool = False
 
 
 class Story:
     SETTLE_S = 30    # for the machine to come to an end of what it does: a failure beyond
+    TRIES = 6
     RUNS_ON_S = 1.5  # a machine that has not minded a fault is seen moving for so long, then stopped
 
     def __init__(self, machine, now_us, quiet):
@@ -78,30 +80,46 @@ class Story:
         return {}
 
     def bring_back(self):
-        """To where a job can begin."""
-        self._remedy_all()
-        if self.chapters and not self.quiet:
+        """To where a job can begin, as a user does: what the machine says decides what is done."""
+        for _ in range(self.TRIES):
+            word = self._what_next(self._wait_for(self._is_settled))
+            if self.is_over or not word:
+                break
+            self._remedy(word)
+        else:
+            self.fail(f"the machine cannot be brought back: {self.machine.status()}")
+        if self.chapters and not self.chapters[-1].is_told and not self.quiet:
             self._tell(self.chapters[-1])
 
-    def _remedy_all(self):
-        """As a user does: what the machine says decides what is done."""
-        status = self._wait_for(lambda found: found.get("phase") in ("Idle", "Fault", "Holding", "Paused")
-                                and all(axis.get("present") for axis in found["axes"]))
-        if status.get("phase") in ("Holding", "Paused"):
-            self._remedy("stop")
-            status = self._wait_for(lambda found: found.get("phase") in ("Idle", "Fault"))
-        if status.get("phase") == "Fault":
-            self._remedy("reset")
-            status = self._wait_for(lambda found: found.get("phase") == "Idle")
-        if not self.is_over and not all(axis.get("homed") for axis in status["axes"]):
-            self._remedy("home")
+    @staticmethod
+    def _is_settled(status):
+        return (status.get("phase") in ("Idle", "Fault", "Holding", "Paused")
+                and all(axis.get("present") for axis in status["axes"]))
+
+    @staticmethod
+    def _what_next(status):
+        """Nothing where a job can begin."""
+        phase = status.get("phase")
+        if phase != "Idle":
+            return "reset" if phase == "Fault" else "stop"
+        return "" if all(axis.get("homed") for axis in status["axes"]) else "home"
 
     def _remedy(self, word):
+        """It may fail where the host stalls meanwhile; then it is done again."""
+        code, _, _ = self.machine.call(word)
         if self.chapters:
-            self.chapters[-1].remedies.append(word)
-        self.expect_done(word, self.machine.call(word))
+            self.chapters[-1].remedies.append(word if code == 0 else word + " (failed)")
+
+    def run_to_the_end(self):
+        """A job that nothing befalls."""
+        for _ in range(self.TRIES):
+            self.bring_back()
+            if self.is_over or self.machine.end(self.machine.begin_job(lines=10))[0] == 0:
+                return
+        self.fail("the machine does not come to the end of a job that nothing befell")
 
     def _tell(self, chapter):
+        chapter.is_told = True
         at = (chapter.injected.at_us - self.begin_us) / 1e6
         print(f"{at:7.2f} s  {chapter.injected.text:<52} {chapter.phase}{' ' * bool(chapter.fault)}{chapter.fault}; "
               f"job {chapter.job}{'; then ' * bool(chapter.remedies)}{', '.join(chapter.remedies)}", flush=True)
