@@ -44,7 +44,7 @@ void add_change(const MachineConfig& machine, const PathMove& before, const Path
 
 void add_move(const MachineConfig& machine, const PathMove& move, ProgramPlan& plan) {
     if (move.lead == 0) { return; }
-    ++plan.moves;
+    plan.moves += move.part == 0 ? 1 : 0;  // the parts of one are as many moves at constant speed
     plan.length_mm += move.length_mm;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         AxisPlan& axis = plan.axes[i];
