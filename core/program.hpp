@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <expected>
 #include <string>
 #include <variant>
 #include <vector>
@@ -39,5 +40,9 @@ struct Program {
     std::vector<double> start_mm;  // where the machine stood when the program was made; refused from elsewhere
     std::vector<Block> blocks;
 };
+
+/// What is left of a program from the first block of `line` or behind it, for axes that stand at `at_mm`: they first
+/// go, as fast as they can and straight, to where that block begins. Error: there is no such block; the last there is.
+std::expected<Program, std::string> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm);
 
 }  // namespace lockstep

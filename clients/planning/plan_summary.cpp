@@ -31,9 +31,20 @@ void add_peaks(const MachineConfig& machine, const PathMove& move, std::size_t i
     }
 }
 
+/// Where a move is planned in parts of one length and one speed each, it accelerates from part to part.
+void add_change(const MachineConfig& machine, const PathMove& before, const PathMove& part, ProgramPlan& plan) {
+    const double seconds = static_cast<double>(part.profile.duration().floor().value) / machine.ticks_per_second();
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const std::int64_t change = (part.to[i] - part.from[i]) - (before.to[i] - before.from[i]);
+        const double mm = static_cast<double>(std::abs(change)) / machine.axes[i].steps_per_mm;
+        double& peak = plan.axes[i].peak_acceleration_mm_s2;
+        peak = std::max(peak, mm / (seconds * seconds));
+    }
+}
+
 void add_move(const MachineConfig& machine, const PathMove& move, ProgramPlan& plan) {
     if (move.lead == 0) { return; }
-    ++plan.moves;
+    plan.moves += move.part == 0 ? 1 : 0;  // the parts of one are as many moves at constant speed
     plan.length_mm += move.length_mm;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         AxisPlan& axis = plan.axes[i];
@@ -76,7 +87,12 @@ std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine,
         if (leg.moves.empty()) { continue; }
         plan.paths.push_back(planner.path(std::move(leg.moves), {}));
         plan.duration += plan.paths.back().duration().ceil();
-        for (const PathMove& move : plan.paths.back().moves) { add_move(machine, move, plan); }
+        const PathMove* before = nullptr;
+        for (const PathMove& move : plan.paths.back().moves) {
+            add_move(machine, move, plan);
+            if (move.part > 0) { add_change(machine, *before, move, plan); }
+            before = &move;
+        }
     }
     plan.duration_s = static_cast<double>(plan.duration.value) / machine.ticks_per_second();
     return plan;

@@ -18,6 +18,8 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     now_ = inputs.now;
     clock_error_ = inputs.clock_error;
     const Slot slot = rules::slot_of(now_, slot_);
+    // A coordinator that it has not heard because it did not run is not silent.
+    if (state_slot_) { coordinator_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
     observe(inputs.device, out);
     if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
         homed_ = false;

@@ -81,8 +81,11 @@ OwnMove AxisController::own_move(const LocalMove& move, Tick start) const {
                    whole ? kUncut : frame_span(machine_));
 }
 
+/// A run that a switch cut short ended on a pulse, and the next sets out from the whole step: half a step's time is
+/// owed.
 void AxisController::start_local(const LocalMove& move, int tries, AxisOutputs& out) {
-    const Tick start = now_ + slot_ * (2 + tries);
+    const Ticks half_step{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))};
+    const Tick start = now_ + slot_ * (2 + tries) + half_step;
     local_.emplace(LocalRun{.move = move,
                             .frames = own_move(move, start),
                             .target = device_.position.count() + move.steps,

@@ -32,6 +32,7 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     now_ = inputs.now;
     now_slot_ = rules::slot_of(now_, slot_);
     if (!first_slot_) { first_slot_ = now_slot_; }
+    forgive_own_stall();
     hear(inputs, out);
     watch_axes(out);
     for (const Command& command : inputs.commands) { take_command(command, out); }
@@ -43,6 +44,12 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     }
     out.state = state();
     return out;
+}
+
+/// Whom it has not heard because it did not run is not silent.
+void Coordinator::forgive_own_stall() {
+    const Slot missed = state_slot_ ? std::max<Slot>(0, now_slot_ - *state_slot_ - 1) : 0;
+    for (AxisView& view : views_) { view.heard += missed; }
 }
 
 void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out) {

@@ -103,6 +103,7 @@ private:
         double planned_s = 0;
     };
 
+    void forgive_own_stall();
     void hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
     void take_command(const Command& command, CoordinatorOutputs& out);
     Reply answer(const Command& command, CoordinatorOutputs& out);

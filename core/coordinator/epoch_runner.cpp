@@ -7,7 +7,9 @@
 namespace lockstep {
 
 EpochRunner::EpochRunner(const MachineConfig& machine, Identity coordinator)
-    : machine_(machine), coordinator_(coordinator), slot_(machine.slot_ticks()) {}
+    : machine_(machine), coordinator_(coordinator), slot_(machine.slot_ticks()) {
+    for (const AxisConfig& axis : machine.axes) { limits_.push_back(limits_of(axis, machine.tick_ns)); }
+}
 
 void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot now) {
     constexpr Slot kMargin = 2;
@@ -71,7 +73,7 @@ Frame EpochRunner::make_frame() {
 }
 
 EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
-    const Path tail = brake_from(path_, subticks(end));
+    const Path tail = brake_from(path_, subticks(end), limits_);
     const std::size_t move = path_.move_at(subticks(end));
     Ending ending{move, path_.moves[move].profile.at(subticks(end) - path_.moves[move].start), at_, false};
     if (tail.empty()) { return ending; }

@@ -87,6 +87,7 @@ private:
 
     MachineConfig machine_;
     Identity coordinator_;
+    std::vector<AxisLimits> limits_;
     Ticks slot_;
     Epoch epoch_ = 0;
     Path path_;

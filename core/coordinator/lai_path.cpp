@@ -44,7 +44,7 @@ public:
     void straight(const PathMove& move, std::uint32_t part) {
         AxisCounts at = move.from;
         std::vector<std::optional<stepgen::LaiShortAxis>> followers = followers_of(move);
-        stepgen::LaiLongAxis lead(move.lead, speeds_of(move));
+        stepgen::LaiLongAxis lead(move.lead, speeds_of(move), stepgen::LaiLeftOver::WithinTheFall);
         while (lead.remaining() > 0) {
             const std::int64_t pulses = lead.next();
             AxisCounts to = at;

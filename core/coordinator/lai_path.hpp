@@ -4,7 +4,8 @@
 // core/stepgen/lai_planner.hpp). Every 6.5 ms each axis is given a whole number of pulses: the axis with the most
 // leads, every other follows it with its slope, as if there were no third. Each period is a straight move at constant
 // speed, which the step engine spreads evenly, as the paper's DDA does; so holds, stops, tails and frames are those of
-// every path. Each move of a program comes to rest before the next: the paper has no look-ahead.
+// every path. Each move of a program comes to rest before the next: the paper has no look-ahead. What falling leaves
+// over is made on the way down, where the paper makes it by single pulses behind it.
 //
 // A short axis's pulses are rounded from the start of the move, which keeps it within a step of the line. The paper
 // rounds in each period and repairs what that leaves over by two compensations (Eqs. 14 to 17): these would let the

@@ -74,6 +74,20 @@ void charge(PathMove& move, double mm, double apex2, const Tolls& tolls, std::sp
     }
 }
 
+/// What the speeds at the joints can be at most, whatever corners use up: out of reach is out of reach.
+void limit_reach(std::span<const PathMove> moves, double first_mm, std::vector<double>& speed) {
+    const auto reach = [&](std::size_t m, double from, double acceleration) {
+        const double mm = m == 0 ? first_mm : moves[m].length_mm;
+        return std::sqrt(from * from + 2 * acceleration * moves[m].mm_per_lead() * mm);
+    };
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+        speed[m + 1] = std::min(speed[m + 1], reach(m, speed[m], moves[m].limits.max_acceleration));
+    }
+    for (std::size_t m = moves.size(); m-- > 0;) {
+        speed[m] = std::min(speed[m], reach(m, speed[m + 1], moves[m].limits.max_deceleration));
+    }
+}
+
 }  // namespace
 
 std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits) {
@@ -85,6 +99,7 @@ std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along,
         if (j > 0) { speed[j] = std::min(speed[j], moves[j - 1].top_speed()); }
         if (j < n) { speed[j] = std::min(speed[j], moves[j].top_speed()); }
     }
+    limit_reach(moves, first_mm, speed);
     for (std::size_t m = 0; m < n; ++m) {
         const double mm = m == 0 ? first_mm : moves[m].length_mm;
         Tolls tolls;
@@ -99,6 +114,17 @@ std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along,
         charge(moves[m], mm, apex2, tolls, limits);
     }
     return speed;
+}
+
+double braking_left(std::span<const PathMove> moves, std::size_t m, double speed, std::span<const AxisLimits> limits) {
+    double left = kUnbounded;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const double share = std::abs(moves[m].share(i));
+        if (share == 0) { continue; }
+        const double jump = (turn(moves, m, i) + turn(moves, m + 1, i)) / 2 * speed;
+        left = std::min(left, (limits[i].max_deceleration - jump * speed / moves[m].length_mm) / share);
+    }
+    return left;
 }
 
 double rest_share(Ticks rest, std::span<const AxisLimits> limits) {

@@ -26,6 +26,10 @@ inline constexpr double kCornerShare = 0.8;
 /// speeds and accelerations to what their corners leave.
 std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits);
 
+/// The deceleration (lead steps per tick^2) that its corners leave move `m`, entered at no more than `speed` (mm per
+/// tick) and never faster from there: the slower, the less they cost.
+double braking_left(std::span<const PathMove> moves, std::size_t m, double speed, std::span<const AxisLimits> limits);
+
 /// The part of its start velocity that an axis may jump by on either side of a rest of `rest`: half at least, all of it
 /// where the rest is long enough to pay for both jumps.
 double rest_share(Ticks rest, std::span<const AxisLimits> limits);

@@ -154,7 +154,7 @@ Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const 
     return path;
 }
 
-Path brake_from(const Path& path, Subticks t) {
+Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits) {
     Path rest;
     std::size_t i = path.move_at(t);
     if (t >= path.moves[i].end() || path.moves[i].lead == 0) { return rest; }
@@ -173,14 +173,18 @@ Path brake_from(const Path& path, Subticks t) {
         const Displacement whole = Displacement::steps(move.lead);
         if (from >= whole) { continue; }
         const double scale = move.mm_per_lead();
-        if (from == Displacement{}) { speed = std::min(speed, path.moves[i].profile.velocity_at({}) * scale); }
+        const double planned = path.moves[i].profile.velocity_at({}) * scale;
+        const bool is_slower = from == Displacement{} && speed <= planned;
+        if (from == Displacement{}) { speed = std::min(speed, planned); }
+        double braking = move.limits.max_deceleration;
+        if (is_slower) { braking = std::max(braking, braking_left(path.moves, i, speed, limits)); }
         const double entry = speed / scale;
         if (entry <= 0) { break; }
         const double left = (whole - from).as_steps();
-        const double at_end = entry * entry - 2 * move.limits.max_deceleration * left;
+        const double at_end = entry * entry - 2 * braking * left;
         const bool halts = at_end <= 0;
         const double exit = halts ? 0 : std::sqrt(at_end);
-        if (halts) { move.profile = plan_brake_to(from, entry, move.limits.max_deceleration, clock); }
+        if (halts) { move.profile = plan_brake_to(from, entry, braking, clock); }
         if (!halts || move.profile.phases.back().to > whole) {
             move.profile = plan_brake_through(from, whole, entry, exit);
         }

@@ -30,6 +30,6 @@ Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const 
 
 /// The way to rest from time t on: the same moves, braked as hard as their limits allow; the remainder of the path
 /// itself where it is on its last fall. Its time 0 is t. Empty where the path is at rest at t.
-Path brake_from(const Path& path, Subticks t);
+Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits);
 
 }  // namespace lockstep

@@ -22,17 +22,17 @@ struct PathMove {
     std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;
     double feed_mm_per_tick = 0;  // asked; 0: as fast as the axes allow
-    PathLimits own;     // of the lead axis, so that no axis breaks its own; feed included
-    PathLimits limits;  // what the frames and the corners beside it leave of them: set by planning
-    Ticks dwell;        // where lead is 0
-    Subticks start;     // after the path's start
+    PathLimits own;               // of the lead axis, so that no axis breaks its own; feed included
+    PathLimits limits;            // what the frames and the corners beside it leave of them: set by planning
+    Ticks dwell;                  // where lead is 0
+    Subticks start;               // after the path's start
     Profile profile;
 
     Subticks end() const { return start + profile.duration(); }
     /// Steps of axis `i` over steps of the lead axis, with its sign.
     double share(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / static_cast<double>(lead); }
-    /// Steps of axis `i` per mm of path.
-    double slope(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / length_mm; }
+    /// Steps of axis `i` per mm of path; none in a dwell.
+    double slope(std::size_t i) const { return lead == 0 ? 0 : static_cast<double>(to[i] - from[i]) / length_mm; }
     /// mm of path per step of the lead axis: turns speeds of one move into those of the next.
     double mm_per_lead() const { return length_mm / static_cast<double>(lead); }
     double remaining_mm(Displacement along) const { return length_mm - along.as_steps() * mm_per_lead(); }

@@ -19,21 +19,24 @@ std::int64_t falling_distance(std::int64_t v, std::int64_t lowest, std::int64_t 
 
 }  // namespace
 
-LaiLongAxis::LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds)
-    : speeds_(speeds), lowest_(std::max<std::int64_t>(1, speeds.start)), remaining_(length) {
+LaiLongAxis::LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds, LaiLeftOver left_over)
+    : speeds_(speeds), left_over_(left_over), lowest_(std::max<std::int64_t>(1, speeds.start)), remaining_(length) {
     const std::int64_t short_max = whole_root(speeds.start * speeds.start + speeds.change * length);
     top_ = std::max(lowest_, std::min(speeds.max, short_max));
 }
 
 std::int64_t LaiLongAxis::next() {
-    const std::int64_t falling = falling_distance(speed_, lowest_, speeds_.change);
+    const auto can_fall_behind = [&](std::int64_t v) {
+        return remaining_ - v >= falling_distance(v - speeds_.change, lowest_, speeds_.change);
+    };
+    const bool may_hold = left_over_ == LaiLeftOver::WithinTheFall && can_fall_behind(speed_);
     const std::int64_t faster = std::min(top_, speed_ + speeds_.change);
-    falling_ = falling_ || (speed_ > 0 && remaining_ <= falling);
+    falling_ = falling_ || (speed_ > 0 && !may_hold && remaining_ <= falling_distance(speed_, lowest_, speeds_.change));
     if (falling_) {
-        speed_ = std::max(lowest_, speed_ - speeds_.change);
+        speed_ = may_hold ? speed_ : std::max(lowest_, speed_ - speeds_.change);
     } else if (speed_ == 0) {
         speed_ = speeds_.start > 0 ? lowest_ : faster;
-    } else if (remaining_ - faster >= falling_distance(faster - speeds_.change, lowest_, speeds_.change)) {
+    } else if (can_fall_behind(faster)) {
         speed_ = faster;
     }
     const std::int64_t pulses = std::min(speed_, remaining_);

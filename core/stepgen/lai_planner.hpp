@@ -31,10 +31,14 @@ struct LaiSpeeds {
     std::int64_t change = 1;  // a
 };
 
+/// Where what falling leaves over is made: at the lowest speed behind it, as in the paper, or by holding a speed once
+/// more on the way down.
+enum class LaiLeftOver { Behind, WithinTheFall };
+
 /// The long axis's pulses, period after period.
 class LaiLongAxis {
 public:
-    LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds);
+    LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds, LaiLeftOver left_over = LaiLeftOver::Behind);
 
     /// None once the whole length is made.
     std::int64_t next();
@@ -42,6 +46,7 @@ public:
 
 private:
     LaiSpeeds speeds_;
+    LaiLeftOver left_over_;
     std::int64_t lowest_;
     std::int64_t top_;
     std::int64_t remaining_;

@@ -131,6 +131,17 @@ std::expected<Reply, Failure> Session::command(CommandKind kind, std::uint32_t a
     return replies_.extract(command.sequence).mapped();
 }
 
+std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
+    const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
+    const nanoseconds deadline = monotonic_now() + patience;
+    while (!replies_.contains(command.sequence) && monotonic_now() < deadline) {
+        (void)bus_.commands.write(command);
+        listen(20ms);
+    }
+    if (!replies_.contains(command.sequence)) { return std::nullopt; }
+    return replies_.extract(command.sequence).mapped();
+}
+
 std::expected<std::uint64_t, Failure> Session::send(const Program& program) {
     const std::uint64_t id = new_identity() | 1;  // never 0, which says: none
     ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program));

@@ -55,6 +55,8 @@ public:
     /// Asks until the answer comes. Error: none comes.
     std::expected<Reply, Failure> command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0,
                                           Ticks ticks = {});
+    /// Calls out to coordinator and axes alike: axes stop by themselves. Nothing: no coordinator answered in the time.
+    std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
     /// Sends a program; what it is called in a command. Error: it is refused, or no answer comes.
     std::expected<std::uint64_t, Failure> send(const Program& program);
 

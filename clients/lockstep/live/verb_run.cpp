@@ -1,5 +1,6 @@
 // lockstep run
 #include "clients/lockstep/live/job.hpp"
+#include "clients/lockstep/live/program_start.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "idl/proto/report.pb.h"
@@ -13,6 +14,8 @@ struct RunOptions : LiveOptions {
     std::string file;
     GcodeSwitches switches;
     bool dry_run = false;
+    int from_line = 0;       // 0: all of it
+    std::string started_at;  // where the machine stood when it ran from its beginning
     bool detach = false;
 };
 
@@ -28,6 +31,31 @@ ExitCode say_dry_run(const Job& job, Voice& voice) {
     return kExitDone;
 }
 
+/// The whole program, made for where the machine stands, or the rest of one that was begun elsewhere.
+std::expected<Program, Failure> read(const RunOptions& options, const MachineConfig& machine,
+                                     const std::vector<double>& stands_mm) {
+    const bool is_rest = options.from_line > 0;
+    const auto started = is_rest ? places_at_start(machine, options.started_at) : stands_mm;
+    if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
+    auto program = load_gcode_file(options.file, machine, *started, options.switches);
+    if (!program) { return std::unexpected(bad_file(options.file, program.error())); }
+    if (!is_rest) { return *std::move(program); }
+    auto rest = program_from(*program, options.from_line, stands_mm);
+    if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
+    return *std::move(rest);
+}
+
+/// What a rest of a program does first: a person must know before it moves.
+std::string approach_text(const Program& program) {
+    const auto* first = program.blocks.empty() ? nullptr : std::get_if<LinearMove>(&program.blocks.front().action);
+    if (first == nullptr || !first->rapid) { return "begins where the machine stands"; }
+    std::string places;
+    for (std::size_t i = 0; i < program.axes.size(); ++i) {
+        places += " " + program.axes[i] + "=" + fixed(first->target_mm[i], 3);
+    }
+    return "first goes straight to" + places + ", as fast as it can";
+}
+
 ExitCode run(const RunOptions& options) {
     Voice voice(options.json);
     if (const auto text = read_text_file(options.file); !text) {
@@ -39,8 +67,8 @@ ExitCode run(const RunOptions& options) {
     if (!session) { return voice.fail(session.error()); }
     const auto start_mm = start_places(*session);
     if (!start_mm) { return voice.fail(start_mm.error()); }
-    auto program = load_gcode_file(options.file, machine->config, *start_mm, options.switches);
-    if (!program) { return voice.fail(bad_file(options.file, program.error())); }
+    auto program = read(options, machine->config, *start_mm);
+    if (!program) { return voice.fail(program.error()); }
     const auto planned_s = planned_seconds(machine->config, *program, *start_mm);
     if (!planned_s) { return voice.fail(bad_file(options.file, planned_s.error().errors)); }
     const Job job{.command = CommandKind::Run,
@@ -49,6 +77,9 @@ ExitCode run(const RunOptions& options) {
                   .program = *std::move(program),
                   .planned_s = *planned_s,
                   .detach = options.detach};
+    if (options.from_line > 0) {
+        voice.say("from line " + std::to_string(options.from_line) + ": " + approach_text(*job.program));
+    }
     return options.dry_run ? say_dry_run(job, voice) : run_job(*session, job, voice);
 }
 
@@ -59,11 +90,18 @@ void add_run(CLI::App& app, Action& action) {
     const auto options = std::make_shared<RunOptions>();
     verb->add_option("file", options->file, "the G-code file")->required();
     verb->add_flag("--dry-run", options->dry_run, "read, check and plan it for where the machine stands; move nothing");
+    verb->add_option("--from-line", options->from_line,
+                     "only from this line on, first going straight to where it begins: try --dry-run before")
+        ->check(CLI::Range(1, 100'000'000));
+    verb->add_option("--started-at", options->started_at,
+                     "with --from-line: where the program's first run started, in mm, X=10,Y=5; those not named were "
+                     "parked");
     verb->add_flag("--detach", options->detach, "return once it has begun");
     verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
     add_live_options(*verb, *options);
     verb->footer("Ctrl-C stops the machine on its path and drops the rest of the program.\n" +
                  footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
+                        "  lockstep run plate.gcode --from-line 120 --dry-run\n"
                         "  lockstep run plate.gcode --json > report.json\n"));
     verb->callback([&action, options] { action = [options] { return run(*options); }; });
 }

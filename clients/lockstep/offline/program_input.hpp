@@ -24,7 +24,4 @@ struct ProgramInput {
 std::expected<ProgramInput, Failure> read_program(const std::string& file, const std::string& machine_file,
                                                   const std::string& start);
 
-/// Parked, but for the axes that `start` names. Error: what is wrong with it, and an example.
-std::expected<std::vector<double>, std::string> places_at_start(const MachineConfig& machine, const std::string& start);
-
 }  // namespace lockstep

@@ -81,7 +81,7 @@ void BrakeFromAnywhere(benchmark::State& state) {
     std::int64_t t = 0;
     for (auto _ : state) {
         t = (t + whole / 7 + 12'345) % whole;
-        benchmark::DoNotOptimize(brake_from(path, Subticks{t}));
+        benchmark::DoNotOptimize(brake_from(path, Subticks{t}, axes.limits));
     }
 }
 BENCHMARK(BrakeFromAnywhere)->Name("plan/tail");

@@ -130,6 +130,16 @@ TEST_F(Motion, PausesAndSaysHowToGoOn) {
     EXPECT_EQ(run.wait().code, 0);
 }
 
+TEST_F(Motion, GoesOnFromALineAfterAStop) {
+    const std::string file = write("square.gcode", kSquare);
+    const Ran dry = run_lockstep({"run", file, "--from-line", "4", "--dry-run"});
+    EXPECT_EQ(dry.code, 0) << dry.err;
+    EXPECT_THAT(dry.out, HasSubstr("first goes straight to X=60.000 Y=0.000"));
+    EXPECT_EQ(run_lockstep({"run", file, "--from-line", "4"}).code, 0);
+    EXPECT_EQ(status().axes(0).position_mm(), 20);
+    EXPECT_EQ(run_lockstep({"run", file, "--from-line", "40"}).code, 2);
+}
+
 TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));
@@ -141,6 +151,19 @@ TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
     EXPECT_EQ(run_lockstep({"home"}).code, 1);
     EXPECT_EQ(run_lockstep({"reset"}).code, 0);
     EXPECT_EQ(run_lockstep({"home", "X", "y"}).code, 0);
+}
+
+TEST_F(Motion, CeasesOnAnEmergencyStopThoughTheCoordinatorIsStuck) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ASSERT_TRUE(becomes("Running"));
+    kill(process("coordinator"), SIGSTOP);
+    const Ran ran = run_lockstep({"estop", "--json"});
+    kill(process("coordinator"), SIGCONT);
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_EQ(ran.json<proto::CommandReport>().text(), "no coordinator answers; at rest by themselves: X, Y");
+    EXPECT_NE(run.wait().code, 0);
+    ASSERT_TRUE(becomes("Fault"));
+    EXPECT_EQ(status().fault().name(), "emergency-stopped") << "not that the axes fell silent";
 }
 
 }  // namespace

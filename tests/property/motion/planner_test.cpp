@@ -181,7 +181,7 @@ TEST(JoinedMoves, EveryStopOnThePathKeepsTheLimitsAndFitsATail) {
         for (int stop = 0; stop < 10; ++stop) {
             const auto whole = path.duration().floor().value;
             const Ticks when{static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(whole))};
-            const Path tail = brake_from(path, subticks(when));
+            const Path tail = brake_from(path, subticks(when), m.limits);
             ASSERT_LE(tail.moves.size(), kBounds.stop_moves) << "run " << run;
             if (tail.empty()) { continue; }
             std::vector<Position> at;

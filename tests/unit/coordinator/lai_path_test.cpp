@@ -44,7 +44,7 @@ void expect_accepted(const Path& path, Ticks end) {
     while (body.next(pieces)) {
         for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].body.push_back(pieces[i])); }
     }
-    const Path tail = brake_from(path, subticks(end));
+    const Path tail = brake_from(path, subticks(end), kLimits);
     PieceSource rest(tail, Ticks{0}, tail.duration().ceil(), at);
     while (rest.next(pieces)) {
         for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].tail.push_back(pieces[i])); }
@@ -122,11 +122,15 @@ TEST(LaiPath, NoPeriodChangesTheSpeedByMoreThanItMay) {
     for (std::int64_t change = 1; change < 9; ++change) {
         for (std::int64_t length = 1; length < 1000; ++length) {
             std::int64_t before = 0;
-            for (const std::int64_t pulses :
-                 stepgen::plan_long_axis(length, {.start = 0, .max = 60, .change = change})) {
+            std::int64_t sum = 0;
+            stepgen::LaiLongAxis axis(length, {.max = 60, .change = change}, stepgen::LaiLeftOver::WithinTheFall);
+            while (axis.remaining() > 0) {
+                const std::int64_t pulses = axis.next();
                 ASSERT_LE(std::abs(pulses - before), change) << length << " by " << change;
                 before = pulses;
+                sum += pulses;
             }
+            ASSERT_EQ(sum, length);
             ASSERT_LE(before, change) << length << " by " << change;
         }
     }

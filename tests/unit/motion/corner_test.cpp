@@ -78,7 +78,7 @@ TEST(Corner, AsManyAsAFrameCanHoldFitIt) {
     for (Ticks begin{0}; begin < path.duration().ceil(); begin += frame) {
         const Ticks end = std::min(begin + frame, path.duration().ceil());
         EXPECT_LE(pieces_in(path, begin, end, at).size(), kMaxBodyPieces);
-        EXPECT_LE(brake_from(path, subticks(end)).moves.size() * 2, kMaxTailPieces);
+        EXPECT_LE(brake_from(path, subticks(end), kLimits).moves.size() * 2, kMaxTailPieces);
     }
     EXPECT_EQ(at[1].count(), 500);
 }

@@ -92,6 +92,18 @@ TEST(Corners, EachWithinTheStartVelocityDoNotAddUpBeyondIt) {
     }
 }
 
+/// The slower it gets the less the corners cost, and the harder it may brake.
+TEST(Corners, OfACurveDoNotMakeAStopMuchLongerThanOnALine) {
+    const Path path = through(circle(10, 0.5));
+    const Subticks middle = subticks(Ticks{path.duration().floor().value / 2});
+    const Path tail = brake_from(path, middle, kLimits);
+    const PathMove& first = tail.moves.front();
+    const double speed_mm_s = first.profile.velocity_at({}) * first.mm_per_lead() / kTick_s;
+    const double seconds = static_cast<double>(tail.duration().ceil().value) * kTick_s;
+    EXPECT_GT(speed_mm_s, 60);
+    EXPECT_LT(seconds, 2 * speed_mm_s / kAccel_mm_s2);
+}
+
 TEST(Corners, OfAZigzagKeepTheLimitsWhateverItsPitch) {
     for (const std::int64_t pitch : {1, 3, 10, 40, 200, 2000}) {
         std::vector<AxisCounts> places;

@@ -1,6 +1,8 @@
 // From every tick of a path there is a tail that every axis accepts: also just before, in and just behind a corner.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/axis/frame_check.hpp"
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
@@ -22,11 +24,11 @@ void fill(StaticVector<Piece, Capacity> AxisTrack::*part, const Path& path, Tick
 
 /// Runs the path to `end` as one frame, the tail behind it, and asks every axis.
 void expect_accepted(const Path& path, Ticks end, const std::vector<AxisLimits>& limits) {
-    std::vector<Position> at{start_of(path, 0, 0), start_of(path, 1, 0)};
+    std::vector<Position> at{start_of(path, 0, path.moves[0].from[0]), start_of(path, 1, path.moves[0].from[1])};
     std::vector<AxisTrack> tracks{{at[0], {}, {}}, {at[1], {}, {}}};
     std::vector<MotionPoint> from{{at[0], 0, {}}, {at[1], 0, {}}};
     fill(&AxisTrack::body, path, Ticks{0}, end, at, tracks);
-    const Path tail = brake_from(path, subticks(end));
+    const Path tail = brake_from(path, subticks(end), limits);
     if (!tail.empty()) { fill(&AxisTrack::tail, tail, Ticks{0}, tail.duration().ceil(), at, tracks); }
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(check_track(tracks[i], end, false, limits[i], from[i]), FaultCode::None)
@@ -47,6 +49,22 @@ void expect_accepted_everywhere(double acceleration, double deceleration) {
         const Ticks stride{path.duration().floor().value / 4000 + 1};
         for (Ticks end{1}; end < path.duration().floor(); end += stride) { expect_accepted(path, end, limits); }
     }
+}
+
+TEST(Tail, IsAcceptedFromEverywhereOnAFinelyCutCurve) {
+    const std::vector<AxisLimits> limits(2, {5e-4, 0.01, 1e-7, 1e-7, -1'000'000, 1'000'000});
+    std::vector<PathMove> moves;
+    AxisCounts at{600, 0};
+    for (std::uint32_t i = 1; i <= 40; ++i) {
+        const double angle = 0.05 * i;
+        const AxisCounts to{std::llround(600 * std::cos(angle)), std::llround(600 * std::sin(angle))};
+        moves.push_back(make_move(at, to, limits, kScale, 0));
+        moves.back().block = i;
+        at = to;
+    }
+    const Path path = plan_path(moves, {}, limits, {.least_move = Ticks{100}});
+    const Ticks stride{path.duration().floor().value / 1000};
+    for (Ticks end{1}; end < path.duration().floor(); end += stride) { expect_accepted(path, end, limits); }
 }
 
 TEST(Tail, IsAcceptedFromEveryTickOfAPath) { expect_accepted_everywhere(1e-7, 1e-7); }

@@ -258,5 +258,22 @@ TEST(Determinism, TheSameOptionsGiveTheSameSteps) {
     }
 }
 
+TEST(Coordinator, DoesNotTakeItsOwnStallForTheSilenceOfOthers) {
+    MachineConfig machine = small_machine();
+    machine.axes.pop_back();
+    Coordinator coordinator(machine, 1, 1);
+    const AxisState axis{.identity = 7, .stamp = 10, .config_hash = 1};
+    (void)coordinator.step({.now = {10'000}, .axes = {&axis, 1}});
+    const auto after_a_stall = coordinator.step({.now = {5'000'000}});
+    ASSERT_TRUE(after_a_stall.state.has_value());
+    EXPECT_EQ(after_a_stall.state->axes_present, 1u);
+    Tick now{5'000'000};
+    for (int slot = 0; slot < rules::silence_slots(machine.timing); ++slot) {
+        now = now + machine.slot_ticks();
+        (void)coordinator.step({.now = now});
+    }
+    EXPECT_EQ(coordinator.step({.now = now + machine.slot_ticks()}).state->axes_present, 0u) << "but its silence since";
+}
+
 }  // namespace
 }  // namespace lockstep

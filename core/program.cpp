@@ -1,0 +1,25 @@
+#include "core/program.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+
+std::expected<Program, std::string> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm) {
+    const auto first = std::find_if(program.blocks.begin(), program.blocks.end(),
+                                    [&](const Block& block) { return block.line >= line; });
+    if (first == program.blocks.end()) {
+        const std::int32_t last = program.blocks.empty() ? 0 : program.blocks.back().line;
+        return std::unexpected("nothing is left from line " + std::to_string(line) + "; the last motion is in line " +
+                               std::to_string(last));
+    }
+    std::vector<double> begins_mm = program.start_mm;
+    for (auto block = program.blocks.begin(); block != first; ++block) {
+        if (const auto* move = std::get_if<LinearMove>(&block->action)) { begins_mm = move->target_mm; }
+    }
+    Program rest{.name = program.name, .axes = program.axes, .start_mm = std::move(at_mm)};
+    if (rest.start_mm != begins_mm) { rest.blocks.push_back({first->line, LinearMove{begins_mm, 0, true}}); }
+    rest.blocks.insert(rest.blocks.end(), first, program.blocks.end());
+    return rest;
+}
+
+}  // namespace lockstep
