@@ -28,15 +28,15 @@ DeviceTime::DeviceTime(const MachineConfig& machine)
       machine_(machine.tick_ns),
       shown_(machine.tick_ns) {}
 
-bool DeviceTime::look(Tick own, Tick device, Ticks lag, bool in_use) {
+bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
+    device_ = device.now;
     if (source_ != TimeSource::Network) {
         now_ = own;
-        device_ = device;
         return true;
     }
-    if (!shown_.known() || device != device_) { shown_.take({own - lag, device, device, own}); }
+    const Tick shown = device.shares_clock ? own : device.now;
+    shown_.take({own, shown, shown, own});
     own_ = own;
-    device_ = device;
     if (!machine_.known()) { return false; }
     now_ = machine_.advance(own, in_use);
     return true;

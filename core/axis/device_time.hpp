@@ -25,9 +25,13 @@ public:
     /// An exchange with the coordinator, by this process's clock.
     void take(const ClockExchange& exchange) { machine_.take(exchange); }
 
-    /// Each loop: the device showed `device` when this process's clock read between `own` - `lag` and `own`. False:
-    /// the machine time is not known yet. `in_use`: the axis moves, its time is slewed and not set.
-    bool look(Tick own, Tick device, Ticks lag, bool in_use);
+    struct Device {
+        Tick now;                   // what it shows
+        bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
+    };
+    /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet. `in_use`: the axis
+    /// moves, its time is slewed and not set.
+    bool look(Tick own, const Device& device, bool in_use);
 
     /// At the last look, as all below.
     Tick now() const { return now_; }

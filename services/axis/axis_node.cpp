@@ -6,7 +6,7 @@ namespace lockstep {
 
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
     RegisterWindow window = RegisterWindow::in_process();
-    return {window, std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now), {}};
+    return {window, std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now), true};
 }
 
 std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDevice device) {
@@ -26,7 +26,7 @@ AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step
     if (device_.simulated) { device_.simulated->advance(own); }
     for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
     look(own);
-    knows_time_ = time_.look(own, status_.now, device_.lag, !controller_.at_rest());
+    knows_time_ = time_.look(own, {status_.now, device_.shares_clock}, !controller_.at_rest());
     AxisOutputs out = knows_time_ ? decide(mail) : AxisOutputs{};
     if (device_.simulated) { device_.simulated->advance(own); }
     if (const auto drained = driver_.drain_capture(on_step); !drained) { note(drained.error()); }

@@ -19,7 +19,7 @@ namespace lockstep {
 struct AxisDevice {
     RegisterWindow window;
     std::unique_ptr<SimulatedDevice> simulated;  // null: another process's, or hardware
-    Ticks lag;                                   // how old its registers may be
+    bool shares_clock = false;                   // it counts the ticks of this process's clock
 };
 
 /// A simulated device in this process, powered up at `now`.

@@ -21,9 +21,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// How often lockstep-fpga renews its registers, and some more.
-Ticks register_age(std::int64_t tick_ns) { return {2'000'000 / tick_ns}; }
-
 std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis,
                                                    std::int64_t tick_ns, Tick now) {
     constexpr std::string_view kShared = "shm:";
@@ -33,7 +30,7 @@ std::expected<AxisDevice, std::string> open_device(const std::string& fpga, cons
     }
     auto window = RegisterWindow::open_shared(fpga.substr(kShared.size()));
     if (!window) { return std::unexpected(window.error() + "; start it: lockstep-fpga --name NAME"); }
-    return AxisDevice{std::move(*window), nullptr, register_age(tick_ns)};
+    return AxisDevice{std::move(*window), nullptr, true};
 }
 
 /// The loop's state: what came, what is said, what is complained about.
@@ -174,6 +171,10 @@ int serve_axis(const AxisServiceOptions& options) {
     }
     if (options.clock_error != ClockError{} && machine->timing.time_source != TimeSource::Network) {
         std::cerr << "--clock-error: the machine's time_source is not NETWORK; nothing would correct the clock\n";
+        return kServiceBadInput;
+    }
+    if (options.clock_error != ClockError{} && options.fpga != "sim") {
+        std::cerr << "--clock-error needs --fpga sim: lockstep-fpga keeps the right time\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"axis", options.axis, options.log_file}); !log) {

@@ -20,6 +20,7 @@ constexpr std::chrono::milliseconds kPeriod{1};
 struct Hardware {
     AxisConfig axis;
     std::int64_t tick_ns;
+    TimeSource time_source;
     RegisterWindow window;
 };
 
@@ -32,7 +33,7 @@ std::expected<Hardware, std::string> set_up(const FpgaOptions& options) {
     }
     auto window = RegisterWindow::create_shared(options.name);
     if (!window) { return std::unexpected(window.error()); }
-    return Hardware{*axis, machine->tick_ns, std::move(*window)};
+    return Hardware{*axis, machine->tick_ns, machine->timing.time_source, std::move(*window)};
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ int serve_fpga(const FpgaOptions& options) {
         log_error(hardware.error());
         return 1;
     }
-    const MachineClock clock(hardware->tick_ns);
+    const MachineClock clock(hardware->tick_ns, hardware->time_source);
     const Plant plant(hardware->axis, hardware->tick_ns);
     SimulatedDevice device(hardware->window, plant, hardware->tick_ns, clock.now());
     log_info("device \"" + options.name + "\" is powered up");

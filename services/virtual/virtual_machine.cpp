@@ -70,7 +70,7 @@ void VirtualMachine::start(std::size_t process) {
         const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash};
         axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
         // A device made here is of this version: attaching cannot fail.
-        axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr, {}}));
+        axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
     }
     processes_[process] = {true, now_};
 }
