@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
+#include "clients/analysis/skew.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 
@@ -51,6 +52,7 @@ struct Analysis {
     std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification
     std::vector<Damage> damages;                   // the first kDamagesKept
     std::uint64_t damage_count = 0;
+    std::vector<PairSkew> step_skew;            // between axes that ran frames together
     std::optional<double> largest_distance_mm;  // from the path stepped to the path asked, in the X-Y plane
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
@@ -64,6 +66,7 @@ struct Analysis {
     double seconds(Ticks ticks) const {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns()) * 1e-9;
     }
+    double microseconds(Ticks ticks) const { return seconds(ticks) * 1e6; }
 };
 
 struct AnalysisOptions {

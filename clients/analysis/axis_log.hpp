@@ -34,6 +34,8 @@ public:
     /// From here on every step and position goes to `steps_<axis>.csv` and `positions_<axis>.csv` too.
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
+    /// The steps to come are told to this object too, which must outlive the log's end.
+    void tell(StepListener& listener) { stream_.listen(listener); }
     void take(StepBatch batch) { stream_.take(std::move(batch)); }
     void take(const PositionSample& sample);
     /// Call once, at the end. The error is that of a file that was not written whole.

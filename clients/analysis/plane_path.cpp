@@ -56,6 +56,7 @@ std::vector<PlanePoint> asked_points(const Program& program) {
     return points;
 }
 
+/// A job without an end is over when the next begins.
 Stretch stretch_of(const JobLog& job, const Analysis& analysis) {
     const auto tick_at = [&](std::int64_t microseconds) { return Tick{microseconds * 1000 / analysis.tick_ns()}; };
     Stretch stretch{*analysis.first_tick(), *analysis.last_tick()};
@@ -64,7 +65,9 @@ Stretch stretch_of(const JobLog& job, const Analysis& analysis) {
     } else if (job.begun_us) {
         stretch.first = tick_at(*job.begun_us);
     }
-    if (job.ended_us) { stretch.last = std::min(stretch.last, tick_at(*job.ended_us)); }
+    const JobLog* next = &job + 1 < analysis.jobs.data() + analysis.jobs.size() ? &job + 1 : nullptr;
+    const auto ended_us = job.ended_us || next == nullptr ? job.ended_us : next->begun_us;
+    if (ended_us) { stretch.last = std::min(stretch.last, tick_at(*ended_us)); }
     return stretch;
 }
 
@@ -115,9 +118,12 @@ void add_asked(const std::vector<PlanePoint>& points, drawing::PlanePath& path) 
     }
 }
 
-double largest_distance(const drawing::PlanePath& stepped, NearestLine& asked) {
+/// Of the points from `first` on.
+double largest_distance(const drawing::PlanePath& stepped, std::size_t first, const std::vector<PlanePoint>& points) {
+    NearestLine asked;
+    asked.add(points);
     double largest = 0;
-    for (std::size_t i = 0; i < stepped.x.size(); ++i) {
+    for (std::size_t i = first; i < stepped.x.size(); ++i) {
         if (stepped.x[i] == stepped.x[i]) { largest = std::max(largest, asked.distance({stepped.x[i], stepped.y[i]})); }
     }
     return largest;
@@ -130,18 +136,19 @@ std::optional<PlaneComparison> compare_in_plane(const Analysis& analysis) {
     const auto y = plane_axis(analysis, "Y");
     if (!x || !y) { return std::nullopt; }
     PlaneComparison result;
-    NearestLine asked;
     for (const JobLog& job : analysis.jobs) {
         const bool has_line = job.program && job.kind != "own-move";  // axes on their own are asked for no line
         const auto points = has_line ? asked_points(*job.program) : std::vector<PlanePoint>{};
         if (points.size() < 2) { continue; }
-        asked.add(points);
+        const std::size_t before = result.stepped.x.size();
         add_asked(points, result.asked);
         add_stepped(stretch_of(job, analysis), *x, *y, result.stepped);
+        if (result.stepped.x.size() == before) { continue; }
+        const double here = largest_distance(result.stepped, before, points);
+        result.largest_distance_mm = std::max(result.largest_distance_mm.value_or(0), here);
     }
-    if (asked.empty()) { add_stepped({*analysis.first_tick(), *analysis.last_tick()}, *x, *y, result.stepped); }
-    if (!asked.empty() && !result.stepped.x.empty()) {
-        result.largest_distance_mm = largest_distance(result.stepped, asked);
+    if (result.asked.x.empty()) {
+        add_stepped({*analysis.first_tick(), *analysis.last_tick()}, *x, *y, result.stepped);
     }
     return result;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clients/analysis/log_step.hpp"
+#include "clients/analysis/run.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/program_document.hpp"
@@ -28,8 +29,11 @@ void Recorder::on_position(const axis_position_t& message, std::uint64_t offset)
         PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
 }
 
-void Recorder::on_run(const run_t& message, std::uint64_t) {
-    if (is_ours(message.machine)) { ++analysis_.runs; }
+void Recorder::on_run(const run_t& message, std::uint64_t offset) {
+    if (axis(message.machine, message.axis, offset) == nullptr) { return; }
+    ++analysis_.runs;
+    auto run = to_run(message);
+    run ? skew_.take(message.axis, std::move(*run)) : on_damage(offset, run.error());
 }
 
 void Recorder::on_job(const job_t& message, std::uint64_t offset) {
@@ -79,6 +83,7 @@ AxisLog* Recorder::axis(const std::string& machine, const std::string& name, std
     auto& log = axes_[name];
     if (!log) {
         log = std::make_unique<AxisLog>(name);
+        log->tell(skew_.steps_of(name));
         if (options_.csv_dir) { note_error(log->write_csv(*options_.csv_dir)); }
     }
     return log.get();
@@ -119,6 +124,7 @@ Analysis Recorder::finish() {
         analysis_.axes.push_back(std::move(log));
     }
     axes_.clear();
+    analysis_.step_skew = skew_.finish();
     std::ranges::sort(analysis_.damages, {}, &Damage::offset);
     analysis_.machine = machine_.value_or("");
     if (analysis_.config) {

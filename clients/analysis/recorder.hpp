@@ -9,6 +9,7 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/log_read.hpp"
+#include "clients/analysis/skew.hpp"
 
 namespace lockstep::analysis {
 
@@ -37,6 +38,7 @@ private:
 
     const AnalysisOptions& options_;
     std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
+    SkewMeter skew_;
     std::map<std::string, std::unique_ptr<AxisLog>> axes_;
     Analysis analysis_;
     std::optional<std::string> write_error_;

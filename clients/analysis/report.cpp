@@ -50,6 +50,15 @@ void fill(const JobLog& job, proto::JobAnalysis& report) {
     if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
 }
 
+void fill(const Analysis& analysis, const PairSkew& skew, proto::StepSkew& report) {
+    report.set_first(skew.first);
+    report.set_second(skew.second);
+    report.set_steps(skew.steps);
+    report.set_p50_us(analysis.microseconds(skew.median));
+    report.set_p99_us(analysis.microseconds(skew.p99));
+    report.set_max_us(analysis.microseconds(skew.largest));
+}
+
 }  // namespace
 
 proto::AnalysisReport to_report(const Analysis& analysis) {
@@ -61,6 +70,7 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     }
     for (const auto& axis : analysis.axes) { fill(analysis, *axis, *report.add_axes()); }
     for (const JobLog& job : analysis.jobs) { fill(job, *report.add_jobs()); }
+    for (const PairSkew& skew : analysis.step_skew) { fill(analysis, skew, *report.add_step_skew_between_axes()); }
     if (analysis.largest_distance_mm) { report.set_largest_distance_mm(*analysis.largest_distance_mm); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;

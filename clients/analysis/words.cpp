@@ -93,6 +93,18 @@ std::string job_table(const Analysis& analysis) {
     return text;
 }
 
+std::string skew_table(const Analysis& analysis) {
+    if (analysis.step_skew.empty()) { return ""; }
+    std::string text =
+        fmt::format("\n{:<26} {:>12} {:>9} {:>9} {:>9}\n", "step skew between axes, us", "steps", "p50", "p99", "max");
+    for (const PairSkew& skew : analysis.step_skew) {
+        text += fmt::format("{:<26} {:>12} {:>9.1f} {:>9.1f} {:>9.1f}\n", skew.first + " - " + skew.second,
+                            grouped(skew.steps), analysis.microseconds(skew.median), analysis.microseconds(skew.p99),
+                            analysis.microseconds(skew.largest));
+    }
+    return text;
+}
+
 std::string tick_text(const std::optional<Tick>& tick, const char* otherwise) {
     return tick ? "tick " + grouped(tick->value) : otherwise;
 }
@@ -180,7 +192,7 @@ std::vector<std::string> notes(const Analysis& analysis) {
 std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
-    text += axis_table(analysis) + job_table(analysis);
+    text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
     const auto lines = notes(analysis);
     if (!lines.empty()) { text += "\n"; }
     for (const std::string& line : lines) { text += line + "\n"; }

@@ -14,7 +14,7 @@ std::string in_a_line(const Analysis& analysis);
 /// A sentence for everything that is worth knowing besides the tables: what is missing, set anew, damaged, foreign.
 std::vector<std::string> notes(const Analysis& analysis);
 
-/// A table of the axes, one of the jobs, and the notes.
+/// A table of the axes, one of the jobs, one of the step skew between axes, and the notes.
 std::string summary(const Analysis& analysis);
 
 }  // namespace lockstep::analysis

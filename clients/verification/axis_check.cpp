@@ -1,5 +1,6 @@
 #include "clients/verification/axis_check.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -27,11 +28,12 @@ bool goes_on(const Run& before, const Run& run) {
 
 }  // namespace
 
-AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded)
-    : name_(std::move(name)), findings_(findings), commanded_(std::move(commanded)) {}
+AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned)
+    : name_(std::move(name)), findings_(findings), commanded_(std::move(commanded)), planned_(std::move(planned)) {}
 
 void AxisCheck::take(Run run) {
     if (!findings_.going()) { return; }
+    (void)birth_of(run.incarnation);
     runs_.push_back(std::move(run));
     settle(false);
 }
@@ -47,10 +49,11 @@ void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
 
 void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (!findings_.going()) { return; }
+    (void)birth_of(batch.incarnation);
     std::int64_t count = batch.position_before_steps;
     for (const StepEdge& step : batch.steps) {
         count += step.direction;
-        waiting_.push_back({step, count});
+        waiting_.push_back({step, count, batch.incarnation});
     }
     settle(false);
     if (waiting_.size() > kMaxWaiting) {
@@ -79,7 +82,7 @@ void AxisCheck::settle(bool log_ended) {
             last_run_ = maker_->run();
             maker_.reset();
         } else if (seen != nullptr) {
-            compare(*seen);
+            is_of_run(*seen) ? compare(*seen) : end_process(*seen);
         } else {
             return;
         }
@@ -140,6 +143,75 @@ void AxisCheck::compare(const SeenStep& seen) {
     last_tick_ = expected.tick;
     if (!findings_.last_tick || *findings_.last_tick < expected.tick) { findings_.last_tick = expected.tick; }
 }
+
+// ---- Processes that ended ------------------------------------------------------------------------------------------
+
+/// Processes are told apart by their numbers, and follow each other as their first messages do.
+std::size_t AxisCheck::birth_of(std::int64_t incarnation) {
+    const auto known = std::ranges::find(incarnations_, incarnation);
+    const auto birth = static_cast<std::size_t>(known - incarnations_.begin());
+    if (known == incarnations_.end()) { incarnations_.push_back(incarnation); }
+    return birth;
+}
+
+bool AxisCheck::is_of_run(const SeenStep& seen) const { return seen.incarnation == maker_->run().incarnation; }
+
+/// The run and the step are of different processes: the older of the two left something unwritten.
+void AxisCheck::end_process(const SeenStep& seen) {
+    birth_of(seen.incarnation) < birth_of(maker_->run().incarnation) ? leave_steps() : leave_run();
+}
+
+/// The run is on record with its end, its last steps are not.
+void AxisCheck::leave_run() {
+    std::int64_t steps = 0;
+    for (; maker_->next() != nullptr && !is_cut_here(nullptr); maker_->pass()) { ++steps; }
+    findings_.notes.push_back("axis " + name_ + ": " + plural(steps, "step") + " after " +
+                              at_tick(last_tick_, "the log's beginning") +
+                              " are not on record, its process ended; by " + name_of(maker_->run()) + " it came to " +
+                              std::to_string(maker_->run().stop_count));
+    last_run_ = maker_->run();
+    maker_.reset();
+}
+
+/// Steps are on record, their run is not.
+void AxisCheck::leave_steps() {
+    std::vector<SeenStep> left;
+    const std::int64_t of = waiting_.front().incarnation;
+    for (; !waiting_.empty() && waiting_.front().incarnation == of; waiting_.pop_front()) {
+        left.push_back(waiting_.front());
+    }
+    const Tick first = left.front().edge.tick;
+    const std::string what = "axis " + name_ + ": " + plural(static_cast<std::int64_t>(left.size()), "step") +
+                             " from tick " + std::to_string(first.value) + " on are of no run on record, its process " +
+                             "ended; ";
+    if (planned_(first).empty()) {
+        findings_.notes.push_back(what + "there is no plan to compare them with");
+    } else if (are_planned(left)) {
+        findings_.notes.push_back(what + "they are as planned");
+    } else {
+        differ(what + "they are not as planned", {}, first);
+    }
+}
+
+/// Whether the steps are the first of a run that is planned for their time; counts them where they are.
+bool AxisCheck::are_planned(const std::vector<SeenStep>& steps) {
+    for (const Run& run : planned_(steps.front().edge.tick)) {
+        StepMaker maker(run);
+        const auto is_next = [&](const SeenStep& seen) {
+            if (maker.next() == nullptr || *maker.next() != seen.edge) { return false; }
+            maker.pass();
+            return maker.count() == seen.count;
+        };
+        if (!std::ranges::all_of(steps, is_next)) { continue; }
+        steps_ += static_cast<std::int64_t>(steps.size());
+        findings_.steps += static_cast<std::int64_t>(steps.size());
+        last_tick_ = steps.back().edge.tick;
+        return true;
+    }
+    return false;
+}
+
+// ---- The end -------------------------------------------------------------------------------------------------------
 
 void AxisCheck::finish() {
     if (findings_.going()) { stream_.finish(); }

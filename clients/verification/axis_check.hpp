@@ -1,4 +1,7 @@
 // One axis's steps against the steps that its runs make: each step is of a run, each step of a run is there.
+//
+// A process that ended unasked may have left the record of its last run unwritten, or its last steps. What it left is
+// held to the plan as far as there is one, and said in a note.
 #pragma once
 
 #include <cstddef>
@@ -6,21 +9,27 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "clients/analysis/run.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/verification/findings.hpp"
-#include "clients/verification/run.hpp"
 
 namespace lockstep::verification {
+
+using analysis::Run;
+using analysis::StepMaker;
 
 class AxisCheck final : public analysis::StepListener {
 public:
     /// What was in motion at a tick of a run, in words.
     using Commanded = std::function<std::string(const Run&, Tick)>;
+    /// The runs that the plan has for the axis at a tick: a frame, and the tail it may have fallen to instead.
+    using Planned = std::function<std::vector<Run>(Tick)>;
     /// So many steps may wait for the record of their run, which is written when it has ended.
     static constexpr std::size_t kMaxWaiting = 1 << 22;
 
-    AxisCheck(std::string name, Findings& findings, Commanded commanded);
+    AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned);
     AxisCheck(const AxisCheck&) = delete;  // the stream tells its steps to this object
     AxisCheck& operator=(const AxisCheck&) = delete;
 
@@ -38,6 +47,7 @@ private:
     struct SeenStep {
         StepEdge edge;
         std::int64_t count = 0;  // after it, by the log
+        std::int64_t incarnation = 0;
     };
 
     void settle(bool log_ended);
@@ -45,19 +55,27 @@ private:
     bool is_cut_here(const SeenStep* seen);
     void compare(const SeenStep& seen);
     void end_of_log();
+    std::size_t birth_of(std::int64_t incarnation);
+    bool is_of_run(const SeenStep& seen) const;
+    void end_process(const SeenStep& seen);
+    void leave_run();
+    void leave_steps();
+    bool are_planned(const std::vector<SeenStep>& steps);
     void differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen);
     std::string step_name() const;
 
     std::string name_;
     Findings& findings_;
     Commanded commanded_;
+    Planned planned_;
     analysis::StepStream stream_{{this}};
     std::deque<SeenStep> waiting_;
     std::deque<Run> runs_;
-    std::optional<StepMaker> maker_;  // of the run being compared
-    std::optional<Run> last_run_;     // the one before it
-    std::int64_t steps_ = 0;          // compared and equal
-    std::optional<Tick> last_tick_;   // of these
+    std::vector<std::int64_t> incarnations_;  // in the order of their first messages
+    std::optional<StepMaker> maker_;          // of the run being compared
+    std::optional<Run> last_run_;             // the one before it
+    std::int64_t steps_ = 0;                  // compared and equal
+    std::optional<Tick> last_tick_;           // of these
 };
 
 }  // namespace lockstep::verification

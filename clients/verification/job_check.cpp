@@ -97,6 +97,7 @@ void JobCheck::begin_epoch(const job_t& record) {
     const auto epoch = static_cast<Epoch>(record.epoch);
     epoch_.emplace(EpochReplay(job_->replay->machine(), epoch, std::move(start->path), start->at, {record.start_tick}),
                    std::move(axes));
+    for (std::size_t i = 0; i < epoch_->axes.size(); ++i) { plan_next(i, job_->replay->machine().axes[i].name); }
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
@@ -218,7 +219,26 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
     }
     progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to()};
     ++findings_.runs;
+    plan_next(axis, name);
     epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
+}
+
+void JobCheck::plan_next(std::size_t axis, const std::string& name) {
+    const Progress& progress = epoch_->axes[axis];
+    std::vector<Run>& next = planned_[name];
+    next.clear();
+    if (progress.cut || progress.in_tail) { return; }
+    for (const bool tail : {false, true}) {
+        const Frame* frame = epoch_->replay.frame(progress.ran + (tail ? 0 : 1));
+        if (frame != nullptr) { next.push_back(planned_run(*frame, axis, tail)); }
+    }
+}
+
+std::vector<Run> JobCheck::planned(const std::string& axis, Tick tick) const {
+    const auto found = planned_.find(axis);
+    std::vector<Run> runs = found != planned_.end() ? found->second : std::vector<Run>{};
+    std::erase_if(runs, [&](const Run& run) { return tick < run.start || tick >= run.start + run.ticks(); });
+    return runs;
 }
 
 /// Empty: the run follows what the axis has run.

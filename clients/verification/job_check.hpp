@@ -3,17 +3,20 @@
 
 #include <deque>
 #include <lockstep/job_t.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/run.hpp"
 #include "clients/verification/epoch_replay.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/job_replay.hpp"
-#include "clients/verification/run.hpp"
 
 namespace lockstep::verification {
+
+using analysis::Run;
 
 class JobCheck {
 public:
@@ -30,6 +33,10 @@ public:
 
     /// What was in motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
     std::string commanded(const Run& run, Tick tick) const;
+
+    /// What the plan has for an axis at a tick behind the newest of its runs: the frame that follows, and the tail.
+    /// Empty where it has nothing then.
+    std::vector<Run> planned(const std::string& axis, Tick tick) const;
 
 private:
     struct Job {
@@ -63,6 +70,7 @@ private:
 
     bool place(const std::string& axis, const Run& run);
     void compare(std::size_t axis, const std::string& name, const Run& run);
+    void plan_next(std::size_t axis, const std::string& name);
     std::string out_of_order(const Progress& axis, const Run& run) const;
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 
@@ -74,6 +82,7 @@ private:
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
     std::deque<std::pair<Epoch, std::string>> labels_;  // of the newest epochs
+    std::map<std::string, std::vector<Run>> planned_;   // by axis: what may follow its newest run
 };
 
 }  // namespace lockstep::verification

@@ -7,7 +7,9 @@
 namespace lockstep::verification {
 
 LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck& jobs)
-    : check(name, findings, [&jobs](const Run& run, Tick tick) { return jobs.commanded(run, tick); }),
+    : check(
+          name, findings, [&jobs](const Run& run, Tick tick) { return jobs.commanded(run, tick); },
+          [&jobs, name](Tick tick) { return jobs.planned(name, tick); }),
       runs(
           [this, name, &findings, &jobs](Run run) {
               if (!findings.going()) { return; }
@@ -26,7 +28,7 @@ void LogCheck::on_steps(const step_batch_t& message, std::uint64_t offset) {
 void LogCheck::on_run(const run_t& message, std::uint64_t offset) {
     Axis* to = axis(message.machine, message.axis, offset);
     if (to == nullptr) { return; }
-    auto run = to_run(message);
+    auto run = analysis::to_run(message);
     run ? to->runs.take(std::move(*run)) : on_damage(offset, run.error());
 }
 

@@ -4,9 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "clients/verification/run.hpp"
+#include "clients/analysis/run.hpp"
 
 namespace lockstep::verification {
+
+using analysis::Run;
+using analysis::StepMaker;
 
 struct RunDifference {
     std::string text;                   // "starts at tick 12, planned at tick 10"

@@ -6,9 +6,11 @@
 #include <map>
 #include <optional>
 
-#include "clients/verification/run.hpp"
+#include "clients/analysis/run.hpp"
 
 namespace lockstep::verification {
+
+using analysis::Run;
 
 class RunStream {
 public:

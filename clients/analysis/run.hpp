@@ -11,7 +11,7 @@
 #include "core/protocol/messages.hpp"
 #include "core/step/engine.hpp"
 
-namespace lockstep::verification {
+namespace lockstep::analysis {
 
 struct Run {
     std::int64_t incarnation = 0;  // of the axis's process; sequences start anew with each
@@ -63,4 +63,4 @@ private:
     std::int64_t count_;
 };
 
-}  // namespace lockstep::verification
+}  // namespace lockstep::analysis

@@ -1,14 +1,12 @@
-#include "clients/verification/run.hpp"
+#include "clients/analysis/run.hpp"
 
 #include <utility>
 
 #include "clients/analysis/log_step.hpp"
 #include "core/step/executable.hpp"
 
-namespace lockstep::verification {
+namespace lockstep::analysis {
 namespace {
-
-using analysis::is_countable;
 
 bool is_countable_run(const run_t& m) {
     return is_countable(m.sequence) && m.sequence >= 0 && is_countable(m.start_tick) && is_countable(m.start_count) &&
@@ -83,4 +81,4 @@ void StepMaker::make_more() {
     }
 }
 
-}  // namespace lockstep::verification
+}  // namespace lockstep::analysis

@@ -1,0 +1,59 @@
+// How late one axis's steps were: each against the tick at which the frame it belongs to has it.
+//
+// Frames alone are looked at, and their tails: what axes run together. Steps are found by their counts; where steps or
+// runs are missing from the log, what cannot be told apart is left out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "clients/analysis/run.hpp"
+#include "clients/analysis/step_stream.hpp"
+
+namespace lockstep::analysis {
+
+struct LateStep {
+    Tick commanded;
+    Ticks late;  // below 0: before its time
+};
+
+class Lateness final : public StepListener {
+public:
+    /// So long after a run's end its last steps are waited for: messages are sent every 10 ms. No step is taken to be
+    /// later.
+    static constexpr Ticks kPatience{100'000};
+    /// An axis that rests while others move says nothing to wait for.
+    static constexpr std::size_t kMaxWaiting = 256;
+
+    using OnRun = std::function<void(const Run&, std::vector<LateStep>)>;
+
+    /// `on_run` hears of each run of an epoch, in the order of their starts.
+    explicit Lateness(OnRun on_run) : on_run_(std::move(on_run)) {}
+    Lateness(const Lateness&) = delete;  // a stream tells its steps to this object
+    Lateness& operator=(const Lateness&) = delete;
+
+    void on_batch(const StepBatch& batch) override;
+    void take(Run run);
+    /// Call once, at the end of the log.
+    void finish();
+
+private:
+    struct SeenStep {
+        StepEdge edge;
+        std::int64_t count = 0;  // after it
+    };
+
+    void settle();
+    void compare_first();
+    std::vector<LateStep> compare(StepMaker maker);
+
+    OnRun on_run_;
+    std::deque<SeenStep> seen_;  // of no run yet
+    std::deque<Run> runs_;       // by their starts
+    std::optional<Tick> last_tick_;
+};
+
+}  // namespace lockstep::analysis

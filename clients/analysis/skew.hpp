@@ -1,0 +1,57 @@
+// Step skew between axes: how far apart the steps of two axes are from where one clock would have put both.
+//
+// An axis's steps are late by (tick made) - (tick commanded). The skew of a pair, at each step of either, is the
+// difference of how late the newest step of each is, among those of the same frame. Machine time; 0 where one clock
+// drives all devices.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clients/analysis/lateness.hpp"
+
+namespace lockstep::analysis {
+
+/// Of one pair of axes. Amounts, without their signs.
+struct PairSkew {
+    std::string first;
+    std::string second;
+    std::int64_t steps = 0;  // at which it was taken
+    Ticks median;
+    Ticks p99;
+    Ticks largest;
+};
+
+class SkewMeter {
+public:
+    /// So many frames wait for the axes whose record of them comes late.
+    static constexpr std::size_t kFramesWaiting = 64;
+
+    /// Where the steps of an axis are to be told.
+    StepListener& steps_of(const std::string& axis) { return lateness(axis); }
+    void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
+    /// Call once, at the end of the log. The pairs that had frames together.
+    std::vector<PairSkew> finish();
+
+private:
+    using Steps = std::map<std::string, std::vector<LateStep>>;  // of one frame or tail, by axis
+    struct FrameKey {
+        Tick start;
+        Epoch epoch = 0;
+        auto operator<=>(const FrameKey&) const = default;
+    };
+
+    Lateness& lateness(const std::string& axis);
+    void take_first_frame();
+    void take_pair(const Steps::value_type& first, const Steps::value_type& second);
+
+    std::map<std::string, std::unique_ptr<Lateness>> axes_;
+    std::map<FrameKey, Steps> frames_;
+    std::map<std::pair<std::string, std::string>, std::map<Ticks, std::int64_t>> skews_;  // how often each amount
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,125 @@
+"""What is done to the machine. Each kind of fault is a function: it does it, waits until it is over, and says what it was."""
+import dataclasses
+import os
+import signal
+import time
+
+from machine import AXES
+
+
+@dataclasses.dataclass
+class Injected:
+    kind: str
+    text: str
+    at_us: int                # of machine time, which is the host's monotonic clock
+    hit: frozenset            # the processes that it concerns: these may end elsewhere than the others
+    killed: str = ""
+    explains: frozenset = frozenset()  # the faults that the machine may answer with
+
+
+EVERYBODY = frozenset(("coordinator", *(f"axis-{axis}" for axis in AXES)))
+PARTING = frozenset(("axis-lost", "frames-differ", "frame-late"))
+
+
+def now_us():
+    return time.monotonic_ns() // 1000
+
+
+class Chaos:
+    """Does faults to a machine, drawn from a seed. The kinds are a deck: each is drawn once before any comes again."""
+
+    def __init__(self, machine, network, rng):
+        self.machine, self.network, self.rng = machine, network, rng
+        self.deck = []
+        self.kinds = [self.kill_axis, self.kill_coordinator, self.stall_briefly, self.stall_axis, self.stall_coordinator,
+                      self.lose_packets, self.cut_axis, self.deafen_axis, self.mute_axis, self.cut_coordinator, self.hold,
+                      self.stop, self.emergency_stop]
+
+    def strike(self):
+        if not self.deck:
+            self.deck = self.rng.sample(self.kinds, len(self.kinds))
+        return self.deck.pop()()
+
+    def _axis(self):
+        return f"axis-{self.rng.choice(AXES)}"
+
+    def _ms(self, low, high):
+        return self.rng.randint(low, high)
+
+    # ---- Processes
+
+    def _kill(self, process, explains):
+        injected = Injected("kill -9 " + process.split("-")[0], f"kill -9 {process}", now_us(), frozenset((process,)),
+                            process, explains)
+        os.kill(self.machine.processes()[process], signal.SIGKILL)
+        return injected
+
+    def kill_axis(self):
+        return self._kill(self._axis(), PARTING)
+
+    def kill_coordinator(self):
+        return self._kill("coordinator", frozenset())
+
+    def _stall(self, process, kind, ms):
+        pid = self.machine.processes()[process]
+        injected = Injected(kind, f"{process} stalls for {ms} ms", now_us(), frozenset((process,)), explains=PARTING)
+        os.kill(pid, signal.SIGSTOP)
+        time.sleep(ms / 1000)
+        os.kill(pid, signal.SIGCONT)
+        return injected
+
+    def stall_briefly(self):
+        return self._stall(self.rng.choice(sorted(EVERYBODY)), "stall of 20 to 60 ms", self._ms(20, 60))
+
+    def stall_axis(self):
+        return self._stall(self._axis(), "stall of an axis", self._ms(200, 1000))
+
+    def stall_coordinator(self):
+        return self._stall("coordinator", "stall of the coordinator", self._ms(200, 1000))
+
+    # ---- Network
+
+    def _lose(self, kind, hosts, directions, probability, ms):
+        what = f"{probability:.0%} of the packets lost" if probability < 1 else kind
+        hit = frozenset(hosts)
+        text = f"{', '.join(sorted(hosts)) if hit != EVERYBODY else 'everybody'}: {what} for {ms} ms"
+        injected = Injected(kind, text, now_us(), hit, explains=PARTING)
+        for host in hosts:
+            self.network.drop(host, directions, probability)
+        time.sleep(ms / 1000)
+        for host in hosts:
+            self.network.heal(host)
+        return injected
+
+    def lose_packets(self):
+        return self._lose("packets lost", sorted(EVERYBODY), ("INPUT",), self.rng.uniform(0.05, 0.5), self._ms(300, 1500))
+
+    def cut_axis(self):
+        return self._lose("axis cut off", (self._axis(),), ("INPUT", "OUTPUT"), 1, self._ms(50, 1500))
+
+    def deafen_axis(self):
+        return self._lose("axis deaf", (self._axis(),), ("INPUT",), 1, self._ms(50, 1500))
+
+    def mute_axis(self):
+        return self._lose("axis mute", (self._axis(),), ("OUTPUT",), 1, self._ms(50, 1500))
+
+    def cut_coordinator(self):
+        return self._lose("coordinator cut off", ("coordinator",), ("INPUT", "OUTPUT"), 1, self._ms(50, 1500))
+
+    # ---- Commands
+
+    def _command(self, word, hit=frozenset(), explains=frozenset()):
+        injected = Injected(word, f"lockstep {word}", now_us(), hit, explains=explains)
+        code, _, said = self.machine.call(word)
+        if code != 0:
+            injected.text += f" (refused: {said.splitlines()[0]})" if said else " (refused)"
+        return injected
+
+    def hold(self):
+        return self._command("hold")
+
+    def stop(self):
+        return self._command("stop")
+
+    def emergency_stop(self):
+        return self._command("estop", EVERYBODY, frozenset(("emergency-stopped",)))

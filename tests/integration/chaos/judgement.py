@@ -1,0 +1,78 @@
+"""What must hold of a run, whatever was done to the machine."""
+import dataclasses
+import re
+
+from machine import AXES
+from record import Record
+from story import Chapter
+
+# An axis or coordinator that is late, silent or restarted may bring these about; anything else is a fault of its own.
+FAULTS_OF_LATENESS = {"", "axis-lost", "frames-differ", "frame-late", "emergency-stopped"}
+STALL_US = 80_000  # the machine allows for 100 ms
+ALARMS = re.compile(r"ERROR: \w+Sanitizer|runtime error:|terminate called|Assertion|check failed|Segmentation", re.I)
+
+
+@dataclasses.dataclass
+class Timed:
+    chapter: Chapter
+    reaction_ms: float | None = None  # until the first axis left its frames; None: none did
+    rest_ms: float | None = None
+
+
+@dataclasses.dataclass
+class Judgement:
+    verify: str = ""
+    timed: list = dataclasses.field(default_factory=list)
+    failures: list = dataclasses.field(default_factory=list)
+
+
+def judge(machine, story, log):
+    found = Judgement(failures=list(story.failures))
+    record = Record(log)
+    found.timed = [timed(chapter, record) for chapter in story.chapters]
+    found.verify, is_exact = machine.verify(log)
+    if not is_exact:
+        found.failures.append("the record is not exact: " + found.verify.splitlines()[0])
+    found.failures += list(partings(story, record)) + list(deaths(machine, story)) + list(alarms(machine))
+    found.failures += [f"{chapter.injected.text}: the machine answers with {chapter.fault}"
+                       for chapter in story.chapters if chapter.fault not in FAULTS_OF_LATENESS]
+    return found
+
+
+def timed(chapter, record):
+    since = chapter.injected.at_us
+    reaction = record.reaction_us(since, chapter.watched_us)
+    if reaction is None:
+        return Timed(chapter)
+    axes = [axis for axis in AXES if f"axis-{axis}" != chapter.injected.killed]
+    rest = record.rest_us(reaction, axes)
+    return Timed(chapter, (reaction - since) / 1000, None if rest is None else (rest - since) / 1000)
+
+
+def partings(story, record):
+    """Axes that nothing has hit end an epoch with the same frame. The host may have stalled one: that hits it too."""
+    for epoch, ends in record.ends().items():
+        last_us = max(run.start_us for run in ends.values())
+        hit = set().union(*(chapter.injected.hit for chapter in story.chapters
+                            if chapter.injected.at_us - 1_000_000 <= last_us <= chapter.over_us))
+        spared = {axis: run for axis, run in ends.items() if f"axis-{axis}" not in hit
+                  and record.longest_silence_us(axis, last_us - 1_000_000, last_us + 1_000_000) < STALL_US}
+        if len({(run.frame, run.tail) for run in spared.values()}) > 1:
+            told = ", ".join(f"{axis} frame {run.frame}{' tail' * run.tail}" for axis, run in sorted(ends.items()))
+            yield f"epoch {epoch}: axes that no fault had hit are a frame apart: {told}"
+
+
+def deaths(machine, story):
+    """Every end of a process was one of those asked for."""
+    asked = [chapter.injected.killed for chapter in story.chapters if chapter.injected.killed]
+    for name, how in re.findall(r"(\S+) ((?:ended with code|was ended by signal) \d+)", machine.log("supervisor")):
+        if how == "was ended by signal 9" and name in asked:
+            asked.remove(name)
+        else:
+            yield f"{name} {how} by itself: {machine.log(name)[-500:]}"
+
+
+def alarms(machine):
+    for process in ("supervisor", "coordinator", *(f"axis-{axis}" for axis in AXES)):
+        for alarm in ALARMS.findall(machine.log(process)):
+            yield f"{process} says: {alarm}"

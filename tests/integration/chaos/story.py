@@ -1,0 +1,125 @@
+"""The course of a run: what was done to the machine, how it answered, and how it was brought back."""
+import dataclasses
+import time
+
+from faults import Injected
+from machine import NEVER_ENDED
+
+
+@dataclasses.dataclass
+class Chapter:
+    injected: Injected
+    phase: str = ""           # how the machine was found afterwards
+    fault: str = ""           # the name of its fault; empty: none
+    job: str = ""             # how the job ended that was running
+    remedies: list = dataclasses.field(default_factory=list)
+    watched_us: int = 0       # until then the machine was left to itself
+    over_us: int = 0
+    is_told: bool = False
+
+
+class Story:
+    SETTLE_S = 30    # for the machine to come to an end of what it does: a failure beyond
+    TRIES = 6
+    RUNS_ON_S = 1.5  # a machine that has not minded a fault is seen moving for so long, then stopped
+
+    def __init__(self, machine, now_us, quiet):
+        self.machine, self.now_us, self.quiet = machine, now_us, quiet
+        self.begin_us = now_us()
+        self.chapters, self.failures = [], []
+        self.is_over = False  # the machine cannot be used any more
+
+    def expect_done(self, what, ended):
+        code, _, said = ended
+        if code != 0:
+            self.fail(f"lockstep {what}: exit code {code}: {said}")
+        return code == 0
+
+    def fail(self, text):
+        self.failures.append(text)
+        self.is_over = True
+
+    def round(self, chaos):
+        """A job, a fault, and the way back."""
+        self.bring_back()
+        if self.is_over:
+            return
+        job = self.machine.begin_job()
+        self._wait_for(lambda status: status.get("phase") != "Idle" or job.poll() is not None)
+        time.sleep(chaos.rng.uniform(0.2, 2.5))
+        chapter = Chapter(chaos.strike())
+        self.chapters.append(chapter)
+        self._watch(chapter, job)
+        code, told, said = self.machine.end(job)
+        if code == NEVER_ENDED:
+            self.fail(f"{chapter.injected.text}: lockstep run: {said}")
+        chapter.job = told.get("outcome") or (said.splitlines()[0] if said else "no report")
+        chapter.over_us = self.now_us()
+
+    def _watch(self, chapter, job):
+        time.sleep(self.RUNS_ON_S)
+        chapter.watched_us = self.now_us()
+        status = self._wait_for(lambda found: found.get("phase") not in (None, "Waiting", "Stopping"))
+        chapter.phase = status.get("phase", "not heard")
+        chapter.fault = status.get("fault", {}).get("name", "")
+        if chapter.phase in ("Holding", "Paused") and chapter.injected.kind == "hold":
+            self._remedy("resume")
+            time.sleep(self.RUNS_ON_S)
+        if job.poll() is None and self.machine.status().get("phase") in ("Running", "Holding", "Paused"):
+            self.machine.call("stop")
+
+    def _wait_for(self, is_there):
+        """The first status that is as asked for."""
+        deadline = time.monotonic() + self.SETTLE_S
+        while time.monotonic() < deadline:
+            status = self.machine.status()
+            if is_there(status):
+                return status
+            time.sleep(0.05)
+        self.fail(f"the machine does not come to an end: {self.machine.status()}")
+        return {}
+
+    def bring_back(self):
+        """To where a job can begin, as a user does: what the machine says decides what is done."""
+        for _ in range(self.TRIES):
+            word = self._what_next(self._wait_for(self._is_settled))
+            if self.is_over or not word:
+                break
+            self._remedy(word)
+        else:
+            self.fail(f"the machine cannot be brought back: {self.machine.status()}")
+        if self.chapters and not self.chapters[-1].is_told and not self.quiet:
+            self._tell(self.chapters[-1])
+
+    @staticmethod
+    def _is_settled(status):
+        return (status.get("phase") in ("Idle", "Fault", "Holding", "Paused")
+                and all(axis.get("present") for axis in status["axes"]))
+
+    @staticmethod
+    def _what_next(status):
+        """Nothing where a job can begin."""
+        phase = status.get("phase")
+        if phase != "Idle":
+            return "reset" if phase == "Fault" else "stop"
+        return "" if all(axis.get("homed") for axis in status["axes"]) else "home"
+
+    def _remedy(self, word):
+        """It may fail where the host stalls meanwhile; then it is done again."""
+        code, _, _ = self.machine.call(word)
+        if self.chapters:
+            self.chapters[-1].remedies.append(word if code == 0 else word + " (failed)")
+
+    def run_to_the_end(self):
+        """A job that nothing befalls."""
+        for _ in range(self.TRIES):
+            self.bring_back()
+            if self.is_over or self.machine.end(self.machine.begin_job(lines=10))[0] == 0:
+                return
+        self.fail("the machine does not come to the end of a job that nothing befell")
+
+    def _tell(self, chapter):
+        chapter.is_told = True
+        at = (chapter.injected.at_us - self.begin_us) / 1e6
+        print(f"{at:7.2f} s  {chapter.injected.text:<52} {chapter.phase}{' ' * bool(chapter.fault)}{chapter.fault}; "
+              f"job {chapter.job}{'; then ' * bool(chapter.remedies)}{', '.join(chapter.remedies)}", flush=True)

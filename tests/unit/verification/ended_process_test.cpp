@@ -1,0 +1,115 @@
+// A process that is killed leaves its last run or its last steps unwritten: what it left is held to the plan, and said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "clients/verification/axis_check.hpp"
+
+namespace lockstep::verification {
+namespace {
+
+using testing::HasSubstr;
+
+/// An axis whose process 7 ran frames of 10 ms at a step every 100 ticks; process 8 comes after it.
+class EndedProcess : public testing::Test {
+protected:
+    static constexpr std::int64_t kFrame = 10'000;
+    static constexpr int kSteps = 100;  // in a frame
+
+    static analysis::Run frame(std::int64_t number, std::int64_t incarnation = 7) {
+        const std::int64_t before = (number - 1) * kSteps;
+        return {.incarnation = incarnation,
+                .sequence = number - 1,
+                .epoch = 5,
+                .frame = static_cast<FrameNumber>(number),
+                .start = Tick{number * kFrame},
+                .from = Position::steps(before),
+                .pieces = {{Ticks{kFrame}, Velocity{(std::int64_t{1} << 62) / 25}, {}}},
+                .stop_count = before + kSteps};
+    }
+    /// The first steps of a run, as its process says them.
+    analysis::StepBatch said(const analysis::Run& run, int count) {
+        analysis::StepBatch batch{run.incarnation, batches_++, run.from.count(), {}};
+        for (StepMaker maker(run); count-- > 0 && maker.next() != nullptr; maker.pass()) {
+            batch.steps.push_back(*maker.next());
+        }
+        return batch;
+    }
+    /// Another process, from where it is and later.
+    void another_process_moves() {
+        batches_ = 0;
+        const analysis::Run run = frame(9, 8);
+        check.take(said(run, kSteps));
+        analysis::Run first = run;
+        first.sequence = 0;
+        check.take(first);
+    }
+    std::string notes() const {
+        std::string text;
+        for (const std::string& note : findings.notes) { text += note + "\n"; }
+        return text;
+    }
+
+    Findings findings;
+    std::vector<analysis::Run> plan;
+    AxisCheck check{"Y", findings, [](const analysis::Run&, Tick) { return ""; }, [this](Tick) { return plan; }};
+
+private:
+    std::int64_t batches_ = 0;
+};
+
+TEST_F(EndedProcess, StepsThatLackTheirRunAreThoseOfThePlan) {
+    plan = {frame(2)};
+    check.take(said(frame(1), kSteps));
+    check.take(frame(1));
+    check.take(said(frame(2), 30));
+    another_process_moves();
+    check.finish();
+    EXPECT_FALSE(findings.difference) << findings.difference->text;
+    EXPECT_EQ(findings.steps, 2 * kSteps + 30);
+    EXPECT_THAT(notes(), HasSubstr("axis Y: 30 steps from tick"));
+    EXPECT_THAT(notes(), HasSubstr("its process ended; they are as planned"));
+}
+
+TEST_F(EndedProcess, StepsThatLackTheirRunAndAreNotThoseOfThePlanAreADifference) {
+    plan = {frame(2)};
+    check.take(said(frame(1), kSteps));
+    check.take(frame(1));
+    auto batch = said(frame(2), 30);
+    batch.steps[20].tick += Ticks{1};
+    check.take(batch);
+    another_process_moves();
+    check.finish();
+    ASSERT_TRUE(findings.difference);
+    EXPECT_THAT(findings.difference->text, HasSubstr("they are not as planned"));
+}
+
+TEST_F(EndedProcess, StepsOfAnOwnMoveThatLackTheirRunAreSaid) {
+    check.take(said(frame(1), 30));
+    another_process_moves();
+    check.finish();
+    EXPECT_FALSE(findings.difference);
+    EXPECT_EQ(findings.steps, kSteps);
+    EXPECT_THAT(notes(), HasSubstr("30 steps from tick"));
+    EXPECT_THAT(notes(), HasSubstr("no plan to compare them with"));
+}
+
+TEST_F(EndedProcess, StepsThatItDidNotComeToSayAreCounted) {
+    check.take(said(frame(1), 60));
+    check.take(frame(1));
+    another_process_moves();
+    check.finish();
+    EXPECT_FALSE(findings.difference) << findings.difference->text;
+    EXPECT_EQ(findings.steps, 60 + kSteps);
+    EXPECT_THAT(notes(), HasSubstr("axis Y: 40 steps after tick"));
+    EXPECT_THAT(notes(), HasSubstr("by frame 1 it came to 100"));
+}
+
+TEST_F(EndedProcess, WithoutAnotherBehindItNothingExcusesAMissingStep) {
+    check.take(said(frame(1), 60));
+    check.take(frame(1));
+    check.finish();
+    EXPECT_TRUE(findings.difference);
+}
+
+}  // namespace
+}  // namespace lockstep::verification
