@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "services/wire/step_batcher.hpp"
+
 namespace lockstep::verification {
 namespace {
 
@@ -161,10 +163,18 @@ void AxisCheck::end_process(const SeenStep& seen) {
     birth_of(seen.incarnation) < birth_of(maker_->run().incarnation) ? leave_steps() : leave_run();
 }
 
-/// The run is on record with its end, its last steps are not.
+/// The run is on record with its end, its last steps are not: no more than a process holds before it says them.
 void AxisCheck::leave_run() {
+    if (!last_run_ || last_run_->incarnation != maker_->run().incarnation) { unsaid_ = 0; }
     std::int64_t steps = 0;
     for (; maker_->next() != nullptr && !is_cut_here(nullptr); maker_->pass()) { ++steps; }
+    unsaid_ += steps;
+    if (unsaid_ > StepBatcher::kMaxSteps) {
+        return differ("axis " + name_ + ": " + plural(unsaid_, "step") + " after " +
+                          at_tick(last_tick_, "the log's beginning") +
+                          " are not on record, more than its process can have held when it ended",
+                      last_tick_, {});
+    }
     findings_.notes.push_back("axis " + name_ + ": " + plural(steps, "step") + " after " +
                               at_tick(last_tick_, "the log's beginning") +
                               " are not on record, its process ended; by " + name_of(maker_->run()) + " it came to " +

@@ -74,6 +74,7 @@ private:
     std::vector<std::int64_t> incarnations_;  // in the order of their first messages
     std::optional<StepMaker> maker_;          // of the run being compared
     std::optional<Run> last_run_;             // the one before it
+    std::int64_t unsaid_ = 0;                 // steps that a process which ended had not said
     std::int64_t steps_ = 0;                  // compared and equal
     std::optional<Tick> last_tick_;           // of these
 };

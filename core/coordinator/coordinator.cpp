@@ -158,9 +158,8 @@ MachineState Coordinator::state() const {
         const Path& path = runner_.path();
         const Subticks into = std::clamp(subticks(now_ - runner_.start()), Subticks{}, path.duration());
         const double left = static_cast<double>((path.duration() - into).value) / kSubticksPerTick;
-        double later = 0;
         const double planned = static_cast<double>((job_->planned - job_->planned_behind).value) / kSubticksPerTick;
-        later = std::max(0.0, planned - static_cast<double>(path.duration().value) / kSubticksPerTick);
+        const double later = std::max(0.0, planned - static_cast<double>(path.duration().value) / kSubticksPerTick);
         const double all = std::max(1.0, static_cast<double>(job_->planned.value) / kSubticksPerTick);
         s.line = path.moves[path.move_at(into)].line;
         s.remaining_s = (left + later) / machine_.ticks_per_second();

@@ -1,8 +1,8 @@
 // What the published step generation methods have in common: a planned move in, the times of its steps out.
 //
-// Each method is as its authors published it, with their numbers as defaults. They are compared with each other and with
-// the continuous ideal, and an axis may make its own moves by any of them (step_source.hpp, core/axis/own_pieces.hpp).
-// Programs run by core/motion and core/step alone.
+// Each method is as its authors published it, with their numbers as defaults. They are compared with each other and
+// with the continuous ideal, and an axis may make its own moves by any of them (step_source.hpp,
+// core/axis/own_pieces.hpp). Programs run by core/motion, or by Lai's planner (core/coordinator/lai_path.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-"""What is done to the machine. Each kind of fault is a function: it does it, waits until it is over, and says what it was."""
+"""What is done to the machine. Each kind of fault is a function: it does it, waits until it is over, and says what."""
 import dataclasses
 import os
 import signal
@@ -14,11 +14,9 @@ class Injected:
     at_us: int                # of machine time, which is the host's monotonic clock
     hit: frozenset            # the processes that it concerns: these may end elsewhere than the others
     killed: str = ""
-    explains: frozenset = frozenset()  # the faults that the machine may answer with
 
 
 EVERYBODY = frozenset(("coordinator", *(f"axis-{axis}" for axis in AXES)))
-PARTING = frozenset(("axis-lost", "frames-differ", "frame-late"))
 
 
 def now_us():
@@ -31,9 +29,10 @@ class Chaos:
     def __init__(self, machine, network, rng):
         self.machine, self.network, self.rng = machine, network, rng
         self.deck = []
-        self.kinds = [self.kill_axis, self.kill_coordinator, self.stall_briefly, self.stall_axis, self.stall_coordinator,
-                      self.lose_packets, self.cut_axis, self.deafen_axis, self.mute_axis, self.cut_coordinator, self.hold,
-                      self.stop, self.emergency_stop]
+        self.kinds = [self.kill_axis, self.kill_coordinator,
+                      self.stall_briefly, self.stall_axis, self.stall_coordinator,
+                      self.lose_packets, self.cut_axis, self.deafen_axis, self.mute_axis, self.cut_coordinator,
+                      self.hold, self.stop, self.emergency_stop]
 
     def strike(self):
         if not self.deck:
@@ -48,21 +47,21 @@ class Chaos:
 
     # ---- Processes
 
-    def _kill(self, process, explains):
+    def _kill(self, process):
         injected = Injected("kill -9 " + process.split("-")[0], f"kill -9 {process}", now_us(), frozenset((process,)),
-                            process, explains)
+                            process)
         os.kill(self.machine.processes()[process], signal.SIGKILL)
         return injected
 
     def kill_axis(self):
-        return self._kill(self._axis(), PARTING)
+        return self._kill(self._axis())
 
     def kill_coordinator(self):
-        return self._kill("coordinator", frozenset())
+        return self._kill("coordinator")
 
     def _stall(self, process, kind, ms):
         pid = self.machine.processes()[process]
-        injected = Injected(kind, f"{process} stalls for {ms} ms", now_us(), frozenset((process,)), explains=PARTING)
+        injected = Injected(kind, f"{process} stalls for {ms} ms", now_us(), frozenset((process,)))
         os.kill(pid, signal.SIGSTOP)
         time.sleep(ms / 1000)
         os.kill(pid, signal.SIGCONT)
@@ -83,7 +82,7 @@ class Chaos:
         what = f"{probability:.0%} of the packets lost" if probability < 1 else kind
         hit = frozenset(hosts)
         text = f"{', '.join(sorted(hosts)) if hit != EVERYBODY else 'everybody'}: {what} for {ms} ms"
-        injected = Injected(kind, text, now_us(), hit, explains=PARTING)
+        injected = Injected(kind, text, now_us(), hit)
         for host in hosts:
             self.network.drop(host, directions, probability)
         time.sleep(ms / 1000)
@@ -92,7 +91,8 @@ class Chaos:
         return injected
 
     def lose_packets(self):
-        return self._lose("packets lost", sorted(EVERYBODY), ("INPUT",), self.rng.uniform(0.05, 0.5), self._ms(300, 1500))
+        share = self.rng.uniform(0.05, 0.5)
+        return self._lose("packets lost", sorted(EVERYBODY), ("INPUT",), share, self._ms(300, 1500))
 
     def cut_axis(self):
         return self._lose("axis cut off", (self._axis(),), ("INPUT", "OUTPUT"), 1, self._ms(50, 1500))
@@ -108,8 +108,8 @@ class Chaos:
 
     # ---- Commands
 
-    def _command(self, word, hit=frozenset(), explains=frozenset()):
-        injected = Injected(word, f"lockstep {word}", now_us(), hit, explains=explains)
+    def _command(self, word, hit=frozenset()):
+        injected = Injected(word, f"lockstep {word}", now_us(), hit)
         code, _, said = self.machine.call(word)
         if code != 0:
             injected.text += f" (refused: {said.splitlines()[0]})" if said else " (refused)"
@@ -122,4 +122,4 @@ class Chaos:
         return self._command("stop")
 
     def emergency_stop(self):
-        return self._command("estop", EVERYBODY, frozenset(("emergency-stopped",)))
+        return self._command("estop", EVERYBODY)

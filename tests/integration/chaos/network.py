@@ -1,8 +1,9 @@
 """A network of its own: a namespace for each of the machine's processes, all joined by a bridge called eth0.
 
 A process is put into its namespace by a program of the real one's name that stands beside the lockstep command; so
-`lockstep up` starts, watches and restarts processes on hosts of their own without knowing it. Links are cut and packets
-lost by the firewall of the namespace they belong to. The record (LCM) is let through: what is to be proved must be known.
+`lockstep up` starts, watches and restarts processes on hosts of their own without knowing it. Links are cut and
+packets lost by the firewall of the namespace they belong to. The record (LCM) is let through: what is to be proved
+must be known.
 """
 import pathlib
 import shutil
@@ -58,7 +59,8 @@ class Network:
 
     def _write_program(self, path, programs, cases):
         lines = ["#!/bin/sh", 'case " $* " in']
-        lines += [f'{pattern}) exec {" ".join(self._enter(host))} {programs / path.name} "$@";;' for pattern, host in cases]
+        for pattern, host in cases:
+            lines.append(f'{pattern}) exec {" ".join(self._enter(host))} {programs / path.name} "$@";;')
         path.write_text("\n".join(lines + ["esac"]) + "\n")
         path.chmod(0o755)
 

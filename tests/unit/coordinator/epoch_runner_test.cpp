@@ -30,15 +30,20 @@ std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumbe
          slot}};
 }
 
-/// With two axes nobody else is there to repeat it when the link between them breaks.
-TEST(EpochRunner, RepeatsTheLowestVetoItHears) {
+/// 900 mm, begun in slot 100.
+EpochRunner on_a_long_move() {
     const MachineConfig machine = one_slow_axis();
     const ProgramPlanner planner(machine);
-    Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
-    const auto legs = planner.plan(program, {0});
-    ASSERT_TRUE(legs.has_value());
+    const Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
+    const auto legs = planner.plan(program, {0}).value();
     EpochRunner runner(machine, 1);
-    runner.begin(1, planner.path((*legs)[0].moves, {}), {Position::steps(0)}, 100);
+    runner.begin(1, planner.path(legs[0].moves, {}), {Position::steps(0)}, 100);
+    return runner;
+}
+
+/// With two axes nobody else is there to repeat it when the link between them breaks.
+TEST(EpochRunner, RepeatsTheLowestVetoItHears) {
+    EpochRunner runner = on_a_long_move();
     (void)runner.send(110, says(110, 0, {}, 0, {}));
     EXPECT_EQ(runner.veto(), std::nullopt);
     (void)runner.send(111, says(111, 1, 3, 0, {}));
@@ -51,13 +56,7 @@ TEST(EpochRunner, RepeatsTheLowestVetoItHears) {
 
 /// Two seconds of braking are far more frames than the coordinator remembers the ends of.
 TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
-    const MachineConfig machine = one_slow_axis();
-    const ProgramPlanner planner(machine);
-    Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
-    const auto legs = planner.plan(program, {0});
-    ASSERT_TRUE(legs.has_value());
-    EpochRunner runner(machine, 1);
-    runner.begin(1, planner.path((*legs)[0].moves, {}), {Position::steps(0)}, 100);
+    EpochRunner runner = on_a_long_move();
 
     constexpr FrameNumber kRan = 600;  // at full speed
     Slot slot = 100;

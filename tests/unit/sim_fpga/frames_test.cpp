@@ -153,28 +153,28 @@ TEST(Frames, OnceInTheTailNothingMoreOfTheRunIsRun) {
     EXPECT_EQ(after.free_segments, registers::kSegmentRingEntries);
 }
 
-TEST(Frames, AFrameThatDoesNotJoinInPlaceIsRefusedAndTheTailRuns) {
+/// Frame 1, then one that does not join it.
+DeviceStatus after_frame_1_and(const device::LoadFrame& off) {
     DeviceBench bench;
-    device::LoadFrame off = frame(2);
-    off.track.from.raw += 1;
     bench.order(device::BeginRun{1});
     bench.order(frame(1));
     bench.order(off);
     bench.order(device::Arm{2});
-    const DeviceStatus after = bench.at(kMuchLater);
+    return bench.at(kMuchLater);
+}
+
+TEST(Frames, AFrameThatDoesNotJoinInPlaceIsRefusedAndTheTailRuns) {
+    device::LoadFrame off = frame(2);
+    off.track.from.raw += 1;
+    const DeviceStatus after = after_frame_1_and(off);
     EXPECT_TRUE(after.bad_segment);
     EXPECT_EQ(after.position, Position::steps(11));
 }
 
 TEST(Frames, AFrameThatDoesNotJoinInTimeIsRefusedAndTheTailRuns) {
-    DeviceBench bench;
     device::LoadFrame off = frame(2);
     off.start += Ticks{1};
-    bench.order(device::BeginRun{1});
-    bench.order(frame(1));
-    bench.order(off);
-    bench.order(device::Arm{2});
-    const DeviceStatus after = bench.at(kMuchLater);
+    const DeviceStatus after = after_frame_1_and(off);
     EXPECT_TRUE(after.bad_segment);
     EXPECT_EQ(after.position, Position::steps(11));
 }

@@ -104,6 +104,14 @@ TEST_F(EndedProcess, StepsThatItDidNotComeToSayAreCounted) {
     EXPECT_THAT(notes(), HasSubstr("by frame 1 it came to 100"));
 }
 
+TEST_F(EndedProcess, NoProcessHoldsMoreStepsThanAMessageTakes) {
+    for (std::int64_t number = 1; number <= 21; ++number) { check.take(frame(number)); }
+    another_process_moves();
+    check.finish();
+    ASSERT_TRUE(findings.difference);
+    EXPECT_THAT(findings.difference->text, HasSubstr("2100 steps after"));
+}
+
 TEST_F(EndedProcess, WithoutAnotherBehindItNothingExcusesAMissingStep) {
     check.take(said(frame(1), 60));
     check.take(frame(1));
