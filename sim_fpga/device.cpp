@@ -134,7 +134,7 @@ void SimulatedDevice::begin_tail() {
 
 void SimulatedDevice::finish(std::uint64_t reason) {
     engine_.halt();
-    run_bits_ |= kStatusFinished | reason;
+    run_bits_ |= kStatusFinished | reason | (phase_ == Phase::Tail ? kStatusInTail : 0);
     phase_ = Phase::AtRest;
 }
 

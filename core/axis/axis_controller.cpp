@@ -160,7 +160,6 @@ void AxisController::take_frames(const AxisInputs& inputs, AxisOutputs& out) {
 void AxisController::begin_following(Epoch epoch, AxisOutputs& out) {
     mode_ = Mode::Following;
     recorded_ = ran_ = 0;
-    was_in_tail_ = false;
     out.notices.push_back({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
 }
 

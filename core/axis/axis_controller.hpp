@@ -171,7 +171,6 @@ private:
     std::uint64_t run_ = 0;          // the device run begun last
     FrameNumber recorded_ = 0;       // bodies of the run recorded so far
     FrameNumber ran_ = 0;            // bodies of the epoch begun so far
-    bool was_in_tail_ = false;
     std::optional<LocalRun> local_;
     std::size_t ring_room_ = 0;  // of the device's segment ring, in this loop
     double last_speed_ = 0;

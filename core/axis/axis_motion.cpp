@@ -45,7 +45,6 @@ void AxisController::record_progress(const DeviceStatus& device, AxisOutputs& ou
             break;
         }
     }
-    was_in_tail_ = device.in_tail;
     if (!local) { return follower_.forget_before(recorded_ + 1); }
     while (!local_->held.empty() && local_->held.front().number <= recorded_) { local_->held.pop_front(); }
 }
@@ -53,10 +52,7 @@ void AxisController::record_progress(const DeviceStatus& device, AxisOutputs& ou
 void AxisController::record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out) {
     const bool stopped = device.stopped_by_limit || device.stopped_by_trigger || device.stopped_by_host;
     const std::int64_t here = device.position.count() - zero_count_;
-    const std::int64_t body_end = frame.body_end().count();
-    const bool beyond = here != body_end && (here > body_end) == (body_end > frame.track.from.count());
-    const bool may_be = device.now > frame.end() && beyond;  // stopped since the last look: by where it stands
-    const bool in_tail = !frame.last && (!stopped || was_in_tail_ || may_be);
+    const bool in_tail = !frame.last && (!stopped || device.in_tail);
     record(frame, false, stopped && !in_tail ? std::optional(here) : std::nullopt, out);
     if (in_tail && !frame.track.tail.empty()) {
         record(frame, true, stopped ? std::optional(here) : std::nullopt, out);

@@ -92,7 +92,6 @@ void AxisController::start_local(const LocalMove& move, int tries, AxisOutputs& 
                             .tries = tries});
     mode_ = Mode::Local;
     recorded_ = 0;
-    was_in_tail_ = false;
     out.orders.emplace_back(device::BeginRun{++run_, move.trigger, true});
     feed_local(out);
 }

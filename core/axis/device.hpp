@@ -20,7 +20,7 @@ struct DeviceStatus {
     std::uint64_t run = 0;  // the run (see BeginRun) the device is in or has ended
     FrameNumber frame = 0;  // the highest frame of the run whose body has begun; 0: none
     bool finished = false;  // the run has ended and the axis is at rest
-    bool in_tail = false;
+    bool in_tail = false;   // coming to rest by a tail, or ended in one
     bool limit_min = false;
     bool limit_max = false;
     bool home = false;

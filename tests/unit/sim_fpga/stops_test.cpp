@@ -104,6 +104,20 @@ TEST(Stops, TheHostsStopCeasesPulsesAtOnce) {
     EXPECT_EQ(after.velocity, Velocity{});
 }
 
+TEST(Stops, ARunThatWasStoppedSaysWhetherItWasInATail) {
+    for (const bool in_tail : {false, true}) {
+        DeviceBench bench;
+        bench.order(device::BeginRun{1});
+        bench.order(frame(1));
+        bench.order(device::Arm{1});
+        (void)bench.at(kStart + kBody + Ticks{in_tail ? 1 : -1});
+        bench.order(device::StopNow{});
+        const DeviceStatus after = bench.at(kMuchLater);
+        EXPECT_TRUE(after.stopped_by_host);
+        EXPECT_EQ(after.in_tail, in_tail);
+    }
+}
+
 TEST(Stops, AStopDoesNotOutliveItsRun) {
     DeviceBench bench;
     run_ten_frames(bench, +1);
