@@ -2,30 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <tuple>
 
+#include "core/stepgen/lai_dda.hpp"
 #include "core/stepgen/lai_planner.hpp"
+#include "core/stepgen/number_text.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 6'500'000;
-constexpr double kHair = 1e-9;             // a speed this close to a whole number of pulses is one
 constexpr double kLeastPulses = 2;         // of start velocity per period, of acceleration per period and period
 constexpr std::int64_t kStopPeriods = 80;  // from more than so many changes of speed no tail is short enough
-constexpr std::int64_t kMostPulses = 255;  // what the paper's DDA holds
-
-std::int64_t whole(double pulses) { return static_cast<std::int64_t>(std::floor(pulses * (1 + kHair))); }
-
-double in_ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
 
 /// Pulses per period by which the plan changes an axis's speed from one to the next: half of what it could, since
 /// rounding may add one, and tails brake with the other half.
 std::int64_t change_of(const AxisLimits& axis, double period) {
     const double acceleration = std::min(axis.max_acceleration, axis.max_deceleration);
-    return std::max<std::int64_t>(1, whole(std::min(acceleration * period * period, axis.start_velocity * period) / 2));
+    return std::max<std::int64_t>(
+        1, stepgen::whole_pulses(std::min(acceleration * period * period, axis.start_velocity * period) / 2));
 }
 
 class LaiPlanner {
@@ -34,11 +30,10 @@ public:
                const PathBounds& bounds)
         : limits_(limits), steps_per_mm_(steps_per_mm), period_{kPeriod_ns / tick_ns}, bounds_(bounds) {}
 
-    /// The rest of a period that was held in, by itself, from rest to rest.
-    void finish_period(const PathMove& move, Displacement along) {
+    /// A dwell, or the rest of a period that was held in: by itself, from rest to rest.
+    void alone(const PathMove& move, Displacement along = {}) {
         append(plan_path({move}, along, limits_, bounds_).moves.front());
     }
-    void dwell(const PathMove& move) { append(plan_path({move}, {}, limits_, bounds_).moves.front()); }
 
     /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
     void straight(const PathMove& move, std::uint32_t part) {
@@ -82,15 +77,18 @@ private:
 
     /// Of the long axis, so that no axis breaks its limits, rounding to whole pulses included.
     stepgen::LaiSpeeds speeds_of(const PathMove& move) const {
-        std::int64_t change = kMostPulses;
-        double top = std::min(static_cast<double>(kMostPulses), move.own.max_velocity * period());
+        std::int64_t change = stepgen::kMaxPeriodPulses;
+        double top = std::min(static_cast<double>(stepgen::kMaxPeriodPulses), move.own.max_velocity * period());
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double share = std::abs(move.share(i));
             if (share == 0) { continue; }
-            change = std::min(change, whole(static_cast<double>(change_of(limits_[i], period())) / share));
+            change =
+                std::min(change, stepgen::whole_pulses(static_cast<double>(change_of(limits_[i], period())) / share));
             if (share < 1) { top = std::min(top, (limits_[i].max_velocity * period() - 1) / share); }
         }
-        return {.start = 0, .max = std::clamp<std::int64_t>(whole(top), 1, kStopPeriods * change), .change = change};
+        return {.start = 0,
+                .max = std::clamp<std::int64_t>(stepgen::whole_pulses(top), 1, kStopPeriods * change),
+                .change = change};
     }
 
     /// One period: a straight move at one speed.
@@ -121,18 +119,12 @@ private:
     Path path_;
 };
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
-
 /// Whether an axis has the least of something, in its user's unit.
 std::expected<void, std::string> at_least(const AxisConfig& axis, const char* key, double value, double least) {
-    if (value >= least * (1 - kHair)) { return {}; }
+    if (value >= least * (1 - stepgen::kPulseHair)) { return {}; }
     return std::unexpected("axis " + axis.name +
                            ": coordination LAI changes speed by whole pulses per 6.5 ms, which takes " + key +
-                           " of at least " + number(least) + "; it is " + number(value) +
+                           " of at least " + stepgen::number(least) + "; it is " + stepgen::number(value) +
                            " (more steps_per_mm help too, or coordination: RANADE)");
 }
 
@@ -149,7 +141,8 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
     const std::int64_t least_ns = bounds_of(machine).least_move.value * machine.tick_ns;
     if (kPeriod_ns < least_ns) {
         return std::unexpected("coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " +
-                               number(in_ms(least_ns)) + " ms; lower timing.frame_slots or timing.slot_us");
+                               stepgen::number(static_cast<double>(least_ns) * 1e-6) +
+                               " ms; lower timing.frame_slots or timing.slot_us");
     }
     const double period_s = static_cast<double>(kPeriod_ns) * 1e-9;
     for (const AxisConfig& axis : machine.axes) {
@@ -167,23 +160,23 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
 
 std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
     const double pulses = move.own.max_velocity * static_cast<double>(kPeriod_ns / tick_ns);
-    if (move.lead == 0 || pulses >= 1 - kHair) { return {}; }
+    if (move.lead == 0 || pulses >= 1 - stepgen::kPulseHair) { return {}; }
     const double slowest = move.mm_per_lead() / (static_cast<double>(kPeriod_ns) * 1e-9);
     return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +
-                           number(slowest) + " mm/s here");
+                           stepgen::number(slowest) + " mm/s here");
 }
 
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,
                    std::span<const double> steps_per_mm, std::int64_t tick_ns, const PathBounds& bounds) {
     LaiPlanner planner(limits, steps_per_mm, tick_ns, bounds);
     std::size_t next = 0;
-    if (along > Displacement{}) { planner.finish_period(moves[next++], along); }
+    if (along > Displacement{}) { planner.alone(moves[next++], along); }
     while (next < moves.size()) {
         const PathMove& first = moves[next];
         std::size_t last = next;
         while (last + 1 < moves.size() && moves[last + 1].block == first.block) { ++last; }
         if (first.lead == 0) {
-            planner.dwell(first);
+            planner.alone(first);
         } else {
             PathMove whole_move = make_move(first.from, moves[last].to, limits, steps_per_mm, first.feed_mm_per_tick);
             whole_move.line = first.line;

@@ -18,11 +18,17 @@ double turn(std::span<const PathMove> moves, std::size_t j, std::size_t i) {
     return std::abs(after - before);
 }
 
+/// What is left of move m: the first may be on its way already.
+double length_of(std::span<const PathMove> moves, std::size_t m, double first_mm) {
+    return m == 0 ? first_mm : moves[m].length_mm;
+}
+
 /// The speed at which no axis jumps by more than its start velocity, nor so often that it costs too much.
 double joint_speed(std::span<const PathMove> moves, std::size_t j, double first_mm,
                    std::span<const AxisLimits> limits) {
-    const auto length = [&](std::size_t m) { return m == 0 ? first_mm : moves[m].length_mm; };
-    const double mm = std::min(j == 0 ? kUnbounded : length(j - 1), j == moves.size() ? kUnbounded : length(j));
+    const double before = j == 0 ? kUnbounded : length_of(moves, j - 1, first_mm);
+    const double after = j == moves.size() ? kUnbounded : length_of(moves, j, first_mm);
+    const double mm = std::min(before, after);
     double speed = kUnbounded;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const double change = turn(moves, j, i);
@@ -77,7 +83,7 @@ void charge(PathMove& move, double mm, double apex2, const Tolls& tolls, std::sp
 /// What the speeds at the joints can be at most, whatever corners use up: out of reach is out of reach.
 void limit_reach(std::span<const PathMove> moves, double first_mm, std::vector<double>& speed) {
     const auto reach = [&](std::size_t m, double from, double acceleration) {
-        const double mm = m == 0 ? first_mm : moves[m].length_mm;
+        const double mm = length_of(moves, m, first_mm);
         return std::sqrt(from * from + 2 * acceleration * moves[m].mm_per_lead() * mm);
     };
     for (std::size_t m = 0; m < moves.size(); ++m) {
@@ -101,7 +107,7 @@ std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along,
     }
     limit_reach(moves, first_mm, speed);
     for (std::size_t m = 0; m < n; ++m) {
-        const double mm = m == 0 ? first_mm : moves[m].length_mm;
+        const double mm = length_of(moves, m, first_mm);
         Tolls tolls;
         for (std::size_t i = 0; i < limits.size(); ++i) {
             const double jump = (turn(moves, m, i) * speed[m] + turn(moves, m + 1, i) * speed[m + 1]) / 2;

@@ -9,17 +9,13 @@
 namespace lockstep::stepgen {
 namespace {
 
-constexpr double kHair = 1e-9;  // a speed this close to a whole number of pulses is one
-
-std::int64_t whole(double pulses) { return static_cast<std::int64_t>(std::floor(pulses * (1 + kHair))); }
-
-bool differs(double made, double asked) { return std::abs(made - asked) > kHair * std::max(made, asked); }
+bool differs(double made, double asked) { return std::abs(made - asked) > kPulseHair * std::max(made, asked); }
 
 LaiSpeeds expressible(const StepMove& move, double period_s, Adjustments& changed) {
     const double asked = std::min(move.acceleration, move.deceleration);
-    const LaiSpeeds speeds{.start = whole(move.start * period_s),
-                           .max = whole(move.max * period_s),
-                           .change = std::max<std::int64_t>(1, whole(asked * period_s * period_s))};
+    const LaiSpeeds speeds{.start = whole_pulses(move.start * period_s),
+                           .max = whole_pulses(move.max * period_s),
+                           .change = std::max<std::int64_t>(1, whole_pulses(asked * period_s * period_s))};
     const double start = static_cast<double>(speeds.start) / period_s;
     const double max = static_cast<double>(speeds.max) / period_s;
     const double change = static_cast<double>(speeds.change) / (period_s * period_s);
@@ -42,7 +38,7 @@ std::expected<LaiSteps, std::string> LaiSteps::of(const StepMove& move, Fit fit,
     const double period_s = parameters.period_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double most = static_cast<double>(kMaxPeriodPulses) / period_s;
-    if (move.max < (1 - kHair) / period_s || move.max > most) {
+    if (move.max < (1 - kPulseHair) / period_s || move.max > most) {
         return std::unexpected("speeds are 1 to 255 whole pulses per " + number(period_s * 1e3) +
                                " ms: the maximum must be " + number(1 / period_s) + " to " + number(most) + " steps/s");
     }

@@ -19,6 +19,8 @@ std::int64_t falling_distance(std::int64_t v, std::int64_t lowest, std::int64_t 
 
 }  // namespace
 
+std::int64_t whole_pulses(double pulses) { return static_cast<std::int64_t>(std::floor(pulses * (1 + kPulseHair))); }
+
 LaiLongAxis::LaiLongAxis(std::int64_t length, const LaiSpeeds& speeds, LaiLeftOver left_over)
     : speeds_(speeds), left_over_(left_over), lowest_(std::max<std::int64_t>(1, speeds.start)), remaining_(length) {
     const std::int64_t short_max = whole_root(speeds.start * speeds.start + speeds.change * length);

@@ -57,6 +57,11 @@ private:
 /// Pulses of each period; their sum is `length` (> 0).
 std::vector<std::int64_t> plan_long_axis(std::int64_t length, const LaiSpeeds& speeds);
 
+/// A speed this close to a whole number of pulses per period, relatively, is one.
+inline constexpr double kPulseHair = 1e-9;
+/// The whole pulses in a period of so many, downwards.
+std::int64_t whole_pulses(double pulses);
+
 enum class LaiRounding { InEachPeriod, FromTheStart };
 
 /// Which of the two compensations of the short axis are on.
