@@ -6,8 +6,7 @@
 
 namespace lockstep {
 
-EpochRunner::EpochRunner(const MachineConfig& machine, Identity coordinator)
-    : machine_(machine), coordinator_(coordinator), slot_(machine.slot_ticks()) {
+EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot_(machine.slot_ticks()) {
     for (const AxisConfig& axis : machine.axes) { limits_.push_back(limits_of(axis, machine.tick_ns)); }
 }
 
@@ -56,8 +55,7 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
 Frame EpochRunner::make_frame() {
     const Ticks whole = path_.duration().ceil();
     const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
-    Frame frame{
-        .coordinator = coordinator_, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
+    Frame frame{.term = {}, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
     frame.axes.resize(at_.size());
     for (std::size_t i = 0; i < at_.size(); ++i) { frame.axes[i].from = at_[i]; }
     std::vector<Piece> pieces(at_.size());

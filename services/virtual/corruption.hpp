@@ -28,15 +28,16 @@ enum class Alteration : std::uint8_t {
     FrameAbsurd,       // one piece is of numbers that mean nothing
     FrameTravel,       // one axis far outside its travel
     FrameAxes,         // a track too many or too few
-    FrameCoordinator,  // of a coordinator that nobody knows
+    FrameTerm,         // of an owner that nobody knows
     StateAxis,         // said in another axis's name
     StateStamp,        // long past, or far ahead
     StateIdentity,     // of a process that nobody knows
     StatePosition,     // of an axis that is elsewhere
-    MachineStranger,   // of a coordinator that nobody knows
+    StateTerm,         // of an axis that follows an owner whom nobody knows
+    MachineStranger,   // of an owner that nobody knows
     CommandStranger,   // to an axis, of a coordinator that nobody knows
 };
-inline constexpr std::size_t kAlterations = 17;
+inline constexpr std::size_t kAlterations = 18;
 using AlterationCounts = std::array<std::uint64_t, kAlterations>;
 
 std::string_view name_of(Alteration alteration);
