@@ -92,6 +92,8 @@ public:
 
     MachinePhase phase() const { return phase_; }
     bool owns_machine() const { return ownership_.owns(); }
+    /// Its own where it owns the machine; else the highest that is known.
+    Term term() const { return ownership_.term(); }
 
 private:
     struct Job {

@@ -44,7 +44,7 @@ void Coordinator::advance(CoordinatorOutputs& out) {
     if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
     if (in_own_move()) { return advance_own(out); }
     const bool acknowledged = ownership_.acknowledged(views_);
-    if (phase_ == MachinePhase::Idle && !acknowledged) { enter(MachinePhase::Waiting, out); }
+    if (phase_ == MachinePhase::Idle && ownership_.lacks_axes(now_slot_)) { enter(MachinePhase::Waiting, out); }
     bool orders_open = false;
     for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
     const bool all_rest = std::ranges::all_of(views_, [](const AxisView& v) { return v.state && v.state->at_rest; });

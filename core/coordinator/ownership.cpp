@@ -20,6 +20,11 @@ void Ownership::hear(const MachineState& other, Slot now) {
 
 Ownership::Change Ownership::judge(Tick now, Slot slot, std::span<const AxisView> axes) {
     forgive_own_stall(slot);
+    if (acknowledged(axes)) {
+        lacking_.reset();
+    } else if (!lacking_) {
+        lacking_ = slot;
+    }
     if (own_ && must_stand_down(slot, axes)) {
         own_.reset();
         heard_ = slot;
@@ -27,7 +32,7 @@ Ownership::Change Ownership::judge(Tick now, Slot slot, std::span<const AxisView
     }
     if (own_ || !may_claim(slot, axes)) { return Change::None; }
     own_ = Term{std::max(static_cast<std::uint64_t>(now.value), known_.value().number + 1), self_};
-    claimed_ = slot;
+    lacking_ = slot;
     return Change::Claimed;
 }
 
@@ -52,7 +57,7 @@ bool Ownership::must_stand_down(Slot slot, std::span<const AxisView> axes) const
     const bool in_vain = std::ranges::any_of(axes, is_here) && std::ranges::all_of(axes, [&](const AxisView& axis) {
                              return !is_here(axis) || (axis.state->hears_owner && axis.state->term != *own_);
                          });
-    return in_vain && slot - claimed_ > 2 * rules::silence_slots(timing_);
+    return in_vain && slot - lacking_.value_or(slot) > 2 * rules::silence_slots(timing_);
 }
 
 bool Ownership::acknowledged(std::span<const AxisView> axes) const {

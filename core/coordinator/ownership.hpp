@@ -35,6 +35,8 @@ public:
     Term term() const { return own_.value_or(known_.value()); }
     /// Every axis says that it follows this owner. Nothing may be moved before.
     bool acknowledged(std::span<const AxisView> axes) const;
+    /// Some axis has not followed it for longer than one damaged state may make it seem so.
+    bool lacks_axes(Slot now) const { return lacking_ && now - *lacking_ > rules::kHopSlots; }
     /// The owner that is heard, or was heard last: what he said of the machine.
     const std::optional<MachineState>& other_owner() const { return other_owner_; }
     bool hears_other_owner(Slot now) const { return other_owner_ && !silent(now); }
@@ -48,7 +50,7 @@ private:
     Identity self_;
     ProtocolTiming timing_;
     std::optional<Term> own_;
-    Slot claimed_ = 0;
+    std::optional<Slot> lacking_;  // since when not all axes follow it
     HighestTerm known_;     // of all that speak
     HighestTerm followed_;  // by an axis
     std::optional<MachineState> other_owner_;

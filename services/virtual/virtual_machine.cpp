@@ -255,8 +255,11 @@ void VirtualMachine::listen() {
     }
     for (const MachineState& state : mail.machine) {
         if (state.phase == MachinePhase::Standby) { continue; }
-        const bool newer = !machine_state_ || state.stamp >= machine_state_->stamp;
-        if (newer && (!machine_state_ || state.term >= machine_state_->term)) { machine_state_ = state; }
+        // Of two that speak the higher term counts, unless it has fallen silent.
+        const bool first = !machine_state_.has_value();
+        const Slot since = first ? 0 : state.stamp - machine_state_->stamp;
+        const Slot silence = rules::silence_slots(options_.machine.timing);
+        if (first || (state.term >= machine_state_->term ? since >= 0 : since > silence)) { machine_state_ = state; }
     }
     for (Reply& reply : mail.replies) { replies_.push_back(std::move(reply)); }
 }
@@ -271,6 +274,16 @@ std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std:
 void VirtualMachine::repeat_command() {
     const auto message = std::make_shared<const VirtualMessage>(command_);
     for (std::size_t to = 0; to < client_address(); ++to) { send(client_address(), to, message); }
+}
+
+std::optional<std::size_t> VirtualMachine::owner() const {
+    std::optional<std::size_t> owner;
+    for (std::size_t i = 0; i < coordinators_.size(); ++i) {
+        if (!coordinators_[i] || !coordinators_[i]->owns_machine()) { continue; }
+        const bool higher = !owner || coordinators_[*owner]->term() < coordinators_[i]->term();
+        if (higher) { owner = i; }
+    }
+    return owner ? std::optional(axes_.size() + *owner) : std::nullopt;
 }
 
 void VirtualMachine::give_program(std::uint64_t id, const Program& program) {

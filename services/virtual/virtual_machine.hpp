@@ -74,6 +74,9 @@ public:
     /// The reply to a command, once it has come.
     const Reply* reply_to(std::uint64_t sequence) const;
 
+    /// The coordinator that owns the machine, as a process; of several that think so the one of the highest term.
+    std::optional<std::size_t> owner() const;
+
     Tick now() const { return now_; }
     const MachineConfig& machine() const { return options_.machine; }
     /// The newest the client has heard.
