@@ -16,7 +16,7 @@ void Recorder::on_steps(const step_batch_t& message, std::uint64_t offset) {
     if (log == nullptr) { return; }
     auto batch = to_batch(message);
     if (!batch) { return on_damage(offset, batch.error()); }
-    log->take(std::move(*batch));
+    log->take(in_machine_time(std::move(*batch)));
 }
 
 void Recorder::on_position(const axis_position_t& message, std::uint64_t offset) {

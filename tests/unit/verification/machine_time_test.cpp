@@ -1,0 +1,121 @@
+// A log says when each step was made in machine time, whatever clocks the boards have, and how well that is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/analysis/log_read.hpp"
+#include "clients/analysis/log_step.hpp"
+#include "clients/analysis/words.hpp"
+#include "clients/verification/verification.hpp"
+#include "tests/unit/verification/altered_log.hpp"
+#include "tests/unit/verification/recorded_machine.hpp"
+#include "tests/unit/virtual/true_clocks.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+VirtualOptions boards_apart() {
+    VirtualOptions options{.machine = test::example("two-axis")};
+    options.machine.timing.time_source = TimeSource::Network;
+    options.config_hash = config_hash(options.machine);
+    options.network = {.delay_min{20}, .delay_max{300}, .lost = 0.02};
+    options.start = Tick{20'000'000};
+    options.clocks = test::clocks_apart();
+    return options;
+}
+
+/// The steps of the log in machine time, in their order.
+struct LoggedSteps final : LogListener {
+    struct Step {
+        Tick machine;
+        Ticks error;
+    };
+    void on_steps(const step_batch_t& message, std::uint64_t) override {
+        const StepBatch batch = in_machine_time(to_batch(message).value());
+        for (const StepEdge& step : batch.steps) { axes[message.axis].push_back({step.tick, batch.clock_error}); }
+    }
+    void on_position(const axis_position_t&, std::uint64_t) override {}
+    void on_run(const run_t&, std::uint64_t) override {}
+    void on_job(const job_t&, std::uint64_t) override {}
+    void on_foreign(std::string_view) override {}
+    void on_damage(std::uint64_t, std::string what) override { ADD_FAILURE() << what; }
+    std::map<std::string, std::vector<Step>> axes;
+};
+
+/// The true time of every step.
+struct TrueSteps final : VirtualObserver {
+    explicit TrueSteps(const VirtualOptions& of) : options(of) {}
+    void on_step(std::size_t axis, StepEdge step) override {
+        axes[axis].push_back(test::true_time(options.clocks[axis].device, step.tick, options.start));
+    }
+    VirtualOptions options;
+    std::map<std::size_t, std::vector<double>> axes;
+};
+
+class MachineTime : public testing::Test {
+protected:
+    void SetUp() override {
+        test::RecordedMachine recorded(options, log);
+        recorded.vm().observe(truth);
+        recorded.home();
+        recorded.advance_ms(2000);
+        recorded.begin(test::program_of(recorded.vm().machine(), "G21 G90 F3000\nG1 X60 Y8\nX22 Y50\nX9 Y5\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+
+    VirtualOptions options = boards_apart();
+    TrueSteps truth{options};
+    const std::filesystem::path log = test::test_directory() / "run.lcm";
+};
+
+TEST_F(MachineTime, OfEveryStepIsTrueWithinTheErrorSaid) {
+    LoggedSteps logged;
+    ASSERT_TRUE(read_log(log, logged).has_value());
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const auto& steps = logged.axes[options.machine.axes[axis].name];
+        ASSERT_EQ(steps.size(), truth.axes[axis].size());
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            const double off = static_cast<double>(steps[i].machine.value) - truth.axes[axis][i];
+            ASSERT_LE(std::abs(off), static_cast<double>(steps[i].error.value) + 1) << "axis " << axis << ", step " << i;
+        }
+        EXPECT_LT(steps.back().error, Ticks{120});
+    }
+}
+
+/// Of one axis's step from another's where both are to step at once: X and Y move at equal speeds from X60 to X22.
+TEST_F(MachineTime, MakesTheSkewThatIsReportedTheTrueOne) {
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found.has_value()) << found.error();
+    ASSERT_EQ(found->step_skew.size(), 1U);
+    const PairSkew& skew = found->step_skew.front();
+    EXPECT_GT(skew.steps, 5000);
+    EXPECT_GT(skew.largest, Ticks{0}) << "two clocks are never one";
+    EXPECT_LE(skew.largest, skew.error);
+    EXPECT_LT(skew.error, Ticks{300});
+    EXPECT_LT(found->largest_distance_mm.value(), 0.05);
+    EXPECT_NE(summary(*found).find("in machine time its steps are known within"), std::string::npos);
+}
+
+TEST_F(MachineTime, IsVerifiedAStepThatIsLateBeyondWhatItsClocksCanBeIsFound) {
+    ASSERT_FALSE(verification::verify_log(log)->difference);
+    test::AlteredLog altered(log);
+    int seen = 0;
+    ASSERT_EQ(altered.change<step_batch_t>("_X_STEPS",
+                                           [&](step_batch_t& batch) {
+                                               if (batch.position_before < 2000 || ++seen != 10) { return false; }
+                                               batch.ahead_first += 1000;
+                                               batch.ahead_last += 1000;
+                                               return true;
+                                           }),
+              1);
+    const auto findings = verification::verify_log(altered.write(test::test_directory() / "altered.lcm"));
+    ASSERT_TRUE(findings->difference);
+    EXPECT_NE(findings->difference->text.find("was made at machine time"), std::string::npos)
+        << findings->difference->text;
+}
+
+}  // namespace
+}  // namespace lockstep::analysis
