@@ -10,9 +10,10 @@
 
 namespace lockstep::analysis {
 
-/// No machine counts so far, be it ticks, steps, microseconds or messages: 36 years of microseconds.
+/// No machine counts so far, be it ticks, steps, microseconds or messages: 228 years of the shortest tick, since a
+/// machine over PTP counts from 1970.
 constexpr bool is_countable(std::int64_t number) {
-    constexpr std::int64_t kFarthest = std::int64_t{1} << 50;
+    constexpr std::int64_t kFarthest = std::int64_t{1} << 56;
     return -kFarthest < number && number < kFarthest;
 }
 

@@ -58,7 +58,9 @@ std::vector<PlanePoint> asked_points(const Program& program) {
 
 /// A job without an end is over when the next begins.
 Stretch stretch_of(const JobLog& job, const Analysis& analysis) {
-    const auto tick_at = [&](std::int64_t microseconds) { return Tick{microseconds * 1000 / analysis.tick_ns()}; };
+    const auto tick_at = [&](std::int64_t microseconds) {
+        return Tick{static_cast<std::int64_t>(Int128{microseconds} * 1000 / analysis.tick_ns())};
+    };
     Stretch stretch{*analysis.first_tick(), *analysis.last_tick()};
     if (job.first_frame) {
         stretch.first = *job.first_frame;

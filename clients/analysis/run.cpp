@@ -16,7 +16,7 @@ bool is_countable_run(const run_t& m) {
 }
 
 bool are_commanded(const run_t& m) {
-    const auto lasts = [](std::int64_t ticks) { return ticks > 0 && is_countable(ticks); };
+    const auto lasts = [](std::int64_t ticks) { return ticks > 0 && Ticks{ticks} <= kMaxPieceTicks; };
     const bool fit = m.retimed == 0 || m.retimed == m.pieces || m.retimed + 1 == m.pieces;
     return fit && std::ranges::all_of(m.commanded_ticks, lasts);
 }

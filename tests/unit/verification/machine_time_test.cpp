@@ -145,5 +145,26 @@ TEST_F(MachineTime, IsVerifiedAStepThatIsLateBeyondWhatItsClocksCanBeIsFound) {
         << findings->difference->text;
 }
 
+/// As with PTP, whose time is counted from 1970.
+TEST(MachineTimeByPtp, OfAMachineThatCountsFrom1970IsReadAndVerified) {
+    const std::filesystem::path log = test::test_directory() / "run.lcm";
+    VirtualOptions options{.machine = test::example("two-axis"), .start = Tick{1'795'000'000'000'000}};
+    options.machine.timing.time_source = TimeSource::Ptp;
+    options.config_hash = config_hash(options.machine);
+    {
+        test::RecordedMachine recorded(options, log);
+        recorded.home();
+        recorded.begin(test::program_of(options.machine, "G21 G90 F3000\nG1 X30 Y8\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found.has_value()) << found.error();
+    EXPECT_EQ(found->damage_count, 0u);
+    ASSERT_EQ(found->step_skew.size(), 1U);
+    EXPECT_EQ(found->step_skew.front().largest, Ticks{0});
+    EXPECT_EQ(found->step_skew.front().error, options.machine.clock_error_limit() * 2) << "believed, and said so";
+    EXPECT_FALSE(verification::verify_log(log)->difference);
+}
+
 }  // namespace
 }  // namespace lockstep::analysis
