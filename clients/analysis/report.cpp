@@ -47,7 +47,7 @@ void fill(const JobLog& job, proto::JobAnalysis& report) {
     report.set_job(job.job);
     report.set_kind(job.kind);
     report.set_outcome(job.outcome);
-    if (job.program) { report.set_name(job.program->name); }
+    report.set_name(job.name);
     if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
 }
 

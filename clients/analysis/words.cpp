@@ -86,9 +86,8 @@ std::string job_table(const Analysis& analysis) {
             job.begun_us && job.ended_us
                 ? fmt::format("{:.2f}", static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6)
                 : "-";
-        text +=
-            fmt::format("{:>5}  {:<8} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.program ? job.program->name : "",
-                        job.outcome.empty() ? "not ended" : job.outcome, lasted);
+        text += fmt::format("{:>5}  {:<8} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.name,
+                            job.outcome.empty() ? "not ended" : job.outcome, lasted);
     }
     return text;
 }
@@ -176,8 +175,8 @@ std::string in_a_line(const Analysis& analysis) {
 std::vector<std::string> notes(const Analysis& analysis) {
     std::string text;
     if (analysis.largest_distance_mm) {
-        text += fmt::format("the path stepped is at most {:.4f} mm from the path asked (X-Y)\n",
-                            *analysis.largest_distance_mm);
+        text +=
+            fmt::format("the path stepped is at most {:.4f} mm from the path asked\n", *analysis.largest_distance_mm);
     }
     for (const auto& axis : analysis.axes) {
         const Ticks error = axis->statistics().clock_error();
