@@ -121,7 +121,7 @@ private:
     bool follows(const MachineState& state, Slot now, AxisOutputs& out);
     void adopt(const Term& term, Slot now, AxisOutputs& out);
     bool hears_owner(Slot now) const;
-    bool is_from_owner(const Term& term) const { return term == owner_ && owner_ != Term{}; }
+    bool is_from_owner(const Term& term) const { return owner_ != Term{} && rules::is_from_owner(term, owner_); }
     bool is_news(const Command& request);
     void stop_now(AxisOutputs& out);
     void carry_out(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);

@@ -195,7 +195,7 @@ private:
     std::optional<Job> job_;
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t jobs_ = 0;
-    Epoch epoch_ = 0;          // the newest
+    Epoch epoch_ = 0;            // the newest
     std::uint64_t cut_job_ = 0;  // the job that the takeover ended
     std::int32_t cut_line_ = 0;  // and where
     std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;

@@ -10,8 +10,12 @@ void Ownership::hear(const AxisState& axis) {
 }
 
 void Ownership::hear(const MachineState& other, Slot now) {
+    if (other.phase == MachinePhase::Standby) {
+        known_.hear({other.term.number, 0}, other.stamp);
+        if (other.term.coordinator < self_) { elder_heard_ = now; }
+        return;
+    }
     known_.hear(other.term, other.stamp);
-    if (other.phase == MachinePhase::Standby) { return; }
     const bool known = other_owner_ && other_owner_->term == other.term;
     if (!known && !stranger_.again(other.term, other.stamp)) { return; }
     other_owner_ = other;
@@ -44,7 +48,7 @@ void Ownership::forgive_own_stall(Slot slot) {
 }
 
 bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) const {
-    return silent(slot) && std::ranges::all_of(axes, [&](const AxisView& axis) {
+    return silent(slot, hears_elder(slot) ? kHeadStart : 0) && std::ranges::all_of(axes, [&](const AxisView& axis) {
                return !axis.present(slot, timing_) || (axis.state->at_rest && !axis.state->hears_owner);
            });
 }
@@ -61,8 +65,8 @@ bool Ownership::must_stand_down(Slot slot, std::span<const AxisView> axes) const
 }
 
 bool Ownership::acknowledged(std::span<const AxisView> axes) const {
-    return own_ && std::ranges::all_of(
-                       axes, [&](const AxisView& axis) { return axis.state && axis.state->term == *own_; });
+    return own_ &&
+           std::ranges::all_of(axes, [&](const AxisView& axis) { return axis.state && axis.state->term == *own_; });
 }
 
 }  // namespace lockstep

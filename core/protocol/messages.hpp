@@ -129,7 +129,7 @@ enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
 /// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
 struct MachineState {
-    Term term;  // Standby: the highest known
+    Term term;  // Standby: the highest number known, and who stands by
     Slot stamp = 0;
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;

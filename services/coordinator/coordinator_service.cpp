@@ -22,9 +22,8 @@ namespace {
 using std::chrono::nanoseconds;
 
 std::string_view phase_name(std::uint64_t phase) {
-    constexpr std::array<std::string_view, 9> kNames{"Waiting", "Idle",   "Homing",   "Running",
-                                                     "Holding", "Paused", "Stopping", "Fault",
-                                                     "Standby"};
+    constexpr std::array<std::string_view, 9> kNames{"Waiting", "Idle",     "Homing", "Running", "Holding",
+                                                     "Paused",  "Stopping", "Fault",  "Standby"};
     return phase < kNames.size() ? kNames[phase] : "unknown";
 }
 
@@ -92,9 +91,9 @@ private:
                 return log_warning("stands down: another coordinator owns the machine, term " +
                                    std::to_string(notice.number));
             case Kind::JobCutShort:
-                return log_warning("the job of the coordinator before was cut short near line " +
-                                   std::to_string(notice.number) + "; the axes rest; go on: lockstep run FILE --from-line " +
-                                   std::to_string(notice.number));
+                return log_warning(
+                    "the job of the coordinator before was cut short near line " + std::to_string(notice.number) +
+                    "; the axes rest; go on: lockstep run FILE --from-line " + std::to_string(notice.number));
             case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -182,8 +181,9 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
         return kServiceBadInput;
     }
     if (options.standby && machine->timing.time_source == TimeSource::Network) {
-        std::cerr << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, which "
-                     "another host's cannot carry on; use SHARED (one host) or PTP\n";
+        std::cerr
+            << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, which "
+               "another host's cannot carry on; use SHARED (one host) or PTP\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"coordinator", "", options.log_file}); !log) {

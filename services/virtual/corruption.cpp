@@ -8,9 +8,9 @@ public:
     explicit Alterer(std::mt19937_64& random) : random_(random) {}
 
     Alteration operator()(Frame& frame) {
-        constexpr std::array kWays{Alteration::FrameEpoch,      Alteration::FrameSequence, Alteration::FrameStart,
-                                   Alteration::FrameTicks,      Alteration::FrameFrom,     Alteration::FrameSpeed,
-                                   Alteration::FrameAbsurd,     Alteration::FrameTravel,   Alteration::FrameAxes,
+        constexpr std::array kWays{Alteration::FrameEpoch,  Alteration::FrameSequence, Alteration::FrameStart,
+                                   Alteration::FrameTicks,  Alteration::FrameFrom,     Alteration::FrameSpeed,
+                                   Alteration::FrameAbsurd, Alteration::FrameTravel,   Alteration::FrameAxes,
                                    Alteration::FrameTerm};
         const Alteration way = kWays[index(kWays.size())];
         AxisTrack& track = frame.axes[index(frame.axes.size())];
@@ -77,9 +77,9 @@ private:
 
 std::string_view name_of(Alteration alteration) {
     constexpr std::array<std::string_view, kAlterations> kNames{
-        "none",        "frame epoch",    "frame number",   "frame start",      "frame ticks",     "frame from",
-        "frame speed", "frame absurd",   "frame travel",   "frame axes",       "frame stranger",  "state axis",
-        "state stamp", "state identity", "state position", "state term", "machine stranger", "command stranger"};
+        "none",        "frame epoch",    "frame number",   "frame start", "frame ticks",      "frame from",
+        "frame speed", "frame absurd",   "frame travel",   "frame axes",  "frame stranger",   "state axis",
+        "state stamp", "state identity", "state position", "state term",  "machine stranger", "command stranger"};
     return kNames[static_cast<std::size_t>(alteration)];
 }
 

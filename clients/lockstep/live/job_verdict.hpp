@@ -11,7 +11,7 @@ enum class JobVerdict {
     Stopped,
     Failed,
     CutShort,  // the coordinator fell silent in the middle, and another has taken over: the axes rest
-    Lost,  // the coordinator was started anew, or went on to another job: how this one ended is not known
+    Lost,      // the coordinator was started anew, or went on to another job: how this one ended is not known
 };
 
 /// `job`: as the reply named it, by the owner whose term was `asked`.

@@ -99,9 +99,7 @@ bool Session::axis_present(std::size_t i) const {
     return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
 }
 
-bool Session::has_standby() const {
-    return standby_heard_ && monotonic_now() - *standby_heard_ <= longest_silence();
-}
+bool Session::has_standby() const { return standby_heard_ && monotonic_now() - *standby_heard_ <= longest_silence(); }
 
 bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
 

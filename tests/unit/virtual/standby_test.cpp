@@ -57,7 +57,9 @@ protected:
     void befall(Kind kind, std::size_t process, double seconds, std::optional<std::size_t> peer = {}) {
         vm.schedule({.kind = kind, .process = process, .at = vm.now(), .lasts = ticks(seconds), .peer = peer});
     }
-    bool taken_over() { return vm.advance_until([&] { return vm.owner() == other && idle(); }, ticks(3)); }
+    bool taken_over() {
+        return vm.advance_until([&] { return vm.owner() == other && idle(); }, ticks(3));
+    }
     bool idle() const { return vm.state()->term > term && vm.state()->phase == MachinePhase::Idle; }
     void expect_moves_without_homing() {
         const auto at = counts();
