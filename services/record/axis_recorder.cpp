@@ -1,7 +1,5 @@
 #include "services/record/axis_recorder.hpp"
 
-#include "services/wire/translate_lcm.hpp"
-
 namespace lockstep {
 
 AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink)

@@ -8,6 +8,7 @@
 #include "services/record/record_sink.hpp"
 #include "services/wire/lcm_channels.hpp"
 #include "services/wire/step_batcher.hpp"
+#include "services/wire/translate_lcm.hpp"
 
 namespace lockstep {
 
@@ -24,6 +25,7 @@ public:
     /// After each loop, at this machine time: its outputs, and what the axis's zero then is. Times in the record are
     /// the device's, which are machine time where that is shared.
     void loop(Tick now, const AxisOutputs& out, std::int64_t zero_count);
+    void health(const AxisHealth& health) { sink_.publish(channels_.health, to_lcm(machine_, health)); }
     /// At the end: what is still in hand.
     void finish() { batcher_.flush(); }
 

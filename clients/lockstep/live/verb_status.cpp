@@ -52,6 +52,7 @@ ExitCode status(const StatusOptions& options) {
     auto session = Session::open(*machine);
     if (!session) { return voice.fail(session.error()); }
     (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such
+    session->await_healths(300ms);
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     options.watch ? watch(*session, voice) : show(*session, voice, false);
     return kExitDone;
