@@ -29,18 +29,18 @@ AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step
     knows_time_ = time_.look(own, {status_.now, device_.shares_clock}, !controller_.at_rest());
     AxisOutputs out = knows_time_ ? decide(mail) : AxisOutputs{};
     if (device_.simulated) { device_.simulated->advance(own); }
-    drain(on_step);
+    drain(on_step, out.device_clock);
     return out;
 }
 
-void AxisNode::drain(const OnStep& on_step) {
-    const Ticks ahead = meter_ != nullptr ? time_.device_ahead() : Ticks{};
+void AxisNode::drain(const OnStep& on_step, const ClockView& machine_time) {
+    HealthMeter* meter = knows_time_ ? meter_ : nullptr;
     const auto drained = driver_.drain_capture([&](StepEdge step) {
         on_step(step);
-        if (meter_ != nullptr) { meter_->step({step.tick - ahead, step.direction}); }
+        if (meter != nullptr) { meter->step({machine_time.at(step.tick), step.direction}); }
     });
     if (!drained) { return note(drained.error()); }
-    if (meter_ != nullptr) { meter_->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
+    if (meter != nullptr) { meter->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
 }
 
 AxisOutputs AxisNode::decide(const AxisMail& mail) {
@@ -60,7 +60,7 @@ AxisOutputs AxisNode::decide(const AxisMail& mail) {
     }
     for (ExecutedTrack& track : out.tracks) { track = time_.in_device_time(std::move(track)); }
     for (DeviceOrder& order : out.orders) { order = time_.in_device_time(std::move(order)); }
-    out.device_ahead = time_.device_ahead();
+    out.device_clock = time_.device_clock();
     give(out.orders);
     return out;
 }

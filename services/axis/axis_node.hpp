@@ -74,7 +74,7 @@ private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
     void look(Tick own);
     AxisOutputs decide(const AxisMail& mail);
-    void drain(const OnStep& on_step);
+    void drain(const OnStep& on_step, const ClockView& machine_time);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
