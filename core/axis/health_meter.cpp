@@ -30,6 +30,7 @@ HealthMeter::HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_
 void HealthMeter::look(Tick now, const DeviceStatus& device) {
     now_ = now;
     free_segments_.add({device.free_segments});
+    if (!device.moving) { last_step_.reset(); }  // a standstill is no interval
     if (device.finished && device.run == run_) { newest_setpoint_.reset(); }
 }
 

@@ -52,7 +52,7 @@ struct AxisHealth {
 
     // Of the second before, as all that follows to the next line.
     Extremes step_lateness;                 // device against plan; as soon as the step's frame has been run
-    Extremes step_interval;                 // between steps
+    Extremes step_interval;                 // between steps of a motion
     Extremes setpoint_slack;                // how long before its start a frame came
     std::uint32_t least_free_segments = 0;  // room in the device's segment ring
     std::uint32_t least_free_captures = 0;  // room in its capture ring

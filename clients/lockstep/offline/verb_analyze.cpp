@@ -8,7 +8,7 @@
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
-#include "clients/lockstep/offline/colour.hpp"
+#include "clients/lockstep/colour.hpp"
 #include "clients/lockstep/verb.hpp"
 
 namespace lockstep {

@@ -24,7 +24,7 @@ protected:
         return report().value();
     }
 
-    DeviceStatus device_{.free_segments = 1000};
+    DeviceStatus device_{.moving = true, .free_segments = 1000};
     std::uint32_t free_captures_ = 65536;
     HealthMeter meter_{0, 77, 1000};
 };
@@ -81,6 +81,16 @@ TEST_F(Health, StepIntervalsAreThoseOfTheSecondBefore) {
         (void)report();
     }
     EXPECT_EQ(after({2'200'000}).step_interval.count, 0U);
+}
+
+TEST_F(Health, AStandstillIsNoStepInterval) {
+    loop({1'000'000}, {}, {{{999'000}, 1}, {{999'040}, 1}});
+    (void)report();
+    device_.moving = false;
+    loop({1'010'000});
+    device_.moving = true;
+    loop({1'090'000}, {}, {{{1'089'000}, 1}, {{1'089'060}, 1}});
+    EXPECT_EQ(after({1'090'000}).step_interval, (Extremes{2, {40}, {60}}));
 }
 
 TEST_F(Health, LatenessIsKnownOnceTheFrameWasRun) {
