@@ -43,6 +43,21 @@ AxisState RandomMessages::axis_state() {
             .hears_owner = coin()};
 }
 
+AxisHealth RandomMessages::axis_health() {
+    return {.identity = bits(),
+            .axis = index(kMaxAxes),
+            .tick = {far()},
+            .step_lateness = extremes(),
+            .step_interval = extremes(),
+            .setpoint_slack = extremes(),
+            .least_free_segments = static_cast<std::uint32_t>(bits()),
+            .least_free_captures = static_cast<std::uint32_t>(bits()),
+            .loop = {{far()}, {far()}, {far()}},
+            .setpoint_age = coin() ? std::optional(Ticks{far()}) : std::nullopt,
+            .clock_error = {far()},
+            .refused = {bits(), bits(), bits(), bits(), bits(), bits(), bits()}};
+}
+
 AxisCommand RandomMessages::axis_command() {
     return {.term = term(),
             .sequence = bits(),
