@@ -17,7 +17,9 @@ namespace lockstep::analysis {
 
 struct LateStep {
     Tick commanded;
-    Ticks late;  // below 0: before its time
+    Ticks late;              // below 0: before its time
+    std::int64_t count = 0;  // after it, machine coordinates
+    std::int8_t direction = 0;
 };
 
 class Lateness final : public StepListener {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -31,6 +32,10 @@ public:
     /// So many frames wait for the axes whose record of them comes late.
     static constexpr std::size_t kFramesWaiting = 64;
 
+    using OnLate = std::function<void(const std::string& axis, const LateStep& step)>;
+    /// `on_late` hears of each step of a frame, axis by axis.
+    explicit SkewMeter(OnLate on_late = {}) : on_late_(std::move(on_late)) {}
+
     /// Where the steps of an axis are to be told.
     StepListener& steps_of(const std::string& axis) { return lateness(axis); }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
@@ -49,6 +54,7 @@ private:
     void take_first_frame();
     void take_pair(const Steps::value_type& first, const Steps::value_type& second);
 
+    OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
     std::map<FrameKey, Steps> frames_;
     std::map<std::pair<std::string, std::string>, std::map<Ticks, std::int64_t>> skews_;  // how often each amount

@@ -4,24 +4,13 @@
 
 #include <cstdlib>
 
+#include "clients/analysis/numbers.hpp"
+#include "clients/analysis/verdict.hpp"
+
 namespace lockstep::analysis {
 namespace {
 
 constexpr std::size_t kBreaksShown = 5;  // per axis
-constexpr std::size_t kDamagesShown = 5;
-
-std::string grouped(std::int64_t number) {
-    std::string text = std::to_string(number);
-    for (std::size_t at = text.size(); at > (number < 0 ? 4U : 3U);) {
-        at -= 3;
-        text.insert(at, " ");
-    }
-    return text;
-}
-
-std::string plural(std::int64_t count, const std::string& one) {
-    return grouped(count) + " " + one + (count == 1 ? "" : "s");
-}
 
 std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&)) {
     std::int64_t sum = 0;
@@ -31,9 +20,6 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
-std::int64_t missing_steps_of(const AxisLog& axis) {
-    return axis.statistics().missing_steps() + std::abs(axis.unrecorded_steps());
-}
 
 std::string missing_in_short(const Analysis& analysis) {
     const std::int64_t steps = total(analysis, missing_steps_of);
@@ -149,14 +135,16 @@ std::string axis_notes(const AxisLog& axis) {
     return text;
 }
 
+std::string damage_sentence(const Damage& damage) {
+    const auto bytes = plural(static_cast<std::int64_t>(damage.bytes), "byte");
+    if (damage.places == 1) { return fmt::format("damaged at byte {}: {}, {}", damage.first_byte, damage.what, bytes); }
+    return fmt::format("damaged in {} places from byte {} to {}: {}, {}", damage.places, damage.first_byte,
+                       damage.last_byte, damage.what, bytes);
+}
+
 std::string log_notes(const Analysis& analysis) {
     std::string text;
-    for (std::size_t i = 0; i < std::min(analysis.damages.size(), kDamagesShown); ++i) {
-        text += fmt::format("damaged at byte {}: {}\n", analysis.damages[i].offset, analysis.damages[i].what);
-    }
-    if (analysis.damage_count > kDamagesShown) {
-        text += fmt::format("and {} more damaged places\n", analysis.damage_count - kDamagesShown);
-    }
+    for (const Damage& damage : analysis.damages) { text += damage_sentence(damage) + "\n"; }
     for (const auto& [channel, events] : analysis.foreign) {
         text += "not looked at: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
     }
