@@ -147,6 +147,11 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
                  JobMoves(std::move(asked), on_a_line));
 }
 
+void Recorder::on_late(const std::string& axis, const LateStep& step) {
+    moves_.on_late(axis, step);
+    if (const auto log = axes_.find(axis); log != axes_.end()) { log->second->take(step); }
+}
+
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
     const std::int64_t us = tick.value * analysis_.tick_ns() / 1000;
     return job.begun_us && *job.begun_us <= us && (!job.ended_us || us <= *job.ended_us);
@@ -205,13 +210,11 @@ void Recorder::note_error(const std::expected<void, std::string>& result) {
 }
 
 Analysis Recorder::finish() {
-    for (auto& [name, log] : axes_) {
-        note_error(log->finish());
-        analysis_.axes.push_back(std::move(log));
-    }
+    for (auto& [name, log] : axes_) { note_error(log->finish()); }
+    analysis_.step_skew = skew_.finish();
+    for (auto& [name, log] : axes_) { analysis_.axes.push_back(std::move(log)); }
     axes_.clear();
     merge_.finish();
-    analysis_.step_skew = skew_.finish();
     for (Event& event : events_.events()) {
         const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });
         if (job != analysis_.jobs.end()) { event.job = job->job; }

@@ -11,6 +11,7 @@ namespace lockstep::analysis {
 namespace {
 
 constexpr std::size_t kBreaksShown = 5;  // per axis
+constexpr std::size_t kEventsShown = 10;
 
 std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&)) {
     std::int64_t sum = 0;
@@ -90,6 +91,28 @@ std::string skew_table(const Analysis& analysis) {
     return text;
 }
 
+std::string verdict_text(const Analysis& analysis) {
+    std::string text;
+    for (const Finding& finding : findings(analysis)) {
+        text += fmt::format("{:<9} {}\n", name_of(finding.grade), finding.text);
+    }
+    return text;
+}
+
+std::string events_text(const Analysis& analysis) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(analysis.happened.size(), kEventsShown); ++i) {
+        const Event& event = analysis.happened[i];
+        text += fmt::format("{} at {:.3f} s", event.axis.empty() ? "all axes" : event.axis,
+                            analysis.seconds(event.at - analysis.first_tick().value_or(event.at)));
+        if (event.line) { text += fmt::format(", line {}", *event.line); }
+        text += ": " + event.what + "\n";
+    }
+    const std::uint64_t all = analysis.happened.size() + analysis.events_not_kept;
+    if (all > kEventsShown) { text += fmt::format("and {} more such events\n", all - kEventsShown); }
+    return text;
+}
+
 std::string tick_text(const std::optional<Tick>& tick, const char* otherwise) {
     return tick ? "tick " + grouped(tick->value) : otherwise;
 }
@@ -161,12 +184,8 @@ std::string in_a_line(const Analysis& analysis) {
 
 std::vector<std::string> notes(const Analysis& analysis) {
     std::string text;
-    if (analysis.largest_distance_mm) {
-        text +=
-            fmt::format("the path stepped is at most {:.4f} mm from the path asked\n", *analysis.largest_distance_mm);
-    }
     for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
-    text += log_notes(analysis);
+    text += events_text(analysis) + log_notes(analysis);
     std::vector<std::string> lines;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = text.find('\n', at);
@@ -179,6 +198,7 @@ std::vector<std::string> notes(const Analysis& analysis) {
 std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
+    text += verdict_text(analysis) + "\n";
     text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
     const auto lines = notes(analysis);
     if (!lines.empty()) { text += "\n"; }
