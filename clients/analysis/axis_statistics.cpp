@@ -11,6 +11,7 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     std::int64_t position = batch.position_before_steps;
     for (const StepEdge& edge : batch.steps) { take(edge, position += edge.direction); }
     steps_ += static_cast<std::int64_t>(batch.steps.size());
+    clock_error_ = std::max(clock_error_, batch.clock_error);
 }
 
 void AxisStatistics::on_break(const Break& what) {

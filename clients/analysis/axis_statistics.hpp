@@ -45,6 +45,8 @@ public:
 
     const std::vector<Break>& breaks() const { return breaks_; }  // the first kBreaksKept
     std::int64_t break_count() const { return break_count_; }
+    /// The steps' times are machine time within this.
+    Ticks clock_error() const { return clock_error_; }
     std::int64_t missing_batches() const { return missing_batches_; }
     /// At least so many steps are missing: what positions differ by, over all stretches of missing batches.
     std::int64_t missing_steps() const { return missing_steps_; }
@@ -66,6 +68,7 @@ private:
     std::int64_t start_ = 0;
     std::int64_t lowest_ = 0;
     std::int64_t highest_ = 0;
+    Ticks clock_error_;
     std::vector<Break> breaks_;
     std::int64_t break_count_ = 0;
     std::int64_t missing_batches_ = 0;

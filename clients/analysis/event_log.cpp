@@ -29,12 +29,18 @@ void EventLog::take(const axis_position_t& message) {
 void EventLog::take(const std::string& axis, const Run& run) {
     if (run.epoch == 0) { return; }
     if (run.cut) {
-        note({.at = run.start, .what = "pulses ceased at once, in " + name_of(run), .axis = axis, .remedy = {}});
+        note({.at = run.commanded_start(),
+              .what = "pulses ceased at once, in " + name_of(run),
+              .axis = axis,
+              .remedy = {}});
     }
     if (!run.tail || std::exchange(latest_tail_, std::pair{run.epoch, run.frame}) == std::pair{run.epoch, run.frame}) {
         return;
     }
-    note({.at = run.start, .what = "began to come to rest, by the " + name_of(run), .axis = {}, .remedy = {}});
+    note({.at = run.commanded_start(),
+          .what = "began to come to rest, by the " + name_of(run),
+          .axis = {},
+          .remedy = {}});
 }
 
 void EventLog::note(Event event) {

@@ -17,7 +17,7 @@ void Recorder::on_steps(const step_batch_t& message, LogPlace place) {
     if (log == nullptr) { return; }
     auto batch = to_batch(message);
     if (!batch) { return on_damage(place, batch.error()); }
-    log->take(std::move(*batch));
+    log->take(in_machine_time(std::move(*batch)));
     merge_.settle();
 }
 
@@ -142,7 +142,7 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
         keep_asked_way(*program);
         latest_program_ = message.program;
     }
-    const Tick from{message.utime * 1000 / analysis_.config->tick_ns};
+    const Tick from{static_cast<std::int64_t>(Int128{message.utime} * 1000 / analysis_.config->tick_ns)};
     moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), from, *analysis_.config,
                  JobMoves(std::move(asked), on_a_line));
 }

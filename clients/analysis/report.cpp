@@ -46,6 +46,7 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
     if (found.first()) { report.set_first_tick(found.first()->tick.value); }
     if (found.last()) { report.set_last_tick(found.last()->tick.value); }
+    report.set_clock_error_us(analysis.microseconds(found.clock_error()));
     fill(analysis, axis.late(), *report.mutable_step_time_error());
     fill_lengths(analysis, axis, report);
     fill_gaps(axis, report);
@@ -152,6 +153,7 @@ void fill(const Analysis& analysis, const PairSkew& skew, proto::StepSkew& repor
     report.set_p50_us(analysis.microseconds(skew.median));
     report.set_p99_us(analysis.microseconds(skew.p99));
     report.set_max_us(analysis.microseconds(skew.largest));
+    report.set_error_us(analysis.microseconds(skew.error));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 using Findings = std::vector<Finding>;
 
 constexpr double kOverLimit = 1.02;  // a speed is measured to within 0.1 %, and planned up to the limit
-constexpr Ticks kRounding{2};        // what a step may be off where clocks are exact
+constexpr Ticks kRounding{2};        // what a step may be off besides its clock
 
 std::string name_of(const JobLog& job) {
     return fmt::format("job {} ({})", job.job, job.name.empty() ? job.kind : job.name);
@@ -100,7 +100,9 @@ void judge_times(const Analysis& analysis, Findings& found) {
     TickHistogram late;
     for (const JobLog& job : analysis.jobs) { late.add(job.late); }
     if (late.empty()) { return; }
-    const Grade grade = late.largest() <= kRounding ? Grade::Good : Grade::Doubtful;
+    Ticks bound = kRounding;
+    for (const auto& axis : analysis.axes) { bound = std::max(bound, kRounding + axis->statistics().clock_error()); }
+    const Grade grade = late.largest() <= bound ? Grade::Good : Grade::Doubtful;
     found.push_back({grade, fmt::format("no step is more than {:.0f} us from the time commanded",
                                         analysis.microseconds(late.largest()))});
 }
