@@ -66,6 +66,8 @@ struct Analysis {
     static constexpr std::size_t kMovesKept = 5000;           // of all jobs
     static constexpr std::size_t kAskedPointsKept = 200'000;  // of all jobs' paths
 
+    static constexpr Int128 kEnd = Int128{1} << 60;
+
     std::filesystem::path log;
     std::string machine;
     std::optional<MachineConfig> config;         // of the last job that tells
@@ -93,6 +95,13 @@ struct Analysis {
     std::optional<Tick> last_tick() const;
     double seconds(Ticks ticks) const {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns()) * 1e-9;
+    }
+    /// Microseconds of machine time as ticks, and back; no number is too large.
+    Tick tick_at(std::int64_t microseconds) const {
+        return {static_cast<std::int64_t>(std::clamp(Int128{microseconds} * 1000 / tick_ns(), -kEnd, kEnd))};
+    }
+    std::int64_t microseconds_at(Tick tick) const {
+        return static_cast<std::int64_t>(std::clamp(Int128{tick.value} * tick_ns() / 1000, -kEnd, kEnd));
     }
     double microseconds(Ticks ticks) const { return seconds(ticks) * 1e6; }
 };

@@ -142,9 +142,8 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
         keep_asked_way(*program);
         latest_program_ = message.program;
     }
-    const Tick from{static_cast<std::int64_t>(Int128{message.utime} * 1000 / analysis_.config->tick_ns)};
-    moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), from, *analysis_.config,
-                 JobMoves(std::move(asked), on_a_line));
+    moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), analysis_.tick_at(message.utime),
+                 *analysis_.config, JobMoves(std::move(asked), on_a_line));
 }
 
 void Recorder::on_late(const std::string& axis, const LateStep& step) {
@@ -153,7 +152,7 @@ void Recorder::on_late(const std::string& axis, const LateStep& step) {
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
-    const std::int64_t us = tick.value * analysis_.tick_ns() / 1000;
+    const std::int64_t us = analysis_.microseconds_at(tick);
     return job.begun_us && *job.begun_us <= us && (!job.ended_us || us <= *job.ended_us);
 }
 

@@ -19,8 +19,10 @@ std::string name_of(const JobLog& job) {
     return fmt::format("job {} ({})", job.job, job.name.empty() ? job.kind : job.name);
 }
 
+/// Or may lack them, where something cannot be read.
 bool lacks_steps(const Analysis& analysis) {
-    return std::ranges::any_of(analysis.axes, [](const auto& axis) { return missing_steps_of(*axis) != 0; });
+    return !analysis.damages.empty() ||
+           std::ranges::any_of(analysis.axes, [](const auto& axis) { return missing_steps_of(*axis) != 0; });
 }
 
 void judge_outcome(const JobLog& job, Findings& found) {

@@ -168,7 +168,6 @@ std::string damage_sentence(const Damage& damage) {
 
 std::string log_notes(const Analysis& analysis) {
     std::string text;
-    for (const Damage& damage : analysis.damages) { text += damage_sentence(damage) + "\n"; }
     for (const auto& [channel, events] : analysis.foreign) {
         text += "not looked at: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
     }
@@ -208,7 +207,8 @@ std::string summary(const Analysis& analysis) {
     text += verdict_text(analysis) + "\n";
     text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
     const auto lines = notes(analysis);
-    if (!lines.empty()) { text += "\n"; }
+    if (!lines.empty() || !analysis.damages.empty()) { text += "\n"; }
+    for (const Damage& damage : analysis.damages) { text += damage_sentence(damage) + "\n"; }
     for (const std::string& line : lines) { text += line + "\n"; }
     return text;
 }

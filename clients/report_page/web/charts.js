@@ -57,7 +57,7 @@ function timeChart(host, row, events, last) {
     return [min - room, max + room];
   };
   const chart = new uPlot({
-    width: width(), height: last ? 160 : 130, cursor: { sync: { key: joined.key, setSeries: false }, drag: { x: true, y: false } },
+    width: width(), padding: [10, 12, 0, 0], height: last ? 200 : 170, cursor: { sync: { key: joined.key, setSeries: false }, drag: { x: true, y: false } },
     scales: { x: { time: false, min: whole[0], max: whole[1] },
       y: { range: (u, min, max) => (min === null || min === undefined ? [0, 1] : pad(Math.min(min, 0), Math.max(max, 0))) } },
     axes: [{ ...axisStyle(last ? "time, s" : undefined), size: last ? 46 : 26 }, axisStyle(row.unit)],
