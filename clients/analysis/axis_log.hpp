@@ -45,6 +45,7 @@ public:
         late_.add(step.late);
         late_course_.add({step.commanded + step.late, static_cast<double>(step.late.value)});
     }
+    void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     /// Call once, at the end. The error is that of a file that was not written whole.
     std::expected<void, std::string> finish();
 
@@ -54,6 +55,8 @@ public:
     /// How far its steps were from the ticks commanded, and over time, signed: ticks.
     const TickHistogram& late() const { return late_; }
     std::vector<Sample> late_course() const { return late_course_.samples(); }
+    /// The least time before its start at which a frame came, over time: ms.
+    std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
     /// As the axis's own messages have it; none where they do not tell.
@@ -68,6 +71,7 @@ private:
     Trace trace_;
     TickHistogram late_;
     Course late_course_;
+    Course slack_;
     std::unique_ptr<StepCsv> step_csv_;
     std::unique_ptr<CsvFile> position_csv_;
     std::int64_t positions_ = 0;

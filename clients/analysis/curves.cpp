@@ -85,6 +85,13 @@ drawing::AxisCurve lateness_curve(const Analysis& analysis, const AxisLog& axis)
     return std::move(out.curve);
 }
 
+drawing::AxisCurve slack_curve(const Analysis& analysis, const AxisLog& axis) {
+    Scaled out = scaled(analysis, axis);
+    out.curve.unit = "ms";
+    add_samples(axis.slack(), 1, out);
+    return std::move(out.curve);
+}
+
 std::vector<drawing::AxisCurve> curves(const Analysis& analysis,
                                        drawing::AxisCurve (*of)(const Analysis&, const AxisLog&)) {
     std::vector<drawing::AxisCurve> all;
@@ -103,5 +110,7 @@ std::vector<drawing::AxisCurve> acceleration_curves(const Analysis& analysis) {
 }
 
 std::vector<drawing::AxisCurve> lateness_curves(const Analysis& analysis) { return curves(analysis, lateness_curve); }
+
+std::vector<drawing::AxisCurve> slack_curves(const Analysis& analysis) { return curves(analysis, slack_curve); }
 
 }  // namespace lockstep::analysis

@@ -16,5 +16,7 @@ std::vector<drawing::AxisCurve> position_curves(const Analysis& analysis);
 std::vector<drawing::AxisCurve> acceleration_curves(const Analysis& analysis);  // per s^2
 /// How late the steps were against the ticks commanded, in microseconds.
 std::vector<drawing::AxisCurve> lateness_curves(const Analysis& analysis);
+/// How long before its start the latest frame of each second came, in milliseconds.
+std::vector<drawing::AxisCurve> slack_curves(const Analysis& analysis);
 
 }  // namespace lockstep::analysis

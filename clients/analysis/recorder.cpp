@@ -32,6 +32,13 @@ void Recorder::on_position(const axis_position_t& message, LogPlace place) {
         PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
 }
 
+void Recorder::on_health(const axis_health_t& message, LogPlace place) {
+    AxisLog* log = axis(message.machine, message.axis, place);
+    if (log == nullptr || message.setpoints <= 0) { return; }
+    if (!is_countable(message.tick)) { return on_damage(place, "figures with numbers that no machine counts to"); }
+    log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms});
+}
+
 void Recorder::on_run(const run_t& message, LogPlace place) {
     if (axis(message.machine, message.axis, place) == nullptr) { return; }
     ++analysis_.runs;

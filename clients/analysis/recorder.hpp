@@ -23,6 +23,7 @@ public:
 
     void on_steps(const step_batch_t& message, LogPlace place) override;
     void on_position(const axis_position_t& message, LogPlace place) override;
+    void on_health(const axis_health_t& message, LogPlace place) override;
     void on_run(const run_t& message, LogPlace place) override;
     void on_job(const job_t& message, LogPlace place) override;
     void on_foreign(std::string_view channel) override;

@@ -52,7 +52,8 @@ std::vector<Kind> kinds(const Analysis& analysis) {
     return {{"speed", "speed", "/s", speed_curves(analysis)},
             {"acceleration", "acceleration", "/s\u00b2", acceleration_curves(analysis)},
             {"position", "position", "", position_curves(analysis)},
-            {"step time error", "lateness of its steps against the ticks commanded", "", lateness_curves(analysis)}};
+            {"step time error", "lateness of its steps against the ticks commanded", "", lateness_curves(analysis)},
+            {"slack", "slack: how long before its start the latest frame came", "", slack_curves(analysis)}};
 }
 
 void write_row(const Kind& kind, const drawing::AxisCurve& curve, std::size_t colour, Json& out) {
