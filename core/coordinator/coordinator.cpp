@@ -38,6 +38,7 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
         stand_by(inputs, out);
         return out;
     }
+    if (must_listen()) { return out; }
     watch_axes(out);
     for (const Command& command : inputs.commands) { take_command(command, out); }
     if (!begins_slot()) { return out; }
@@ -60,6 +61,7 @@ bool Coordinator::begins_slot() {
 void Coordinator::forgive_own_stall() {
     const Slot missed = state_slot_ ? std::max<Slot>(0, now_slot_ - *state_slot_ - 1) : 0;
     for (AxisView& view : views_) { view.heard += missed; }
+    if (missed > rules::silence_slots(machine_.timing)) { woken_ = now_slot_; }
 }
 
 void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out) {

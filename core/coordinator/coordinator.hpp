@@ -123,6 +123,7 @@ private:
     void take_over(CoordinatorOutputs& out);
     void stand_down(CoordinatorOutputs& out);
     bool begins_slot();
+    bool must_listen();
     void note_command(const Command& command, Reply reply);
     bool is_old(const Command& command) const;
     void hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
@@ -205,6 +206,7 @@ private:
     Tick now_;
     Slot now_slot_ = 0;
     std::optional<Slot> state_slot_;
+    std::optional<Slot> woken_;  // from a stall in which another may have taken over
 };
 
 }  // namespace lockstep

@@ -28,6 +28,17 @@ void Coordinator::stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& 
     if (begins_slot()) { out.state = state(); }
 }
 
+/// An owner that stalled for so long that another may have taken over says nothing before it has heard every axis in
+/// two slots since: whom do they follow?
+bool Coordinator::must_listen() {
+    if (!woken_) { return false; }
+    const bool heard = std::ranges::all_of(
+        views_, [&](const AxisView& view) { return view.state && view.state->stamp > *woken_ + 1; });
+    if (heard || now_slot_ - *woken_ > rules::silence_slots(machine_.timing)) { woken_.reset(); }
+    if (woken_) { (void)begins_slot(); }
+    return woken_.has_value();
+}
+
 /// A job that the last owner had begun is at its end, wherever the axes came to rest.
 void Coordinator::take_over(CoordinatorOutputs& out) {
     out.notices.push_back({CoordinatorNotice::Kind::Claimed, FaultCode::None, ownership_.term().number});

@@ -17,6 +17,7 @@ public:
             claims += notice.kind == CoordinatorNotice::Kind::Claimed ? 1 : 0;
             stood_down += notice.kind == CoordinatorNotice::Kind::StoodDown ? 1 : 0;
         }
+        for (const JobEvent& job : out.jobs) { epochs += job.kind == JobEvent::Kind::EpochBegun ? 1 : 0; }
         for (const Frame& frame : out.frames) { senders[frame.epoch].insert(frame.term); }
     }
     void on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
@@ -30,6 +31,7 @@ public:
     }
     int claims = 0;
     int stood_down = 0;
+    int epochs = 0;
     std::map<Epoch, std::set<Term>> senders;
     std::map<std::size_t, std::set<std::pair<Epoch, FrameNumber>>> ran;
 };
@@ -101,7 +103,9 @@ TEST_F(Standby, AnOwnerThatWakesUpLateMovesNothingAndStandsDown) {
     befall(Kind::Freeze, owner, 2);
     ASSERT_TRUE(taken_over()) << describe();
     const auto at = counts();
+    owners.epochs = 0;
     wait(2.5);
+    EXPECT_EQ(owners.epochs, 0) << "it asks the axes first";
     EXPECT_EQ(owners.stood_down, 1);
     EXPECT_EQ(counts(), at);
     EXPECT_EQ(vm.owner(), other);
