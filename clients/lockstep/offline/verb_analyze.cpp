@@ -104,7 +104,12 @@ void add_analyze(CLI::App& app, Action& action) {
     verb->add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->add_flag("--no-color", options->no_colour, "no colours, also on a terminal");
-    verb->footer(footer("  lockstep analyze plate.lcm\n  lockstep analyze plate.lcm --svg pictures --csv tables\n"));
+    verb->footer(
+        footer("  lockstep analyze plate.lcm                 # and plate.html\n"
+               "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
+               "  lockstep analyze plate.lcm --json          # verdict: good, doubtful or bad\n\n"
+               "A log that is damaged, cut short or partly of another version is read as far as it can be and\n"
+               "exits 0: what could not be read is listed by its bytes. 2: nothing in it could be read.\n"));
     verb->callback([&action, options] { action = [options] { return analyze(*options); }; });
 }
 
