@@ -75,7 +75,7 @@ Frame EpochRunner::make_frame() {
 EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
     const Path tail = brake_from(path_, subticks(end), limits_);
     const std::size_t move = path_.move_at(subticks(end));
-    Ending ending{move, path_.moves[move].profile.at(subticks(end) - path_.moves[move].start), at_, false};
+    Ending ending{move, path_.moves[move].along_at(subticks(end)), at_, false};
     if (tail.empty()) { return ending; }
     std::vector<Piece> pieces(at_.size());
     PieceSource source(tail, Ticks{0}, tail.duration().ceil(), ending.positions);
