@@ -195,6 +195,10 @@ Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const 
 bool replan_from(Path& path, Ticks t, std::span<const AxisLimits> limits, const PathBounds& bounds,
                  const Overrides& overrides) {
     const std::span<PathMove> moves = path.moves;
+    if (t == Ticks{}) {
+        plan_from_rest(moves, 0, {}, moves[0].along_at({}), limits, bounds, overrides);
+        return true;
+    }
     std::size_t first = path.move_at(subticks(t));
     Entry entry;
     Subticks clock = subticks(t);
