@@ -65,10 +65,8 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
     }
     analysis.log = log;
     analysis.events = *events;
-    const auto plane = compare_in_plane(analysis);
-    if (plane) { analysis.largest_distance_mm = plane->largest_distance_mm; }
     if (!options.svg_dir) { return analysis; }
-    if (auto drawn = write_figures(analysis, plane, *options.svg_dir); !drawn) {
+    if (auto drawn = write_figures(analysis, paths_in_plane(analysis), *options.svg_dir); !drawn) {
         return std::unexpected(drawn.error());
     }
     return analysis;

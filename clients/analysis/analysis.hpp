@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
+#include "clients/analysis/job_moves.hpp"
 #include "clients/analysis/skew.hpp"
+#include "clients/drawing/svg.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 
@@ -29,8 +31,20 @@ struct JobLog {
     std::string outcome;  // done, stopped, failed; empty: the log ends before the job does
     std::optional<std::int64_t> begun_us;
     std::optional<std::int64_t> ended_us;
-    std::optional<Tick> first_frame;  // where motion began
-    std::optional<Program> program;
+    std::string name;                        // of the program; empty for homing
+    std::int64_t epochs = 0;                 // more than one: it was interrupted and went on
+    std::optional<std::string> unplannable;  // why what it asked for is not known
+    std::int64_t move_count = 0;
+    std::vector<MoveLog> moves;  // the first, as many as are kept
+    std::optional<Ticks> planned;
+    std::int64_t asked_steps = 0;  // of all axes, whatever moves are kept
+    std::int64_t made_steps = 0;
+    std::int64_t unasked_steps = 0;  // that no move asked for
+    std::int64_t moves_not_whole = 0;
+    std::optional<double> largest_distance_mm;  // from the line asked
+    TickHistogram late;                         // of its steps
+
+    bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };
 
 /// A place in the file that cannot be read.
@@ -41,19 +55,25 @@ struct Damage {
 
 struct Analysis {
     static constexpr std::size_t kDamagesKept = 100;
+    static constexpr std::size_t kJobsKept = 10'000;
+    static constexpr std::size_t kMovesKept = 5000;           // of all jobs
+    static constexpr std::size_t kAskedPointsKept = 200'000;  // of all jobs' paths
 
     std::filesystem::path log;
     std::string machine;
-    std::optional<MachineConfig> config;           // of the last job that tells
-    std::vector<std::unique_ptr<AxisLog>> axes;    // in the configuration's order; by name without one
-    std::vector<JobLog> jobs;                      // in the order they began
+    std::optional<MachineConfig> config;         // of the last job that tells
+    std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
+    std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
+    std::uint64_t jobs_not_kept = 0;
     std::uint64_t events = 0;                      // read, of every kind
     std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
     std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification
     std::vector<Damage> damages;                   // the first kDamagesKept
     std::uint64_t damage_count = 0;
-    std::vector<PairSkew> step_skew;            // between axes that ran frames together
-    std::optional<double> largest_distance_mm;  // from the path stepped to the path asked, in the X-Y plane
+    std::vector<PairSkew> step_skew;                         // between axes that ran frames together
+    std::optional<double> largest_distance_mm;               // of any step from the line asked, all axes together
+    std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the one before
+    std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
     /// The configured axis of that name, or null.

@@ -36,6 +36,7 @@ public:
 
     /// The steps to come are told to this object too, which must outlive the log's end.
     void tell(StepListener& listener) { stream_.listen(listener); }
+    void tell(StepMerge& merge, std::size_t lane) { statistics_.tell(merge, lane); }
     void take(StepBatch batch) { stream_.take(std::move(batch)); }
     void take(const PositionSample& sample);
     /// Call once, at the end. The error is that of a file that was not written whole.

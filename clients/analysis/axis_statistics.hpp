@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "clients/analysis/speed_course.hpp"
+#include "clients/analysis/course.hpp"
 #include "clients/analysis/speed_meter.hpp"
+#include "clients/analysis/step_merge.hpp"
 #include "clients/analysis/step_stream.hpp"
 
 namespace lockstep::analysis {
@@ -21,6 +22,11 @@ class AxisStatistics final : public StepListener {
 public:
     static constexpr std::size_t kBreaksKept = 1000;
 
+    /// Each step is told to `merge` too, with what was measured there.
+    void tell(StepMerge& merge, std::size_t lane) {
+        merge_ = &merge;
+        lane_ = lane;
+    }
     void on_batch(const StepBatch& batch) override;
     void on_break(const Break& what) override;
     /// Call once, at the end.
@@ -34,26 +40,35 @@ public:
     std::int64_t highest_steps() const { return highest_; }
     double peak_steps_per_tick() const { return meter_.peak_steps_per_tick(); }
     double peak_steps_per_tick2() const { return meter_.peak_steps_per_tick2(); }
-    std::vector<SpeedSample> speed() const { return course_.samples(); }
+    std::vector<Sample> speed() const { return speed_.samples(); }                // steps per tick, signed
+    std::vector<Sample> acceleration() const { return acceleration_.samples(); }  // steps per tick^2, signed
 
     const std::vector<Break>& breaks() const { return breaks_; }  // the first kBreaksKept
     std::int64_t break_count() const { return break_count_; }
+    /// The steps' times are machine time within this.
+    Ticks clock_error() const { return clock_error_; }
     std::int64_t missing_batches() const { return missing_batches_; }
     /// At least so many steps are missing: what positions differ by, over all stretches of missing batches.
     std::int64_t missing_steps() const { return missing_steps_; }
 
 private:
     void take(StepEdge edge, std::int64_t position);
+    void measure(StepEdge edge, std::int64_t position);
+    void stand_at(Tick tick);
     void show_rest(Tick until);
 
     SpeedMeter meter_;
-    SpeedCourse course_;
+    Course speed_;
+    Course acceleration_;
+    StepMerge* merge_ = nullptr;
+    std::size_t lane_ = 0;
     std::int64_t steps_ = 0;
     std::optional<StepPlace> first_;
     std::optional<StepPlace> last_;
     std::int64_t start_ = 0;
     std::int64_t lowest_ = 0;
     std::int64_t highest_ = 0;
+    Ticks clock_error_;
     std::vector<Break> breaks_;
     std::int64_t break_count_ = 0;
     std::int64_t missing_batches_ = 0;

@@ -50,12 +50,12 @@ drawing::AxisCurve speed_curve(const Analysis& analysis, const AxisLog& axis) {
     if (!axis.statistics().first()) { return std::move(out.curve); }
     out.add(*analysis.first_tick(), 0);
     std::size_t next_gap = 0;
-    for (const SpeedSample& sample : axis.statistics().speed()) {
+    for (const Sample& sample : axis.statistics().speed()) {
         const auto& gaps = out.curve.missing;
         for (; next_gap < gaps.size() && gaps[next_gap].from <= out.seconds(sample.at); ++next_gap) {
             out.add(sample.at, kNone);
         }
-        out.add(sample.at, sample.steps_per_tick * out.ticks_per_s * out.length_per_step);
+        out.add(sample.at, sample.value * out.ticks_per_s * out.length_per_step);
     }
     out.add(*analysis.last_tick(), 0);
     return std::move(out.curve);
@@ -104,17 +104,17 @@ drawing::Figure position_figure(const Analysis& analysis) {
                                     curves(analysis, position_curve));
 }
 
-drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlaneComparison>& plane) {
+drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane) {
     if (!plane) { return position_figure(analysis); }
     std::string subtitle = in_a_line(analysis);
-    if (plane->largest_distance_mm) {
-        subtitle = fmt::format("stepped is at most {:.4f} mm from asked · ", *plane->largest_distance_mm) + subtitle;
+    if (analysis.largest_distance_mm) {
+        subtitle = fmt::format("stepped is at most {:.4f} mm from asked · ", *analysis.largest_distance_mm) + subtitle;
     }
     return drawing::path_figure(title(analysis, "path in the X\u2013Y plane"), subtitle, {}, plane->asked,
                                 plane->stepped);
 }
 
-std::expected<void, std::string> write_figures(const Analysis& analysis, const std::optional<PlaneComparison>& plane,
+std::expected<void, std::string> write_figures(const Analysis& analysis, const std::optional<PlanePaths>& plane,
                                                const std::filesystem::path& directory) {
     for (const auto& [name, figure] :
          {std::pair{"speed.svg", speed_figure(analysis)}, std::pair{"position.svg", position_figure(analysis)},

@@ -16,10 +16,10 @@ namespace lockstep::analysis {
 drawing::Figure speed_figure(const Analysis& analysis);
 drawing::Figure position_figure(const Analysis& analysis);
 /// The path in the X-Y plane; without such a plane the positions over time.
-drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlaneComparison>& plane);
+drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane);
 
 /// Writes all three. The error names the file.
-std::expected<void, std::string> write_figures(const Analysis& analysis, const std::optional<PlaneComparison>& plane,
+std::expected<void, std::string> write_figures(const Analysis& analysis, const std::optional<PlanePaths>& plane,
                                                const std::filesystem::path& directory);
 
 }  // namespace lockstep::analysis

@@ -8,13 +8,13 @@ namespace lockstep::analysis {
 
 void Lateness::on_batch(const StepBatch& batch) {
     std::int64_t count = batch.position_before_steps;
-    for (const StepEdge& step : batch.steps) { seen_.push_back({step, count += step.direction}); }
+    for (const StepEdge& step : batch.steps) { seen_.push_back({step, count += step.direction, batch.clock_error}); }
     last_tick_ = batch.steps.back().tick;
     settle();
 }
 
 void Lateness::take(Run run) {
-    const auto later = std::ranges::upper_bound(runs_, run.start, {}, &Run::start);
+    const auto later = std::ranges::upper_bound(runs_, run.commanded_start(), {}, &Run::commanded_start);
     runs_.insert(later, std::move(run));
     settle();
 }
@@ -25,7 +25,7 @@ void Lateness::finish() {
 
 void Lateness::settle() {
     const auto is_over = [&](const Run& run) {
-        return last_tick_ && *last_tick_ - (run.start + run.ticks()) > kPatience;
+        return last_tick_ && *last_tick_ - (run.commanded_start() + run.ticks()) > kPatience;
     };
     while (runs_.size() > kMaxWaiting || (!runs_.empty() && is_over(runs_.front()))) { compare_first(); }
 }
@@ -44,14 +44,14 @@ std::vector<LateStep> Lateness::compare(StepMaker maker) {
         const StepEdge* next = maker.next();
         return next != nullptr && seen.edge.direction == next->direction &&
                seen.count == maker.count() + next->direction &&
-               std::abs((seen.edge.tick - next->tick).value) < kPatience.value;
+               std::abs((seen.edge.tick - maker.commanded()).value) < kPatience.value;
     };
-    while (!seen_.empty() && seen_.front().edge.tick < maker.run().start && !is_next(seen_.front())) {
+    while (!seen_.empty() && seen_.front().edge.tick < maker.run().commanded_start() && !is_next(seen_.front())) {
         seen_.pop_front();  // of runs that are not in the log
     }
     for (; !seen_.empty() && is_next(seen_.front()); seen_.pop_front(), maker.pass()) {
-        const Tick commanded = maker.next()->tick;
-        steps.push_back({commanded, seen_.front().edge.tick - commanded});
+        const Tick commanded = maker.commanded();
+        steps.push_back({commanded, seen_.front().edge.tick - commanded, seen_.front().clock_error});
     }
     return steps;
 }

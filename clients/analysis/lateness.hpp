@@ -1,4 +1,4 @@
-// How late one axis's steps were: each against the tick at which the frame it belongs to has it.
+// How late one axis's steps were: each against the tick at which the frame it belongs to has it, in machine time.
 //
 // Frames alone are looked at, and their tails: what axes run together. Steps are found by their counts; where steps or
 // runs are missing from the log, what cannot be told apart is left out.
@@ -17,7 +17,8 @@ namespace lockstep::analysis {
 
 struct LateStep {
     Tick commanded;
-    Ticks late;  // below 0: before its time
+    Ticks late;   // below 0: before its time
+    Ticks error;  // `late` is known within
 };
 
 class Lateness final : public StepListener {
@@ -35,6 +36,7 @@ public:
     Lateness(const Lateness&) = delete;  // a stream tells its steps to this object
     Lateness& operator=(const Lateness&) = delete;
 
+    /// In machine time.
     void on_batch(const StepBatch& batch) override;
     void take(Run run);
     /// Call once, at the end of the log.
@@ -44,6 +46,7 @@ private:
     struct SeenStep {
         StepEdge edge;
         std::int64_t count = 0;  // after it
+        Ticks clock_error;
     };
 
     void settle();

@@ -1,13 +1,35 @@
 #include "clients/analysis/log_step.hpp"
 
+#include <cstdlib>
+
 namespace lockstep::analysis {
+namespace {
+
+bool is_countable_batch(const step_batch_t& m) {
+    return is_countable(m.first_tick) && is_countable(m.position_before) && m.sequence >= 0 &&
+           is_countable(m.sequence) && is_countable(m.ahead_first) && is_countable(m.ahead_last) &&
+           is_countable(m.clock_error) && m.clock_error >= 0;
+}
+
+/// Far within what keeps steps apart, which are two ticks from each other at least; beyond all quartzes.
+bool clocks_agree(const ClockStretch& time) {
+    constexpr std::int64_t kLeastPart = 100;
+    return std::abs((time.other_ticks - time.ticks).value) <= 2 + time.ticks.value / kLeastPart;
+}
+
+}  // namespace
 
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
-    if (!is_countable(message.first_tick) || !is_countable(message.position_before) || message.sequence < 0 ||
-        !is_countable(message.sequence)) {
+    if (!is_countable_batch(message)) {
         return std::unexpected("a message of steps with numbers that no machine counts to");
     }
-    StepBatch batch{message.incarnation, message.sequence, message.position_before};
+    StepBatch batch{.incarnation = message.incarnation,
+                    .sequence = message.sequence,
+                    .position_before_steps = message.position_before,
+                    .steps = {},
+                    .ahead_first = {message.ahead_first},
+                    .ahead_last = {message.ahead_last},
+                    .clock_error = {message.clock_error}};
     batch.steps.reserve(message.delta_ticks.size());
     Tick tick{message.first_tick};
     for (std::size_t i = 0; i < message.delta_ticks.size(); ++i) {
@@ -18,6 +40,17 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
         tick += Ticks{message.delta_ticks[i]};
         batch.steps.push_back({tick, direction});
     }
+    if (!batch.steps.empty() && !clocks_agree(batch.machine_time())) {
+        return std::unexpected("the clocks of a message of steps differ by more than clocks can");
+    }
+    return batch;
+}
+
+StepBatch in_machine_time(StepBatch batch) {
+    if (batch.steps.empty()) { return batch; }
+    const ClockStretch time = batch.machine_time();
+    for (StepEdge& step : batch.steps) { step.tick = time.at(step.tick); }
+    batch.ahead_first = batch.ahead_last = {};
     return batch;
 }
 

@@ -10,13 +10,18 @@
 
 namespace lockstep::analysis {
 
-/// No machine counts so far, be it ticks, steps, microseconds or messages: 36 years of microseconds.
+/// No machine counts so far, be it ticks, steps, microseconds or messages: 228 years of the shortest tick, since a
+/// machine over PTP counts from 1970.
 constexpr bool is_countable(std::int64_t number) {
-    constexpr std::int64_t kFarthest = std::int64_t{1} << 50;
+    constexpr std::int64_t kFarthest = std::int64_t{1} << 56;
     return -kFarthest < number && number < kFarthest;
 }
 
-/// The error says what cannot be: ticks that do not rise, directions other than +1 and -1, numbers beyond counting.
+/// In the device's time. The error says what cannot be: ticks that do not rise, directions other than +1 and -1,
+/// numbers beyond counting, a clock that runs half as fast as another.
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message);
+
+/// The same steps at the ticks of machine time at which they were made, within the batch's clock_error.
+StepBatch in_machine_time(StepBatch batch);
 
 }  // namespace lockstep::analysis

@@ -10,13 +10,15 @@ namespace lockstep::analysis {
 
 /// In mm. Stepped is what was stepped during the jobs that have a program, or ever, where no job has one; parted where
 /// steps are missing.
-struct PlaneComparison {
+struct PlanePaths {
     drawing::PlanePath asked;
     drawing::PlanePath stepped;
-    std::optional<double> largest_distance_mm;  // from any point stepped to the nearest point asked; both must exist
 };
 
 /// None unless there are axes X and Y whose steps per mm are known.
-std::optional<PlaneComparison> compare_in_plane(const Analysis& analysis);
+std::optional<PlanePaths> paths_in_plane(const Analysis& analysis);
+
+/// The places a program leads through in the X-Y plane, in mm; none unless it has both axes.
+std::vector<drawing::Point> asked_in_plane(const Program& program);
 
 }  // namespace lockstep::analysis

@@ -9,13 +9,17 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/log_read.hpp"
+#include "clients/analysis/move_meter.hpp"
 #include "clients/analysis/skew.hpp"
+#include "clients/analysis/step_merge.hpp"
 
 namespace lockstep::analysis {
 
 class Recorder final : public LogListener {
 public:
     explicit Recorder(const AnalysisOptions& options) : options_(options), machine_(options.machine) {}
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
 
     void on_steps(const step_batch_t& message, std::uint64_t offset) override;
     void on_position(const axis_position_t& message, std::uint64_t offset) override;
@@ -32,15 +36,24 @@ public:
 private:
     bool is_ours(const std::string& machine);
     AxisLog* axis(const std::string& machine, const std::string& name, std::uint64_t offset);
-    JobLog& job(const job_t& message);
-    void read_documents(const job_t& message, JobLog& job, std::uint64_t offset);
+    JobLog* job(const job_t& message);
+    void begin_job(const job_t& message, JobLog& job, std::uint64_t offset);
+    std::optional<Program> read_documents(const job_t& message, std::uint64_t offset);
+    void keep_asked_way(const Program& program);
+    void note_moves(JobLog& job, const JobMoves& moves);
+    void note_move(JobLog& job, MoveLog move);
     void note_error(const std::expected<void, std::string>& result);
 
     const AnalysisOptions& options_;
     std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
     SkewMeter skew_;
+    MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
+    StepMerge merge_{moves_};
     std::map<std::string, std::unique_ptr<AxisLog>> axes_;
     Analysis analysis_;
+    std::string latest_program_;
+    std::size_t moves_kept_ = 0;
+    std::size_t asked_points_ = 0;
     std::optional<std::string> write_error_;
 };
 

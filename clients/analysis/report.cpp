@@ -38,6 +38,7 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
     if (found.first()) { report.set_first_tick(found.first()->tick.value); }
     if (found.last()) { report.set_last_tick(found.last()->tick.value); }
+    report.set_clock_error_us(analysis.microseconds(found.clock_error()));
     fill_lengths(analysis, axis, report);
     fill_gaps(axis, report);
 }
@@ -46,7 +47,7 @@ void fill(const JobLog& job, proto::JobAnalysis& report) {
     report.set_job(job.job);
     report.set_kind(job.kind);
     report.set_outcome(job.outcome);
-    if (job.program) { report.set_name(job.program->name); }
+    report.set_name(job.name);
     if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
 }
 
@@ -57,6 +58,7 @@ void fill(const Analysis& analysis, const PairSkew& skew, proto::StepSkew& repor
     report.set_p50_us(analysis.microseconds(skew.median));
     report.set_p99_us(analysis.microseconds(skew.p99));
     report.set_max_us(analysis.microseconds(skew.largest));
+    report.set_error_us(analysis.microseconds(skew.error));
 }
 
 }  // namespace

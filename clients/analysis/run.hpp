@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/clock/clock_view.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/step/engine.hpp"
 
@@ -25,9 +26,14 @@ struct Run {
     bool cut = false;             // pulses ceased early, at stop_count
     std::int64_t stop_count = 0;  // at its end
     std::int64_t zero_count = 0;  // machine coordinates = device count - zero_count
+    // What was commanded, in machine time; all else is in the device's.
+    Ticks ahead{};                         // machine time less the device's, at the start
+    std::vector<Ticks> commanded_ticks{};  // of each piece; one split at the end is one. Empty: as the pieces last
+    Ticks clock_error{};                   // its steps are made within this, and two ticks, of the time commanded
 
     Position to() const;  // where its pieces end
     Ticks ticks() const;
+    Tick commanded_start() const { return start + ahead; }  // machine time
     /// The device's own counts, which no zeroing changes.
     std::int64_t device_start() const { return from.count() + zero_count; }
     std::int64_t device_stop() const { return stop_count + zero_count; }
@@ -48,16 +54,20 @@ public:
     /// The next step; null at the end of the pieces.
     const StepEdge* next();
     void pass();
+    /// The machine time at which the next step was to be made. There is a next step.
+    Tick commanded() { return commanded_.at(next()->tick); }
     /// Where the axis is after the steps passed, machine coordinates.
     std::int64_t count() const { return count_; }
 
 private:
     static constexpr std::size_t kMadeAtOnce = 4096;
     void make_more();
+    void begin_piece();
 
     Run run_;
     StepEngine engine_;
-    std::size_t begun_ = 0;  // pieces
+    std::size_t begun_ = 0;   // pieces
+    ClockStretch commanded_;  // of the piece begun last, from the device's time
     std::vector<StepEdge> made_;
     std::size_t passed_ = 0;  // of made_
     std::int64_t count_;

@@ -1,8 +1,8 @@
 #include "clients/analysis/skew.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iterator>
-#include <optional>
 
 namespace lockstep::analysis {
 namespace {
@@ -19,22 +19,22 @@ Ticks quantile(const std::map<Ticks, std::int64_t>& amounts, std::int64_t all, s
     return {};
 }
 
-PairSkew summary_of(const std::pair<std::string, std::string>& axes, const std::map<Ticks, std::int64_t>& amounts) {
-    PairSkew skew{.first = axes.first, .second = axes.second};
-    for (const auto& [ticks, times] : amounts) { skew.steps += times; }
-    skew.median = quantile(amounts, skew.steps, 50);
-    skew.p99 = quantile(amounts, skew.steps, 99);
-    skew.largest = amounts.rbegin()->first;
+}  // namespace
+
+PairSkew SkewMeter::summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts) {
+    PairSkew skew{.first = axes.first, .second = axes.second, .error = amounts.error};
+    for (const auto& [ticks, times] : amounts.times) { skew.steps += times; }
+    skew.median = quantile(amounts.times, skew.steps, 50);
+    skew.p99 = quantile(amounts.times, skew.steps, 99);
+    skew.largest = amounts.times.rbegin()->first;
     return skew;
 }
-
-}  // namespace
 
 Lateness& SkewMeter::lateness(const std::string& axis) {
     auto& found = axes_[axis];
     if (!found) {
         found = std::make_unique<Lateness>([this, axis](const Run& run, std::vector<LateStep> steps) {
-            frames_[{run.start, run.epoch}][axis] = std::move(steps);
+            frames_[{run.commanded_start(), run.epoch}][axis] = std::move(steps);
             if (frames_.size() > kFramesWaiting) { take_first_frame(); }
         });
     }
@@ -52,14 +52,18 @@ void SkewMeter::take_first_frame() {
 void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_type& second) {
     const auto& a = first.second;
     const auto& b = second.second;
-    std::optional<Ticks> late_a;
-    std::optional<Ticks> late_b;
+    if (a.empty() || b.empty()) { return; }
+    Amounts& amounts = skews_[{first.first, second.first}];
+    const LateStep* newest_a = nullptr;
+    const LateStep* newest_b = nullptr;
     for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
         const bool is_a = j == b.size() || (i < a.size() && a[i].commanded <= b[j].commanded);
         const bool is_b = i == a.size() || (j < b.size() && b[j].commanded <= a[i].commanded);
-        if (is_a) { late_a = a[i++].late; }
-        if (is_b) { late_b = b[j++].late; }
-        if (late_a && late_b) { ++skews_[{first.first, second.first}][amount(*late_a - *late_b)]; }
+        if (is_a) { newest_a = &a[i++]; }
+        if (is_b) { newest_b = &b[j++]; }
+        if (newest_a == nullptr || newest_b == nullptr) { continue; }
+        ++amounts.times[amount(newest_a->late - newest_b->late)];
+        amounts.error = std::max(amounts.error, newest_a->error + newest_b->error);
     }
 }
 

@@ -1,8 +1,8 @@
 // Step skew between axes: how far apart the steps of two axes are from where one clock would have put both.
 //
 // An axis's steps are late by (tick made) - (tick commanded). The skew of a pair, at each step of either, is the
-// difference of how late the newest step of each is, among those of the same frame. Machine time; 0 where one clock
-// drives all devices.
+// difference of how late the newest step of each is, among those of the same frame. Machine time, so that it is known
+// within what both axes' clocks are; 0 where one clock drives all devices.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ struct PairSkew {
     Ticks median;
     Ticks p99;
     Ticks largest;
+    Ticks error;  // every one is known within
 };
 
 class SkewMeter {
@@ -47,11 +48,18 @@ private:
 
     Lateness& lateness(const std::string& axis);
     void take_first_frame();
+    /// How often each amount was seen, and the largest error.
+    struct Amounts {
+        std::map<Ticks, std::int64_t> times;
+        Ticks error;
+    };
+
+    static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
     void take_pair(const Steps::value_type& first, const Steps::value_type& second);
 
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
     std::map<FrameKey, Steps> frames_;
-    std::map<std::pair<std::string, std::string>, std::map<Ticks, std::int64_t>> skews_;  // how often each amount
+    std::map<std::pair<std::string, std::string>, Amounts> skews_;
 };
 
 }  // namespace lockstep::analysis

@@ -24,7 +24,7 @@ void SpeedMeter::interrupt() {
     speed_window_ = late_ = early_ = {};
 }
 
-std::optional<SpeedSample> SpeedMeter::step(StepEdge edge) {
+std::optional<Sample> SpeedMeter::step(StepEdge edge) {
     const bool turned = edge.direction != direction_;
     const bool rested = newest_ >= 0 && edge.tick - Tick{tick(newest_)} > kRest;
     if (rested && !turned) {
@@ -38,17 +38,18 @@ std::optional<SpeedSample> SpeedMeter::step(StepEdge edge) {
     return measure_speed();
 }
 
-std::optional<SpeedSample> SpeedMeter::measure_speed() {
+std::optional<Sample> SpeedMeter::measure_speed() {
     speed_window_.last = newest_;
     if (!is_wide(speed_window_, kSpeedWindow)) { return std::nullopt; }
     narrow(speed_window_, kSpeedWindow);
     measured_ = true;
     peak_speed_ = std::max(peak_speed_, speed(speed_window_));
     const std::int64_t first = tick(speed_window_.first);
-    return SpeedSample{Tick{first + (tick(newest_) - first) / 2}, direction_ * speed(speed_window_)};
+    return Sample{Tick{first + (tick(newest_) - first) / 2}, direction_ * speed(speed_window_)};
 }
 
 void SpeedMeter::measure_acceleration() {
+    acceleration_.reset();
     late_.last = newest_;
     if (!is_wide(late_, kAccelerationWindow)) { return; }
     narrow(late_, kAccelerationWindow);
@@ -56,7 +57,9 @@ void SpeedMeter::measure_acceleration() {
     if (!is_wide(early_, kAccelerationWindow)) { return; }
     narrow(early_, kAccelerationWindow);
     const double change = speed(late_) - speed(early_);
-    peak_acceleration_ = std::max(peak_acceleration_, std::abs(change) / (middle(late_) - middle(early_)));
+    const double acceleration = change / (middle(late_) - middle(early_));
+    acceleration_ = Sample{Tick{tick(late_.first)}, direction_ * acceleration};
+    peak_acceleration_ = std::max(peak_acceleration_, std::abs(acceleration));
 }
 
 std::int64_t SpeedMeter::tick(std::int64_t number) const { return ring_[static_cast<std::size_t>(number % kRing)]; }

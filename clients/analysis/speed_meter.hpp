@@ -15,16 +15,10 @@
 #include <optional>
 #include <vector>
 
+#include "clients/analysis/course.hpp"
 #include "core/step/segment.hpp"
-#include "core/units.hpp"
 
 namespace lockstep::analysis {
-
-/// Speed at an instant, signed, in steps per tick.
-struct SpeedSample {
-    Tick at;
-    double steps_per_tick = 0;
-};
 
 class SpeedMeter {
 public:
@@ -33,8 +27,10 @@ public:
 
     SpeedMeter();
 
-    /// Takes the next step, in order. The speed in the window it completes, at the window's middle.
-    std::optional<SpeedSample> step(StepEdge edge);
+    /// Takes the next step, in order. The speed in the window it completes, at the window's middle, signed.
+    std::optional<Sample> step(StepEdge edge);
+    /// The acceleration between the two windows that the latest step completed, signed; none: it completed none.
+    const std::optional<Sample>& acceleration() const { return acceleration_; }
     /// The steps to come do not join those before. Also the end of the last stretch.
     void interrupt();
 
@@ -53,7 +49,7 @@ private:
     void narrow(Window& window, Ticks least) const;
     double speed(Window window) const;
     double middle(Window window) const;
-    std::optional<SpeedSample> measure_speed();
+    std::optional<Sample> measure_speed();
     void measure_acceleration();
 
     std::vector<std::int64_t> ring_;  // ticks of the newest steps of this stretch
@@ -63,6 +59,7 @@ private:
     Window speed_window_;
     Window late_;  // the two windows of the acceleration
     Window early_;
+    std::optional<Sample> acceleration_;
     double peak_speed_ = 0;
     double peak_acceleration_ = 0;
 };

@@ -10,6 +10,12 @@ constexpr std::size_t kGivenUpKept = 64;
 
 }  // namespace
 
+ClockStretch StepBatch::machine_time() const {
+    const Tick first = steps.front().tick;
+    const Ticks ticks{std::max<std::int64_t>(1, (steps.back().tick - first).value)};
+    return {first, ticks, first + ahead_first, ticks + ahead_last - ahead_first};
+}
+
 void StepStream::take(StepBatch batch) {
     if (has_passed(batch)) { return; }
     if (incarnation_ != batch.incarnation) { begin_incarnation(batch.incarnation); }

@@ -11,17 +11,25 @@
 #include <set>
 #include <vector>
 
+#include "core/clock/clock_view.hpp"
 #include "core/step/segment.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::analysis {
 
-/// Every step of an axis since the batch before. Ticks rise strictly; directions are +1 or -1.
+/// Every step of an axis since the batch before. Ticks rise strictly; directions are +1 or -1. Ticks are the device's
+/// as recorded, or machine time (log_step.hpp): a stream has either.
 struct StepBatch {
     std::int64_t incarnation = 0;  // of the axis's process; sequences start anew with each
     std::int64_t sequence = 0;     // without gaps
     std::int64_t position_before_steps = 0;
     std::vector<StepEdge> steps;
+    Ticks ahead_first{};  // machine time less the device's, at the first step
+    Ticks ahead_last{};
+    Ticks clock_error{};  // of machine time, either way
+
+    /// From the device's time to machine time. Not to be asked of a batch without steps.
+    ClockStretch machine_time() const;
 };
 
 /// Where the steps on either side do not join.

@@ -86,21 +86,21 @@ std::string job_table(const Analysis& analysis) {
             job.begun_us && job.ended_us
                 ? fmt::format("{:.2f}", static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6)
                 : "-";
-        text +=
-            fmt::format("{:>5}  {:<8} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.program ? job.program->name : "",
-                        job.outcome.empty() ? "not ended" : job.outcome, lasted);
+        text += fmt::format("{:>5}  {:<8} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.name,
+                            job.outcome.empty() ? "not ended" : job.outcome, lasted);
     }
     return text;
 }
 
 std::string skew_table(const Analysis& analysis) {
     if (analysis.step_skew.empty()) { return ""; }
-    std::string text =
-        fmt::format("\n{:<26} {:>12} {:>9} {:>9} {:>9}\n", "step skew between axes, us", "steps", "p50", "p99", "max");
+    std::string text = fmt::format("\n{:<26} {:>12} {:>9} {:>9} {:>9} {:>9}\n", "step skew between axes, us", "steps",
+                                   "p50", "p99", "max", "within");
     for (const PairSkew& skew : analysis.step_skew) {
-        text += fmt::format("{:<26} {:>12} {:>9.1f} {:>9.1f} {:>9.1f}\n", skew.first + " - " + skew.second,
-                            grouped(skew.steps), analysis.microseconds(skew.median), analysis.microseconds(skew.p99),
-                            analysis.microseconds(skew.largest));
+        text +=
+            fmt::format("{:<26} {:>12} {:>9.1f} {:>9.1f} {:>9.1f} {:>9}\n", skew.first + " - " + skew.second,
+                        grouped(skew.steps), analysis.microseconds(skew.median), analysis.microseconds(skew.p99),
+                        analysis.microseconds(skew.largest), fmt::format("±{:.0f}", analysis.microseconds(skew.error)));
     }
     return text;
 }
@@ -175,8 +175,14 @@ std::string in_a_line(const Analysis& analysis) {
 std::vector<std::string> notes(const Analysis& analysis) {
     std::string text;
     if (analysis.largest_distance_mm) {
-        text += fmt::format("the path stepped is at most {:.4f} mm from the path asked (X-Y)\n",
-                            *analysis.largest_distance_mm);
+        text +=
+            fmt::format("the path stepped is at most {:.4f} mm from the path asked\n", *analysis.largest_distance_mm);
+    }
+    for (const auto& axis : analysis.axes) {
+        const Ticks error = axis->statistics().clock_error();
+        if (error == Ticks{}) { continue; }
+        text += fmt::format("{}: its clock is its own; in machine time its steps are known within {:.0f} us\n",
+                            axis->name(), analysis.microseconds(error));
     }
     for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
     text += log_notes(analysis);

@@ -33,7 +33,7 @@ void measure_speed(Outcome& outcome) {
         const auto sample = meter.step({Tick{std::llround(time_s * kTicksPerSecond)}, +1});
         if (!sample) { continue; }
         outcome.speed_time_s.push_back(static_cast<double>(sample->at.value) / kTicksPerSecond);
-        outcome.speed.push_back(sample->steps_per_tick * kTicksPerSecond);
+        outcome.speed.push_back(sample->value * kTicksPerSecond);
     }
     meter.interrupt();
     outcome.peak_speed = meter.peak_steps_per_tick() * kTicksPerSecond;

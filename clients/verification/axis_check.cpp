@@ -17,6 +17,16 @@ std::string plural(std::int64_t count, const std::string& one) {
     return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
+Ticks amount(Ticks ticks) { return {std::abs(ticks.value)}; }
+
+/// What a step may be off: what is known of when it was made, and what was known when it was commanded. Two ticks are
+/// for what rounding makes of it.
+Ticks allowed(Ticks made, Ticks commanded) {
+    constexpr Ticks kRounding{2};
+    const Ticks both = made + commanded;
+    return both == Ticks{} ? both : both + kRounding;
+}
+
 bool starts_from_rest(const Run& run) {
     const std::int64_t count = run.from.count();
     return run.from == rest_position(count, false) || run.from == rest_position(count, true);
@@ -53,9 +63,10 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (!findings_.going()) { return; }
     (void)birth_of(batch.incarnation);
     std::int64_t count = batch.position_before_steps;
+    const ClockStretch time = batch.machine_time();
     for (const StepEdge& step : batch.steps) {
         count += step.direction;
-        waiting_.push_back({step, count, batch.incarnation});
+        waiting_.push_back({step, count, batch.incarnation, time.at(step.tick), batch.clock_error});
     }
     settle(false);
     if (waiting_.size() > kMaxWaiting) {
@@ -138,12 +149,27 @@ void AxisCheck::compare(const SeenStep& seen) {
                           std::to_string(seen.count),
                       expected.tick, seen.edge.tick);
     }
+    compare_time(seen, step);
     maker_->pass();
     waiting_.pop_front();
     ++steps_;
     ++findings_.steps;
     last_tick_ = expected.tick;
     if (!findings_.last_tick || *findings_.last_tick < expected.tick) { findings_.last_tick = expected.tick; }
+}
+
+/// An axis's own moves go by the device's clock alone.
+void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
+    const Run& run = maker_->run();
+    if (run.epoch == 0) { return; }
+    const Ticks late = amount(seen.machine - maker_->commanded());
+    findings_.latest = std::max(findings_.latest, late);
+    findings_.clock_error = std::max(findings_.clock_error, seen.error + run.clock_error);
+    if (late <= allowed(seen.error, run.clock_error)) { return; }
+    differ(step + " was made at machine time " + std::to_string(seen.machine.value) + ", commanded for " +
+               std::to_string(maker_->commanded().value) + "; its clocks were known within " +
+               plural((seen.error + run.clock_error).value, "tick"),
+           maker_->commanded(), seen.machine);
 }
 
 // ---- Processes that ended ------------------------------------------------------------------------------------------
@@ -194,7 +220,7 @@ void AxisCheck::leave_steps() {
     const std::string what = "axis " + name_ + ": " + plural(static_cast<std::int64_t>(left.size()), "step") +
                              " from tick " + std::to_string(first.value) + " on are of no run on record, its process " +
                              "ended; ";
-    if (planned_(first).empty()) {
+    if (planned_(left.front().machine).empty()) {
         findings_.notes.push_back(what + "there is no plan to compare them with");
     } else if (are_planned(left)) {
         findings_.notes.push_back(what + "they are as planned");
@@ -205,10 +231,11 @@ void AxisCheck::leave_steps() {
 
 /// Whether the steps are the first of a run that is planned for their time; counts them where they are.
 bool AxisCheck::are_planned(const std::vector<SeenStep>& steps) {
-    for (const Run& run : planned_(steps.front().edge.tick)) {
+    for (const Run& run : planned_(steps.front().machine)) {
         StepMaker maker(run);
         const auto is_next = [&](const SeenStep& seen) {
-            if (maker.next() == nullptr || *maker.next() != seen.edge) { return false; }
+            if (maker.next() == nullptr || maker.next()->direction != seen.edge.direction) { return false; }
+            if (amount(seen.machine - maker.commanded()) > allowed(seen.error, run.clock_error)) { return false; }
             maker.pass();
             return maker.count() == seen.count;
         };

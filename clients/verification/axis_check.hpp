@@ -1,4 +1,6 @@
-// One axis's steps against the steps that its runs make: each step is of a run, each step of a run is there.
+// One axis's steps against the steps that its runs make: each step is of a run, each step of a run is there. By the
+// device's clock each is at its very tick; where that clock is its own, each step of a frame is also at the machine
+// time commanded, within what the clocks were known to.
 //
 // A process that ended unasked may have left the record of its last run unwritten, or its last steps. What it left is
 // held to the plan as far as there is one, and said in a note.
@@ -48,12 +50,15 @@ private:
         StepEdge edge;
         std::int64_t count = 0;  // after it, by the log
         std::int64_t incarnation = 0;
+        Tick machine;  // machine time at which it was made...
+        Ticks error;   // ...within
     };
 
     void settle(bool log_ended);
     bool begin_next_run();
     bool is_cut_here(const SeenStep* seen);
     void compare(const SeenStep& seen);
+    void compare_time(const SeenStep& seen, const std::string& step);
     void end_of_log();
     std::size_t birth_of(std::int64_t incarnation);
     bool is_of_run(const SeenStep& seen) const;

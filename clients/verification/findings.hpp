@@ -25,6 +25,8 @@ struct Findings {
     std::int64_t local_runs = 0;            // of axes on their own: homing, own moves
     std::int64_t jobs = 0;                  // moves and programs, from begin to end
     std::optional<Tick> last_tick;          // of the steps compared
+    Ticks latest;                           // a step of a frame was made so far from its time at most: machine time...
+    Ticks clock_error;                      // ...which was known within; 0: one clock drives all devices
     std::optional<Difference> difference;   // the first
     std::optional<std::string> unreadable;  // what of the log's documents cannot be understood
     std::vector<std::string> notes;

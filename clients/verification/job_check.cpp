@@ -25,9 +25,15 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
 }
 
-Run planned_run(const Frame& frame, std::size_t axis, bool tail) {
+/// In machine time. `clock_error`: within which each step is to be made.
+Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_error) {
     const AxisTrack& track = frame.axes[axis];
-    Run run{.epoch = frame.epoch, .frame = frame.number, .start = frame.start, .from = track.from, .pieces = {}};
+    Run run{.epoch = frame.epoch,
+            .frame = frame.number,
+            .start = frame.start,
+            .from = track.from,
+            .pieces = {},
+            .clock_error = clock_error};
     run.pieces.assign(track.body.begin(), track.body.end());
     if (!tail) { return run; }
     run.tail = true;
@@ -35,14 +41,6 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail) {
     run.start += frame.ticks;
     run.pieces.assign(track.tail.begin(), track.tail.end());
     return run;
-}
-
-/// Where axes have clocks of their own, what is compared exactly is places; of times, what clocks can differ by.
-std::string clock_note(const std::string& job, std::int64_t most_longer) {
-    return job +
-           ": each axis went by its device's clock; its places are as planned, its times are by that clock, and a "
-           "frame lasted up to " +
-           std::to_string(most_longer) + " ticks longer or shorter";
 }
 
 }  // namespace
@@ -132,10 +130,8 @@ void JobCheck::end(const job_t& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
-    const bool own_clocks = job_->replay && has_own_clocks();
     const Job job = *std::exchange(job_, std::nullopt);
     if (!job.replay) { return; }
-    if (own_clocks) { findings_.notes.push_back(clock_note(job.label, job.most_longer)); }
     if (record.outcome == "failed") {
         findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
                                   "; what was run of it is as planned");
@@ -244,7 +240,7 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
     }
     const Frame* frame = epoch_->replay.frame(run.frame);
     if (frame == nullptr) { return differ("axis " + name + ": the plan has no " + name_of(run), name, &run); }
-    const Run planned = planned_run(*frame, axis, run.tail);
+    const Run planned = planned_run(*frame, axis, run.tail, run.clock_error);
     const auto found = has_own_clocks() ? compare_retimed(planned, run, progress.end) : compare_runs(planned, run);
     if (found) {
         return findings_.differ({"axis " + name + ": " + name_of(run) + " " + found->text, name, found->tick_expected,
@@ -252,7 +248,6 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
     }
     progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to(),
                 run.start + run.ticks()};
-    job_->most_longer = std::max(job_->most_longer, std::abs((run.ticks() - planned.ticks()).value));
     ++findings_.runs;
     epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
 }
@@ -266,7 +261,7 @@ void JobCheck::plan_next() {
         if (progress.cut || progress.in_tail) { continue; }
         for (const bool tail : {false, true}) {
             const Frame* frame = epoch_->replay.frame(progress.ran + (tail ? 0 : 1));
-            if (frame != nullptr) { next.push_back(planned_run(*frame, i, tail)); }
+            if (frame != nullptr) { next.push_back(planned_run(*frame, i, tail, known_within())); }
         }
     }
 }
@@ -297,7 +292,7 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
         if (epoch == run.epoch) { text = label + ", "; }
     }
     if (epoch_ && epoch_->replay.epoch() == run.epoch) {
-        text += "line " + std::to_string(epoch_->replay.line_at(tick)) + ", ";
+        text += "line " + std::to_string(epoch_->replay.line_at(tick + run.ahead)) + ", ";
     }
     return text + "epoch " + std::to_string(run.epoch) + ", " + name_of(run);
 }

@@ -46,7 +46,6 @@ private:
         std::optional<JobReplay> replay;  // none for homing and own moves
         std::string broken;               // why what was run is not the whole plan; empty: it is
         std::string broken_axis;
-        std::int64_t most_longer = 0;  // ticks by which a run's length differs from the plan's, by a clock of its own
     };
     struct Progress {  // of an axis in an epoch
         FrameNumber ran = 0;
@@ -61,6 +60,8 @@ private:
     };
 
     bool has_own_clocks() const { return job_->replay->machine().timing.time_source == TimeSource::Network; }
+    /// No axis moves while its clock may be further off.
+    Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
     void handle(const job_t& record);
     void begin(const job_t& record);
     void begin_epoch(const job_t& record);

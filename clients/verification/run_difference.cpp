@@ -59,9 +59,23 @@ std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) 
     return std::nullopt;
 }
 
+/// The times that the axis took the frame for, against those it was planned for: machine time.
+std::optional<RunDifference> compare_commanded(const Run& planned, const Run& seen) {
+    if (seen.commanded_start() != planned.start) {
+        return RunDifference{"was taken to start at tick " + std::to_string(seen.commanded_start().value) +
+                                 " of machine time, planned at tick " + std::to_string(planned.start.value),
+                             planned.start, seen.commanded_start()};
+    }
+    const auto as_long = [](const Piece& piece, Ticks ticks) { return piece.ticks == ticks; };
+    if (std::ranges::equal(planned.pieces, seen.commanded_ticks, as_long)) { return std::nullopt; }
+    return RunDifference{"was taken for other lengths of its pieces than are planned", std::nullopt,
+                         seen.commanded_start()};
+}
+
 }  // namespace
 
 std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins) {
+    if (auto found = compare_commanded(planned, seen)) { return found; }
     if (joins && seen.start != *joins) {
         return RunDifference{"starts at tick " + std::to_string(seen.start.value) +
                                  "; the one before it ends at tick " + std::to_string(joins->value),

@@ -24,9 +24,9 @@ std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen);
 /// rates of clocks, with some reserve.
 inline constexpr double kMostStretch = 2e-3;
 
-/// By place alone, for a device with a clock of its own, whose run is `planned` retimed (core/axis/retime.hpp): the
-/// same place at the end of every piece, bit for bit at both ends, and a length that clocks can differ by. `joins`:
-/// when the run before it ended, by the same clock.
+/// For a device with a clock of its own, whose run is `planned` retimed (core/axis/retime.hpp): commanded for the very
+/// times planned, the same place at the end of every piece, bit for bit at both ends, and a length that clocks can
+/// differ by. `joins`: when the run before it ended, by the same clock.
 std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins);
 
 }  // namespace lockstep::verification

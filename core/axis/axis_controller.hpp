@@ -15,6 +15,7 @@
 #include "core/axis/homing.hpp"
 #include "core/axis/own_move.hpp"
 #include "core/axis/setpoint_follower.hpp"
+#include "core/clock/clock_view.hpp"
 
 namespace lockstep {
 
@@ -31,7 +32,8 @@ struct AxisInputs {
 };
 
 /// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against. From the
-/// controller it is in machine time, as commanded; recorded in the device's, as given (core/axis/device_time.hpp).
+/// controller it is in machine time, as commanded; recorded in the device's, as given, with what was commanded beside
+/// it (core/axis/device_time.hpp).
 struct ExecutedTrack {
     Epoch epoch = 0;  // 0: the axis's own move
     FrameNumber frame = 0;
@@ -42,6 +44,9 @@ struct ExecutedTrack {
     bool cut = false;             // pulses ceased early
     std::int64_t stop_count = 0;  // at its end
     std::int64_t zero_count = 0;
+    Tick commanded_start;                // machine time
+    std::vector<Ticks> commanded_ticks;  // of each piece, in machine time; one split at the end is one. Empty: as given
+    Ticks clock_error;                   // each step is made within this, and two ticks, of the machine time commanded
 };
 
 /// What happened, for the log.
@@ -68,7 +73,7 @@ struct AxisOutputs {
     std::vector<DeviceOrder> orders;
     std::vector<ExecutedTrack> tracks;
     std::vector<AxisNotice> notices;
-    Ticks device_ahead;  // of machine time: steps and tracks are recorded in the device's (core/axis/device_time.hpp)
+    ClockView device_clock;  // in machine time: steps and tracks are recorded in the device's own
 };
 
 using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;

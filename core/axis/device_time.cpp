@@ -62,6 +62,17 @@ Tick DeviceTime::to_machine(Tick device) const {
     return machine_.at(own_ + (device - shown_.at(own_).other));
 }
 
+ClockView DeviceTime::device_clock() const {
+    if (source_ != TimeSource::Network) { return {.own = device_, .other = device_, .error = ptp_error_}; }
+    const ClockView shown = shown_.view(own_);
+    const ClockView machine = machine_.estimate().view(own_);
+    return {.own = shown.other,
+            .other = machine.other,
+            .rate = (1 + machine.rate) / (1 + shown.rate) - 1,
+            .error = shown.error + machine.error,
+            .rate_error = shown.rate_error + machine.rate_error};
+}
+
 DeviceStatus DeviceTime::in_machine_time(DeviceStatus status) const {
     status.now = to_machine(status.now);
     return status;
@@ -81,8 +92,11 @@ DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
 
 void DeviceTime::load(device::LoadFrame& frame) {
     const Tick machine_end = frame.start + length(frame.track.body);
-    const Tick start = machine_end_ == frame.start ? device_end_ : to_device(frame.start);
-    Loaded loaded{.error = error_at(machine_end)};
+    const bool joins = machine_end_ == frame.start;
+    const Ticks end_error = error_at(machine_end);
+    Loaded loaded{.error = joins ? std::max(end_error_, end_error) : end_error,
+                  .tail_error = error_at(machine_end + length(frame.track.tail))};
+    const Tick start = joins ? device_end_ : to_device(frame.start);
     if (own_run_) {
         frame.start = start;
         loaded.body_end = start + length(frame.track.body);
@@ -93,6 +107,7 @@ void DeviceTime::load(device::LoadFrame& frame) {
     }
     machine_end_ = machine_end;
     device_end_ = loaded.body_end;
+    end_error_ = end_error;
     loaded.frame = frame;
     loaded_.push_back(loaded);
     if (loaded_.size() > kRemembered) { loaded_.pop_front(); }
@@ -113,11 +128,17 @@ void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loa
 }
 
 ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) const {
+    track.commanded_start = track.start;
+    track.clock_error = ptp_error_;
     const auto found = std::ranges::find(loaded_, track.frame, [](const Loaded& l) { return l.frame.number; });
     if (source_ != TimeSource::Network || found == loaded_.end()) { return track; }
+    if (track.epoch != 0) {
+        for (const Piece& piece : track.pieces) { track.commanded_ticks.push_back(piece.ticks); }
+    }
     const auto take = [&track](const auto& pieces) { track.pieces.assign(pieces.begin(), pieces.end()); };
     track.tail ? take(found->frame.track.tail) : take(found->frame.track.body);
     track.start = track.tail ? found->body_end : found->frame.start;
+    track.clock_error = track.tail ? std::max(found->error, found->tail_error) : found->error;
     return track;
 }
 

@@ -6,7 +6,8 @@
 // time, so each frame's end is mapped anew when the frame is loaded, and its start is where the frame before ended.
 //
 // An axis's own moves are not coordinated: they keep the device's ticks, so that each step is made at its method's own
-// tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time.
+// tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time, with what it is
+// in machine time beside it.
 #pragma once
 
 #include <deque>
@@ -37,8 +38,9 @@ public:
     Tick now() const { return now_; }
     /// How far `now` may be off, and the motion loaded into the device and not yet made.
     Ticks error() const;
-    /// The device's time less machine time.
-    Ticks device_ahead() const { return device_ - to_machine(device_); }
+    /// The device's clock in machine time, as the exchanges have it: for the record. Motion goes by `now`, which is
+    /// slewed towards it.
+    ClockView device_clock() const;
 
     DeviceStatus in_machine_time(DeviceStatus status) const;
     /// In the order in which they are to be given. A frame that does not fit the device's segments is left as it is,
@@ -52,7 +54,8 @@ private:
         device::LoadFrame frame;  // as the device has it
         Tick body_end;
         Tick end;
-        Ticks error;
+        Ticks error;  // of its body, from end to end
+        Ticks tail_error;
     };
 
     Tick to_device(Tick machine) const { return shown_.at(machine_.own_at(machine)).other; }
@@ -72,6 +75,7 @@ private:
     bool own_run_ = false;
     std::optional<Tick> machine_end_;  // of the frame loaded last in this run
     Tick device_end_;
+    Ticks end_error_;  // of the one as the other
     std::deque<Loaded> loaded_;
 };
 

@@ -16,6 +16,7 @@
 #include <deque>
 #include <optional>
 
+#include "core/clock/clock_view.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {
@@ -47,6 +48,11 @@ public:
     };
     /// When the own clock reads `own`.
     Reading at(Tick own) const;
+    /// The same for a while around that instant.
+    ClockView view(Tick own) const {
+        const Reading then = at(own);
+        return {own, then.other, rate_, then.error, rate_error_};
+    }
 
     /// The other clock's ticks in one own tick, minus 1.
     double rate() const { return rate_; }

@@ -45,7 +45,7 @@ AxisOutputs AxisNode::decide(const AxisMail& mail) {
                                         .clock_error = time_.error()});
     for (ExecutedTrack& track : out.tracks) { track = time_.in_device_time(std::move(track)); }
     for (DeviceOrder& order : out.orders) { order = time_.in_device_time(std::move(order)); }
-    out.device_ahead = time_.device_ahead();
+    out.device_clock = time_.device_clock();
     give(out.orders);
     return out;
 }

@@ -56,7 +56,7 @@ public:
         const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
-        recorder_.loop(node_.now(), out, node_.controller().zero_count());
+        recorder_.loop(out, node_.controller().zero_count());
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
         return !doubled_;

@@ -1,5 +1,8 @@
 #include "services/record/axis_recorder.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "services/wire/translate_lcm.hpp"
 
 namespace lockstep {
@@ -15,22 +18,48 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
                 .axis_index = static_cast<std::uint32_t>(axis),
                 .incarnation = incarnation,
                 .tick_ns = machine.tick_ns},
-               0, [this](const step_batch_t& batch) { sink_.publish(channels_.steps, batch); }) {}
+               0, [this](step_batch_t& batch) { publish(batch); }) {}
 
 /// The count before the first step there is: where the axis stands, less the steps it had made by then.
 void AxisRecorder::place(const AxisState& state) {
+    const Tick read = clock_.own + (state.tick - clock_.other);
     std::int64_t before = state.position.count();
-    for (const StepEdge& step : early_) { before -= step.tick <= state.tick ? step.direction : 0; }
+    for (const StepEdge& step : steps_) { before -= step.tick <= read ? step.direction : 0; }
     batcher_.set_position(before);
-    for (const StepEdge& step : early_) { batcher_.add(step); }
-    early_.clear();
     placed_ = true;
 }
 
-void AxisRecorder::loop(Tick now, const AxisOutputs& out, std::int64_t zero_count) {
-    std::optional<AxisState> state = out.state;
-    if (state) { state->tick += out.device_ahead; }
-    if (!placed_ && state) { place(*state); }
+void AxisRecorder::batch_steps() {
+    if (!placed_) { return; }
+    for (const StepEdge& step : steps_) { batcher_.add(step); }
+    steps_.clear();
+}
+
+void AxisRecorder::finish() {
+    batch_steps();
+    batcher_.flush();
+}
+
+/// Adds when its steps were made in machine time, by the newest look at the clocks. An estimate that has become better
+/// may put them before those of the batch before: then they are said to be just behind, and to be known no better.
+void AxisRecorder::publish(step_batch_t& batch) {
+    const Tick first{batch.first_tick};
+    const Tick last = std::accumulate(batch.delta_ticks.begin(), batch.delta_ticks.end(), first,
+                                      [](Tick tick, std::int32_t delta) { return tick + Ticks{delta}; });
+    const Tick begins = clock_.at(first);
+    const Ticks shift = published_ ? std::max(Ticks{}, *published_ + Ticks{1} - begins) : Ticks{};
+    published_ = clock_.at(last) + shift;
+    batch.utime = utime_of(clock_.other, machine_.tick_ns);
+    batch.ahead_first = (begins + shift - first).value;
+    batch.ahead_last = (*published_ - last).value;
+    batch.clock_error = (std::max(clock_.error_at(first), clock_.error_at(last)) + shift).value;
+    sink_.publish(channels_.steps, batch);
+}
+
+void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count) {
+    clock_ = out.device_clock;
+    if (!placed_ && out.state) { place(*out.state); }
+    batch_steps();
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,
                                .axis = machine_.axes[axis_].name,
@@ -43,15 +72,18 @@ void AxisRecorder::loop(Tick now, const AxisOutputs& out, std::int64_t zero_coun
                                .from = track.from,
                                .cut_at_steps = track.cut ? std::optional(track.stop_count) : std::nullopt,
                                .zero_count = track.zero_count,
-                               .pieces = track.pieces};
+                               .pieces = track.pieces,
+                               .ahead = track.commanded_start - track.start,
+                               .commanded_ticks = track.commanded_ticks,
+                               .clock_error = track.clock_error};
         sink_.publish(channels_.run, to_lcm(record, machine_.tick_ns));
     }
     if (zero_count != zero_count_) {
         batcher_.set_position(batcher_.position_steps() - (zero_count - zero_count_));
         zero_count_ = zero_count;
     }
-    batcher_.poll(now + out.device_ahead);
-    if (state) { sink_.publish(channels_.position, to_lcm(machine_, *state)); }
+    batcher_.poll(clock_.own);
+    if (out.state) { sink_.publish(channels_.position, to_lcm(machine_, *out.state)); }
 }
 
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/axis/axis_controller.hpp"
@@ -20,15 +21,17 @@ public:
     AxisRecorder& operator=(const AxisRecorder&) = delete;
 
     /// Every step, in order, before the loop's outputs.
-    void step(StepEdge step) { placed_ ? batcher_.add(step) : early_.push_back(step); }
-    /// After each loop, at this machine time: its outputs, and what the axis's zero then is. Times in the record are
-    /// the device's, which are machine time where that is shared.
-    void loop(Tick now, const AxisOutputs& out, std::int64_t zero_count);
+    void step(StepEdge step) { steps_.push_back(step); }
+    /// After each loop: its outputs, and what the axis's zero then is. Steps and runs are recorded in the device's
+    /// time, with what that is in machine time.
+    void loop(const AxisOutputs& out, std::int64_t zero_count);
     /// At the end: what is still in hand.
-    void finish() { batcher_.flush(); }
+    void finish();
 
 private:
     void place(const AxisState& state);
+    void batch_steps();
+    void publish(step_batch_t& batch);
 
     MachineConfig machine_;
     std::size_t axis_;
@@ -38,8 +41,10 @@ private:
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
     std::uint64_t runs_ = 0;
-    bool placed_ = false;          // it is known where the device stands: it may have outlived another process
-    std::vector<StepEdge> early_;  // until then
+    bool placed_ = false;            // it is known where the device stands: it may have outlived another process
+    std::vector<StepEdge> steps_;    // not given to the batcher yet
+    ClockView clock_;                // the device's, in machine time, at the last loop
+    std::optional<Tick> published_;  // machine time of the last step published
 };
 
 }  // namespace lockstep

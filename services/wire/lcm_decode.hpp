@@ -24,9 +24,9 @@ inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
 template <>
 inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888844ssn8";
 template <>
-inline constexpr std::string_view kLcmLayout<run_t> = "8ss88881888188n888";
+inline constexpr std::string_view kLcmLayout<run_t> = "8ss8888188888188n888n8";
 template <>
-inline constexpr std::string_view kLcmLayout<step_batch_t> = "8ss8888n41";
+inline constexpr std::string_view kLcmLayout<step_batch_t> = "8ss8888888n41";
 
 namespace detail {
 /// True: the bytes have exactly this layout.

@@ -22,7 +22,6 @@ Tick first_turn(Ticks period, std::uint32_t axis_index) {
 StepBatcher::StepBatcher(Source source, std::int64_t position_steps, Publish publish)
     : batch_{},
       publish_(std::move(publish)),
-      tick_ns_(source.tick_ns),
       period_(period_in_ticks(source.tick_ns)),
       due_(first_turn(period_, source.axis_index)) {
     batch_.machine = std::move(source.machine);
@@ -48,14 +47,12 @@ void StepBatcher::add(StepEdge step) {
     ++batch_.count;
     moved_ += step.direction;
     last_step_ = step.tick;
-    batch_.utime = step.tick.value * tick_ns_ / 1000;
 }
 
 void StepBatcher::poll(Tick now) {
     if (now < due_) { return; }
     const std::int64_t turns = (now - due_).value / period_.value + 1;  // turns missed are not made up for
     due_ += period_ * turns;
-    if (batch_.count > 0) { batch_.utime = now.value * tick_ns_ / 1000; }
     flush();
 }
 

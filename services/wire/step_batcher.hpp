@@ -15,7 +15,8 @@ namespace lockstep {
 
 class StepBatcher {
 public:
-    using Publish = std::function<void(const step_batch_t&)>;
+    /// `batch` is whole but for its times in machine time.
+    using Publish = std::function<void(step_batch_t& batch)>;
 
     static constexpr std::chrono::nanoseconds kBatchPeriod = std::chrono::milliseconds{10};
     static constexpr std::int32_t kMaxSteps = 2000;  // 10 KB: larger messages travel in more fragments and gain nothing
@@ -33,7 +34,8 @@ public:
     /// Steps come in the order of their ticks.
     void add(StepEdge step);
 
-    /// Publishes what there is if the axis's turn has come. Call it once a loop. An axis at rest publishes nothing.
+    /// Publishes what there is if the axis's turn has come. Call it once a loop, with the device's time. An axis at
+    /// rest publishes nothing.
     void poll(Tick now);
 
     /// Publishes what there is.
@@ -50,7 +52,6 @@ private:
 
     step_batch_t batch_;
     Publish publish_;
-    std::int64_t tick_ns_;
     Ticks period_;
     Tick due_;                // when the axis's turn comes next
     Tick last_step_;          // of the batch, where it has one

@@ -5,12 +5,12 @@
 namespace lockstep {
 namespace {
 
-std::int64_t utime_of(Tick tick, std::int64_t tick_ns) { return tick.value * tick_ns / 1000; }
-
 /// LCM has no unsigned numbers: the same 64 bits.
 std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
 }  // namespace
+
+std::int64_t utime_of(Tick machine, std::int64_t tick_ns) { return machine.value * tick_ns / 1000; }
 
 axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
     const AxisConfig& axis = machine.axes.at(state.axis);
@@ -33,7 +33,7 @@ axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     run_t out{};
-    out.utime = utime_of(record.start, tick_ns);
+    out.utime = utime_of(record.start + record.ahead, tick_ns);
     out.machine = record.machine;
     out.axis = record.axis;
     out.incarnation = bits(record.incarnation);
@@ -42,6 +42,8 @@ run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     out.frame = bits(record.frame);
     out.tail = record.tail ? 1 : 0;
     out.start_tick = record.start.value;
+    out.ahead = record.ahead.value;
+    out.clock_error = record.clock_error.value;
     out.start_count = record.from.count();
     out.start_phase = bits(record.from.phase());
     out.cut = record.cut_at_steps ? 1 : 0;
@@ -54,6 +56,8 @@ run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
         out.acceleration.push_back(piece.acceleration.raw);
         end = end + piece.covered();
     }
+    out.retimed = static_cast<std::int32_t>(record.commanded_ticks.size());
+    for (const Ticks ticks : record.commanded_ticks) { out.commanded_ticks.push_back(ticks.value); }
     out.stop_count = record.cut_at_steps.value_or(end.count());
     return out;
 }

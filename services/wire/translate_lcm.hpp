@@ -16,6 +16,9 @@
 
 namespace lockstep {
 
+/// Microseconds of machine time.
+std::int64_t utime_of(Tick machine, std::int64_t tick_ns);
+
 /// Where an axis is. state.axis is an index into the machine's axes.
 axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state);
 
@@ -33,6 +36,9 @@ struct RunRecord {
     std::optional<std::int64_t> cut_at_steps;  // where pulses ceased before the pieces' end; none: they ran whole
     std::int64_t zero_count = 0;               // machine coordinates = device count - zero_count
     std::span<const Piece> pieces;
+    Ticks ahead;                             // of `start`: the start commanded, in machine time
+    std::span<const Ticks> commanded_ticks;  // of each piece; empty: as it lasts
+    Ticks clock_error;
 };
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "clients/lockstep/live/program_folder.hpp"
 #include "clients/lockstep/live/supervisor.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/runtime/clock.hpp"
@@ -129,9 +130,7 @@ Failure missing(const Session& session, const StateDirectory& state) {
 
 std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, FpgaKind fpga,
                                                          const StateDirectory& state, Voice& voice) {
-    std::error_code error;
-    const auto programs = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-    const auto lines = service_lines(machine.config, fpga, programs, state);
+    const auto lines = service_lines(machine.config, fpga, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
     if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
     route_multicast(machine.config.network, voice);

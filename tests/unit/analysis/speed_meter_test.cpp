@@ -50,38 +50,38 @@ TEST(SpeedMeter, DoesNotMixStretchesThatDoNotJoin) {
     EXPECT_EQ(statistics.missing_steps(), 500);
 }
 
-TEST(SpeedCourse, IsZeroInRestsAndSignedBackwards) {
+TEST(Course, IsZeroInRestsAndSignedBackwards) {
     AxisStatistics statistics;
     statistics.on_batch(batch(1, 0, even_steps(0, 100, 200)));
     statistics.on_batch(batch(2, 200, even_steps(1'000'000, 50, 200, -1)));
     statistics.finish();
-    for (const SpeedSample& sample : statistics.speed()) {
-        if (sample.at > Tick{20'000} && sample.at < Tick{1'000'000}) { EXPECT_EQ(sample.steps_per_tick, 0); }
-        EXPECT_LE(sample.steps_per_tick, 0.01);
-        EXPECT_GE(sample.steps_per_tick, -0.02);
+    for (const Sample& sample : statistics.speed()) {
+        if (sample.at > Tick{20'000} && sample.at < Tick{1'000'000}) { EXPECT_EQ(sample.value, 0); }
+        EXPECT_LE(sample.value, 0.01);
+        EXPECT_GE(sample.value, -0.02);
     }
     EXPECT_EQ(statistics.lowest_steps(), 0);
     EXPECT_EQ(statistics.highest_steps(), 200);
 }
 
-TEST(SpeedCourse, ClaimsNoRestWhereStepsAreMissing) {
+TEST(Course, ClaimsNoRestWhereStepsAreMissing) {
     AxisStatistics statistics;
     statistics.on_batch(batch(0, 0, even_steps(0, 100, 200)));
     statistics.on_break({.kind = Break::Kind::Missing, .missing_batches = 1, .position_change = 5000});
     statistics.on_batch(batch(2, 5200, even_steps(520'000, 100, 200)));
     const auto samples = statistics.speed();
-    EXPECT_EQ(std::ranges::count(samples, 0.0, &SpeedSample::steps_per_tick), 1) << "the beginning alone";
+    EXPECT_EQ(std::ranges::count(samples, 0.0, &Sample::value), 1) << "the beginning alone";
 }
 
-TEST(SpeedCourse, StaysBoundedAndKeepsThePeak) {
-    SpeedCourse course;
+TEST(Course, StaysBoundedAndKeepsThePeak) {
+    Course course;
     for (std::int64_t i = 0; i < 3'000'000; ++i) { course.add({Tick{i * 2000}, i == 1'234'567 ? 9.0 : 1.0}); }
     const auto samples = course.samples();
-    EXPECT_LE(samples.size(), 4 * SpeedCourse::kMaxBins);
-    const auto peak = std::ranges::max_element(samples, {}, &SpeedSample::steps_per_tick);
-    EXPECT_EQ(peak->steps_per_tick, 9.0);
+    EXPECT_LE(samples.size(), 4 * Course::kMaxBins);
+    const auto peak = std::ranges::max_element(samples, {}, &Sample::value);
+    EXPECT_EQ(peak->value, 9.0);
     EXPECT_EQ(peak->at, Tick{1'234'567 * 2000LL});
-    EXPECT_TRUE(std::ranges::is_sorted(samples, {}, &SpeedSample::at));
+    EXPECT_TRUE(std::ranges::is_sorted(samples, {}, &Sample::at));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ protected:
 };
 
 TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
-    recorder.loop(Tick{100}, says(0, 100), 0);
+    recorder.loop(says(0, 100), 0);
     recorder.step({Tick{200}, +1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
@@ -38,7 +38,7 @@ TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
 }
 
 TEST_F(TheRecord, BeginsWhereADeviceStandsThatRanBefore) {
-    recorder.loop(Tick{100}, says(400, 100), 0);
+    recorder.loop(says(400, 100), 0);
     recorder.step({Tick{200}, -1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
@@ -49,7 +49,7 @@ TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
     recorder.step({Tick{80}, +1});
     recorder.step({Tick{90}, +1});
     recorder.step({Tick{101}, +1});  // after the look at the device
-    recorder.loop(Tick{101}, says(400, 100), 0);
+    recorder.loop(says(400, 100), 0);
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
     EXPECT_EQ(sink.batches[0].position_before, 398);
@@ -57,9 +57,9 @@ TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
 }
 
 TEST_F(TheRecord, JumpsWhereTheAxisIsZeroed) {
-    recorder.loop(Tick{100}, says(0, 100), 0);
+    recorder.loop(says(0, 100), 0);
     recorder.step({Tick{200}, -1});
-    recorder.loop(Tick{300}, {}, -81);
+    recorder.loop({}, -81);
     recorder.step({Tick{400}, +1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 2U);

@@ -6,6 +6,7 @@
 
 #include "core/step/engine.hpp"
 #include "tests/unit/virtual/rig.hpp"
+#include "tests/unit/virtual/true_clocks.hpp"
 
 namespace lockstep {
 namespace {
@@ -21,8 +22,7 @@ VirtualOptions own_clocks(std::int64_t limit_us = 250) {
     VirtualOptions options{.machine = network_machine(limit_us)};
     options.network = {.delay_min{20}, .delay_max{300}, .lost = 0.02};
     options.start = Tick{10'000'000};
-    options.clocks = {{.process = {.offset = {3'000'000}, .ppm = 100}, .device = {.offset = {77'000'000}, .ppm = -80}},
-                      {.process = {.offset = {-1'500'000}, .ppm = -100}, .device = {.offset = {-400}, .ppm = 100}}};
+    options.clocks = test::clocks_apart();
     return options;
 }
 
@@ -64,9 +64,7 @@ public:
 
 private:
     double truth_of(std::size_t axis, Tick device) const {
-        const VirtualClock& clock = options_.clocks[axis].device;
-        const double since = static_cast<double>((device - clock.offset - options_.start).value);
-        return static_cast<double>(options_.start.value) + since / (1 + clock.ppm * 1e-6);
+        return test::true_time(options_.clocks[axis].device, device, options_.start);
     }
     std::vector<Tick> commanded_of(std::size_t axis) const {
         std::vector<Tick> steps;

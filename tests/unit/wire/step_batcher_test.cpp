@@ -65,7 +65,7 @@ TEST(StepBatcher, AxesTakeTurnsWithinThePeriod) {
     }
     ASSERT_EQ(first.batches.size(), 1u);
     ASSERT_EQ(second.batches.size(), 1u);
-    EXPECT_EQ(second.batches[0].utime - first.batches[0].utime, 5000);
+    EXPECT_EQ(steps_in(second.batches, 0).back().tick - steps_in(first.batches, 0).back().tick, Ticks{5000});
 }
 
 TEST(StepBatcher, AFullMessageLeavesAtOnce) {

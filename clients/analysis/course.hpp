@@ -1,4 +1,4 @@
-// An axis's speed over time in a bounded number of points, peaks included.
+// A quantity over time in a bounded number of points, peaks included.
 //
 // Time is cut into equal bins; each keeps its first, lowest, highest and last sample. Where the bins become too many,
 // neighbours merge and the bins double in width.
@@ -7,24 +7,30 @@
 #include <cstddef>
 #include <vector>
 
-#include "clients/analysis/speed_meter.hpp"
+#include "core/units.hpp"
 
 namespace lockstep::analysis {
 
-class SpeedCourse {
+/// A quantity at an instant.
+struct Sample {
+    Tick at;
+    double value = 0;
+};
+
+class Course {
 public:
     static constexpr std::size_t kMaxBins = 4096;
     static constexpr Ticks kFinest{1000};
 
     /// Samples come in the order of time; one from before the first is left out.
-    void add(SpeedSample sample);
-    std::vector<SpeedSample> samples() const;
+    void add(Sample sample);
+    std::vector<Sample> samples() const;
 
 private:
     struct Bin {
         bool empty = true;
-        SpeedSample first, lowest, highest, last;
-        void add(SpeedSample sample);
+        Sample first, lowest, highest, last;
+        void add(Sample sample);
         void add(const Bin& later);
     };
 

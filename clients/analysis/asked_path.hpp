@@ -1,0 +1,55 @@
+// What a job's program asks of each axis, move by move: places in whole steps, and times as the coordinator plans them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/program.hpp"
+#include "core/units.hpp"
+
+namespace lockstep::analysis {
+
+/// A line from one place to another, or a dwell (no steps).
+struct AskedMove {
+    std::int32_t line = 0;  // of the program
+    double length_mm = 0;
+    Ticks planned;         // from end to end
+    std::size_t lead = 0;  // the axis with the most steps
+    Ticks stepping;        // of `planned`: from the lead axis's first step to its last
+};
+
+class AskedPath {
+public:
+    /// A job without a program: homing. It asks for nothing.
+    AskedPath() = default;
+
+    /// Plans the program as the coordinator did. Error: why it cannot be planned.
+    static std::expected<AskedPath, std::string> of(const MachineConfig& machine, const Program& program);
+
+    std::size_t size() const { return moves_.size(); }
+    const AskedMove& operator[](std::size_t move) const { return moves_[move]; }
+    Ticks planned() const { return planned_; }
+
+    /// The machine's axes, in its order; none without a program.
+    std::size_t axes() const { return mm_per_step_.size(); }
+    double mm_per_step(std::size_t axis) const { return mm_per_step_[axis]; }
+    /// Machine coordinates, in steps.
+    std::int64_t from(std::size_t move, std::size_t axis) const { return counts_[move * axes() + axis]; }
+    std::int64_t to(std::size_t move, std::size_t axis) const { return counts_[(move + 1) * axes() + axis]; }
+    std::int64_t steps(std::size_t move, std::size_t axis) const;
+    /// The moves in which an axis makes steps.
+    const std::vector<std::uint32_t>& moves_of(std::size_t axis) const { return moves_of_[axis]; }
+
+private:
+    std::vector<double> mm_per_step_;   // of each axis
+    std::vector<std::int64_t> counts_;  // place by place, axis by axis
+    std::vector<AskedMove> moves_;      // the n-th leads from the n-th place to the next
+    std::vector<std::vector<std::uint32_t>> moves_of_;
+    Ticks planned_;
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,118 @@
+#include "clients/analysis/job_moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep::analysis {
+
+bool MoveLog::is_whole() const {
+    return std::ranges::all_of(axes, [](const AxisMove& axis) { return axis.made_steps == axis.asked_steps; });
+}
+
+std::optional<std::size_t> MoveCursor::find(const AskedPath& asked, std::size_t axis, std::int64_t count,
+                                            int direction) {
+    const auto& moves = asked.moves_of(axis);
+    const std::size_t end = std::min(moves.size(), next_ + kReach);
+    for (std::size_t i = next_; i < end; ++i) {
+        const std::int64_t from = asked.from(moves[i], axis);
+        const std::int64_t to = asked.to(moves[i], axis);
+        const bool leads_through = direction > 0 ? from <= count && count < to : to < count && count <= from;
+        if (leads_through) {
+            next_ = i;
+            return moves[i];
+        }
+    }
+    return std::nullopt;
+}
+
+JobMoves::JobMoves(AskedPath asked, bool on_a_line)
+    : asked_(std::move(asked)),
+      on_a_line_(on_a_line),
+      made_cursor_(asked_.axes()),
+      late_cursor_(asked_.axes()),
+      made_(asked_.size()),
+      made_by_axis_(asked_.size() * asked_.axes()),
+      line_{.from_mm = std::vector<double>(asked_.axes()), .direction = std::vector<double>(asked_.axes())} {
+    if (asked_.size() == 0) { return; }
+    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
+        at_mm_.push_back(static_cast<double>(asked_.from(0, axis)) * asked_.mm_per_step(axis));
+    }
+    begin(0);
+}
+
+void JobMoves::begin(std::size_t move) {
+    current_ = move;
+    double squares = 0;
+    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
+        line_.from_mm[axis] = static_cast<double>(asked_.from(move, axis)) * asked_.mm_per_step(axis);
+        line_.direction[axis] =
+            static_cast<double>(asked_.to(move, axis) - asked_.from(move, axis)) * asked_.mm_per_step(axis);
+        squares += line_.direction[axis] * line_.direction[axis];
+    }
+    line_.length_mm = std::sqrt(squares);
+    if (line_.length_mm == 0) { return; }
+    for (double& part : line_.direction) { part /= line_.length_mm; }
+}
+
+/// From where the axes are to the nearest point of the line.
+double JobMoves::distance_mm() const {
+    double along = 0;
+    for (std::size_t i = 0; i < at_mm_.size(); ++i) { along += (at_mm_[i] - line_.from_mm[i]) * line_.direction[i]; }
+    along = std::clamp(along, 0.0, line_.length_mm);
+    double squares = 0;
+    for (std::size_t i = 0; i < at_mm_.size(); ++i) {
+        const double off = at_mm_[i] - line_.from_mm[i] - along * line_.direction[i];
+        squares += off * off;
+    }
+    return std::sqrt(squares);
+}
+
+void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
+    if (asked_.size() == 0) { return; }
+    const auto move = made_cursor_[axis].find(asked_, axis, step.count - step.direction, step.direction);
+    if (move) {
+        take_in(*move, axis, step);
+    } else {
+        ++unasked_steps_;
+    }
+    at_mm_[axis] = static_cast<double>(step.count) * asked_.mm_per_step(axis);
+    if (!on_a_line_) { return; }
+    double& largest = made_[current_].largest_distance_mm;
+    largest = std::max(largest, distance_mm());
+}
+
+void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& step) {
+    if (move > current_) { begin(move); }
+    MadeByAxis& made = made_by_axis_[move * asked_.axes() + axis];
+    ++made.steps;
+    made.steps_per_tick = std::max(made.steps_per_tick, step.steps_per_tick);
+    made.steps_per_tick2 = std::max(made.steps_per_tick2, step.steps_per_tick2);
+    if (axis != asked_[move].lead) { return; }
+    if (!made_[move].first) { made_[move].first = step.tick; }
+    made_[move].last = step.tick;
+}
+
+void JobMoves::take_late(std::size_t axis, std::int64_t count, int direction, Ticks late) {
+    if (asked_.size() == 0) { return; }
+    if (const auto move = late_cursor_[axis].find(asked_, axis, count, direction)) { made_[*move].late.add(late); }
+}
+
+MoveLog JobMoves::move(std::size_t number) const {
+    const AskedMove& asked = asked_[number];
+    const Made& made = made_[number];
+    MoveLog log{.line = asked.line, .length_mm = asked.length_mm, .planned = asked.planned, .late = made.late};
+    if (made.first) {
+        log.made = made.last - *made.first + asked.planned - asked.stepping;
+        if (on_a_line_) { log.largest_distance_mm = made.largest_distance_mm; }
+    }
+    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
+        const MadeByAxis& by_axis = made_by_axis_[number * asked_.axes() + axis];
+        log.axes.push_back(
+            {asked_.steps(number, axis), by_axis.steps, by_axis.steps_per_tick, by_axis.steps_per_tick2});
+    }
+    log.is_dwell = std::ranges::all_of(log.axes, [](const AxisMove& axis) { return axis.asked_steps == 0; });
+    return log;
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,102 @@
+// What a job's moves were when they were made, step by step, beside what was asked.
+//
+// An axis makes the steps of its moves in their order and none besides, whatever holds and resumptions lie between. So
+// the move that a step belongs to follows from where the axis is, not from any clock: it is the next one that leads
+// through there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "clients/analysis/asked_path.hpp"
+#include "clients/analysis/step_merge.hpp"
+#include "clients/analysis/tick_histogram.hpp"
+
+namespace lockstep::analysis {
+
+/// One axis in one move.
+struct AxisMove {
+    std::int64_t asked_steps = 0;
+    std::int64_t made_steps = 0;
+    double peak_steps_per_tick = 0;  // as SpeedMeter has them: a window may reach into the move before
+    double peak_steps_per_tick2 = 0;
+};
+
+struct MoveLog {
+    std::int32_t line = 0;  // of the program
+    double length_mm = 0;
+    Ticks planned;
+    /// From end to end: between its first step and its last, and what the plan has before and behind. None: no steps.
+    std::optional<Ticks> made;
+    std::optional<double> largest_distance_mm;  // of any step from the line asked; none where axes moved on their own
+    TickHistogram late;                         // of its steps, against the ticks commanded
+    std::vector<AxisMove> axes;                 // in the machine's order
+    bool is_dwell = false;
+    bool is_whole() const;
+};
+
+/// The next move through a place, of one axis.
+class MoveCursor {
+public:
+    /// The number of the move in which an axis steps from `count` in `direction`; none: no such move is near.
+    std::optional<std::size_t> find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction);
+
+private:
+    static constexpr std::size_t kReach = 64;  // moves that may be missing from the log
+    std::size_t next_ = 0;                     // of the axis's moves
+};
+
+class JobMoves {
+public:
+    /// `on_a_line`: axes move together, not each on its own.
+    JobMoves(AskedPath asked, bool on_a_line);
+
+    const AskedPath& asked() const { return asked_; }
+    bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
+    void take(std::size_t axis, const MeasuredStep& step);
+    /// How late a step was that led an axis from `count` on.
+    void take_late(std::size_t axis, std::int64_t count, int direction, Ticks late);
+
+    /// Steps that no move asked for.
+    std::int64_t unasked_steps() const { return unasked_steps_; }
+    /// The move that is being made.
+    std::size_t current() const { return current_; }
+    MoveLog move(std::size_t number) const;
+
+private:
+    struct Made {
+        std::optional<Tick> first;  // of the lead axis's steps
+        Tick last;
+        double largest_distance_mm = 0;
+        TickHistogram late;
+    };
+    struct MadeByAxis {
+        std::int64_t steps = 0;
+        float steps_per_tick = 0;
+        float steps_per_tick2 = 0;
+    };
+    struct Line {
+        std::vector<double> from_mm;
+        std::vector<double> direction;  // of length 1
+        double length_mm = 0;
+    };
+
+    void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
+    void begin(std::size_t move);
+    double distance_mm() const;
+
+    AskedPath asked_;
+    bool on_a_line_;
+    std::vector<MoveCursor> made_cursor_;  // by axis
+    std::vector<MoveCursor> late_cursor_;
+    std::vector<Made> made_;                // by move
+    std::vector<MadeByAxis> made_by_axis_;  // by move and axis
+    std::vector<double> at_mm_;             // by axis
+    std::size_t current_ = 0;
+    Line line_;  // of the current move
+    std::int64_t unasked_steps_ = 0;
+};
+
+}  // namespace lockstep::analysis

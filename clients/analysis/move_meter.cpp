@@ -1,0 +1,69 @@
+#include "clients/analysis/move_meter.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lockstep::analysis {
+
+std::optional<std::size_t> MoveMeter::Job::axis(const std::string& name) const {
+    const auto found = std::ranges::find(axes, name);
+    if (found == axes.end() || moves.asked().axes() == 0) { return std::nullopt; }
+    return static_cast<std::size_t>(found - axes.begin());
+}
+
+void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
+    if (lanes_.size() <= lane) { lanes_.resize(lane + 1); }
+    lanes_[lane] = axis;
+    for (Job& job : jobs_) {
+        job.axis_of_lane.resize(lanes_.size());
+        job.axis_of_lane[lane] = job.axis(axis);
+    }
+}
+
+void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves) {
+    if (jobs_.size() == kJobsOpen) { end_first(); }
+    Job job{.number = number, .from = from, .axes = {}, .moves = std::move(moves), .axis_of_lane = {}};
+    for (const AxisConfig& axis : machine.axes) { job.axes.push_back(axis.name); }
+    for (const std::string& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane)); }
+    jobs_.push_back(std::move(job));
+}
+
+/// The latest one that has begun by then.
+MoveMeter::Job* MoveMeter::job_at(Tick tick) {
+    for (auto job = jobs_.rbegin(); job != jobs_.rend(); ++job) {
+        if (job->from <= tick) { return &*job; }
+    }
+    return nullptr;
+}
+
+void MoveMeter::on_step(std::size_t lane, const MeasuredStep& step) {
+    Job* job = job_at(step.tick);
+    trace(job, lane, step);
+    if (job == nullptr) { return; }
+    if (const auto axis = job->axis_of_lane[lane]) { job->moves.take(*axis, step); }
+}
+
+void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step) {
+    const bool of_a_job = job != nullptr && job->moves.is_on_a_line();
+    if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
+    if (of_a_job != plane_is_of_jobs_) { return; }
+    if (lanes_[lane] == "X") { plane_.step(0, step.count, step.direction); }
+    if (lanes_[lane] == "Y") { plane_.step(1, step.count, step.direction); }
+}
+
+void MoveMeter::on_late(const std::string& axis, Tick commanded, std::int64_t count, int direction, Ticks late) {
+    Job* job = job_at(commanded);
+    if (job == nullptr) { return; }
+    if (const auto number = job->axis(axis)) { job->moves.take_late(*number, count, direction, late); }
+}
+
+void MoveMeter::end_first() {
+    on_job_(jobs_.front().number, jobs_.front().moves);
+    jobs_.pop_front();
+}
+
+void MoveMeter::finish() {
+    while (!jobs_.empty()) { end_first(); }
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,62 @@
+// Finds the job that each step belongs to, and measures the job's moves.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/job_moves.hpp"
+#include "clients/analysis/plane_trace.hpp"
+#include "clients/analysis/step_merge.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep::analysis {
+
+class MoveMeter final : public MergedStepListener {
+public:
+    /// So many jobs may still be told of: messages of the next come before the last steps of one.
+    static constexpr std::size_t kJobsOpen = 4;
+
+    /// `on_job` hears each job's moves when it is over, by the number that begin() was given.
+    using OnJob = std::function<void(std::size_t number, const JobMoves&)>;
+    explicit MoveMeter(OnJob on_job) : on_job_(std::move(on_job)) {}
+
+    /// The name of the axis whose steps the lane of that number has.
+    void name_lane(std::size_t lane, const std::string& axis);
+    /// All steps from `from` on are the job's, until the next begins.
+    void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
+    void on_step(std::size_t lane, const MeasuredStep& step) override;
+    /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
+    const PlaneTrace& plane() const { return plane_; }
+    /// How late a step was, that led the axis from `count` on at this tick.
+    void on_late(const std::string& axis, Tick commanded, std::int64_t count, int direction, Ticks late);
+    /// Call once, at the end.
+    void finish();
+
+private:
+    struct Job {
+        std::size_t number = 0;
+        Tick from;
+        std::vector<std::string> axes;
+        JobMoves moves;
+        std::vector<std::optional<std::size_t>> axis_of_lane;
+
+        std::optional<std::size_t> axis(const std::string& name) const;
+    };
+
+    Job* job_at(Tick tick);
+    void trace(const Job* job, std::size_t lane, const MeasuredStep& step);
+    void end_first();
+
+    OnJob on_job_;
+    std::vector<std::string> lanes_;
+    std::deque<Job> jobs_;
+    PlaneTrace plane_;
+    bool plane_is_of_jobs_ = false;
+};
+
+}  // namespace lockstep::analysis

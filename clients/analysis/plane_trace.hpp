@@ -1,0 +1,44 @@
+// The way through the plane of two axes in a bounded number of points, as it is stepped.
+//
+// Each step is half a step off the way that it stands for, so points are left out while a straight line passes each
+// within a step. Where the points become too many, the tolerance doubles.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "clients/drawing/svg.hpp"
+
+namespace lockstep::analysis {
+
+class PlaneTrace {
+public:
+    static constexpr double kTolerance = 0.75;  // steps
+    static constexpr std::size_t kMaxPoints = 100'000;
+    static constexpr std::size_t kMaxWays = 10'000;  // beyond that, ways are joined
+
+    /// Axis 0 or 1 of the plane stands on `count` after a step in `direction`.
+    void step(std::size_t axis, std::int64_t count, int direction);
+    /// What follows does not join what was before.
+    void part();
+
+    /// In steps. Each inner vector is one unbroken way.
+    std::vector<std::vector<drawing::Point>> ways() const;
+
+private:
+    static constexpr std::size_t kThinnedAtOnce = 4096;
+
+    void thin_newest();
+    void thin_all();
+
+    std::array<std::optional<std::int64_t>, 2> at_;
+    double tolerance_ = kTolerance;
+    std::vector<std::vector<drawing::Point>> ways_ = {{}};
+    std::size_t thinned_ = 0;  // points of the newest way
+    std::size_t points_ = 0;   // of all ways, when they were last thinned
+};
+
+}  // namespace lockstep::analysis

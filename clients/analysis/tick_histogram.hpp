@@ -1,0 +1,55 @@
+// How often an amount of ticks occurs, in a few numbers however many there are: classes that double in width.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "core/units.hpp"
+
+namespace lockstep::analysis {
+
+class TickHistogram {
+public:
+    /// Class 0 holds 0, class k the amounts from 2^(k-1) to 2^k - 1; the last all that is larger, too.
+    static constexpr std::size_t kClasses = 20;
+
+    /// Its sign does not count.
+    void add(Ticks ticks) {
+        const auto amount = static_cast<std::uint64_t>(std::abs(ticks.value));
+        ++counts_[std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(amount)), kClasses - 1)];
+        largest_ = std::max(largest_, Ticks{static_cast<std::int64_t>(amount)});
+        ++total_;
+    }
+    void add(const TickHistogram& other) {
+        for (std::size_t i = 0; i < kClasses; ++i) { counts_[i] += other.counts_[i]; }
+        largest_ = std::max(largest_, other.largest_);
+        total_ += other.total_;
+    }
+
+    bool empty() const { return total_ == 0; }
+    std::int64_t total() const { return total_; }
+    Ticks largest() const { return largest_; }
+    /// Of each class, and the largest amount in it.
+    const std::array<std::int64_t, kClasses>& counts() const { return counts_; }
+    static Ticks most_in(std::size_t number) { return {(std::int64_t{1} << number) - 1}; }
+    /// What a share (percent) of all is not above: exact where it is 0, else the end of its class.
+    Ticks quantile(std::int64_t percent) const {
+        std::int64_t seen = 0;
+        for (std::size_t i = 0; i < kClasses; ++i) {
+            seen += counts_[i];
+            if (total_ > 0 && seen * 100 >= total_ * percent) { return std::min(most_in(i), largest_); }
+        }
+        return {};
+    }
+
+private:
+    std::array<std::int64_t, kClasses> counts_{};
+    std::int64_t total_ = 0;
+    Ticks largest_;
+};
+
+}  // namespace lockstep::analysis

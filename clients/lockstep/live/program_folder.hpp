@@ -1,0 +1,13 @@
+// Where the lockstep command itself is: its processes are beside it, what they share in ../share/lockstep.
+#pragma once
+
+#include <filesystem>
+
+namespace lockstep {
+
+inline std::filesystem::path program_folder() {
+    std::error_code error;
+    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+}  // namespace lockstep

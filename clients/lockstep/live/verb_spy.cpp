@@ -1,0 +1,45 @@
+// lockstep spy
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/spy_command.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/verb.hpp"
+
+namespace lockstep {
+namespace {
+
+/// This process becomes lcm-spy; returns only where that fails.
+Failure become(std::vector<std::string> words) {
+    std::vector<char*> arguments;
+    for (std::string& word : words) { arguments.push_back(word.data()); }
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    return failed("cannot execute " + words[0] + ": " + std::strerror(errno));
+}
+
+ExitCode spy(const LiveOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto command = spy_command(look_at_host(), machine->config.network.lcm_url);
+    if (!command) { return voice.fail(command.error()); }
+    voice.say("lcm-spy: double-click a channel for its fields, click a field's curve for its chart");
+    return voice.fail(become(std::move(*command)));
+}
+
+}  // namespace
+
+void add_spy(CLI::App& app, Action& action) {
+    CLI::App* verb =
+        app.add_subcommand("spy", "lcm-spy with the machine's types: every channel, field and curve, live");
+    const auto options = std::make_shared<LiveOptions>();
+    add_live_options(*verb, *options);
+    verb->footer(footer("  lockstep spy\n  lockstep spy --machine mill.textproto\n"));
+    verb->callback([&action, options] { action = [options] { return spy(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,43 @@
+// One clock's times by another, as both were last looked at; and a stretch of time that both have measured.
+#pragma once
+
+#include <cmath>
+
+#include "core/units.hpp"
+
+namespace lockstep {
+
+/// What another clock reads, near the instant at which the own one reads `own`. One clock by itself: all else 0.
+struct ClockView {
+    Tick own;
+    Tick other;             // then
+    double rate = 0;        // the other's ticks in one own tick, minus 1
+    Ticks error;            // `other` is at most so far off...
+    double rate_error = 0;  // ...and by so much more for each tick before or after
+
+    Tick at(Tick tick) const {
+        const Ticks since = tick - own;
+        return other + since + Ticks{std::llround(static_cast<double>(since.value) * rate)};
+    }
+    Ticks error_at(Tick tick) const {
+        const double since = std::abs(static_cast<double>((tick - own).value));
+        return error + Ticks{static_cast<std::int64_t>(std::ceil(since * rate_error))};
+    }
+};
+
+/// The same stretch of time on two clocks; between its ends their readings are in proportion.
+struct ClockStretch {
+    Tick from;
+    Ticks ticks;  // above 0
+    Tick other_from;
+    Ticks other_ticks;
+
+    /// Rounded down; beyond the ends as well.
+    Tick at(Tick tick) const {
+        const Int128 share = Int128{(tick - from).value} * other_ticks.value;
+        const Int128 whole = share / ticks.value - (share % ticks.value < 0 ? 1 : 0);
+        return other_from + Ticks{static_cast<std::int64_t>(whole)};
+    }
+};
+
+}  // namespace lockstep
