@@ -112,7 +112,8 @@ void JobCheck::begin_epoch(const job_t& record) {
 
 void JobCheck::turn(const job_t& record) {
     if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // nobody ran a frame of it
-    if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame), {record.feed_percent, record.rapid_percent})) {
+    if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame),
+                             {record.feed_percent, record.rapid_percent})) {
         differ(job_->label + ": its overrides were turned behind frame " + std::to_string(record.behind_frame) +
                ", but frames behind that had been run when it was recorded");
     }

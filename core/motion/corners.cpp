@@ -23,9 +23,7 @@ struct Joined {
     std::span<const AxisLimits> limits;
 
     /// Of move m: the first may have gone a part of its way.
-    double length(std::size_t m) const {
-        return m == 0 ? moves[0].remaining_mm(entry.along) : moves[m].length_mm;
-    }
+    double length(std::size_t m) const { return m == 0 ? moves[0].remaining_mm(entry.along) : moves[m].length_mm; }
     double turn_at(std::size_t j, std::size_t i) const {
         const PathMove* before = j == 0 ? entry.behind : &moves[j - 1];
         return turn(before, j == moves.size() ? nullptr : &moves[j], i);

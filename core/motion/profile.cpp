@@ -87,9 +87,7 @@ Profile plan_slowing(const ProfileRequest& request) {
     const double d = request.limits.max_deceleration;
     const double slowing = (request.entry * request.entry - top * top) / (2 * d);
     const Displacement slowed{request.from.raw + static_cast<Int128>(slowing * 0x1p64)};
-    if (slowed >= request.to) {
-        return plan_brake_through(request.from, request.to, request.entry, request.exit);
-    }
+    if (slowed >= request.to) { return plan_brake_through(request.from, request.to, request.entry, request.exit); }
     Profile profile = plan_brake_through(request.from, slowed, request.entry, top);
     ProfileRequest rest = request;
     rest.from = slowed;

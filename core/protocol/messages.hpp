@@ -141,18 +141,7 @@ struct MachineState {
 };
 
 /// Override: feed and rapid of coordinated moves, from the next frame that is not made yet.
-enum class CommandKind : std::uint8_t {
-    Home,
-    Move,
-    Run,
-    Hold,
-    Resume,
-    Stop,
-    EmergencyStop,
-    Reset,
-    MoveOwn,
-    Override
-};
+enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset, MoveOwn, Override };
 
 /// A client to the coordinator. Answered by a Reply with the same client and sequence; never replayed.
 struct Command {

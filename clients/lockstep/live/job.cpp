@@ -142,7 +142,8 @@ std::expected<double, Failure> planned_seconds(const Session& session, const Pro
     double ticks = 0;
     for (Leg& leg : *legs) {
         if (leg.moves.empty()) { continue; }
-        ticks += static_cast<double>(planner.path(std::move(leg.moves), {}, overrides).duration().value) / kSubticksPerTick;
+        ticks +=
+            static_cast<double>(planner.path(std::move(leg.moves), {}, overrides).duration().value) / kSubticksPerTick;
     }
     return ticks / machine.ticks_per_second();
 }

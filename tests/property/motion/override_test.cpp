@@ -1,4 +1,5 @@
-// What a path promises when feed and rapid are turned while it is run: all that it promised before, in bodies and tails.
+// What a path promises when feed and rapid are turned while it is run: all that it promised before, in bodies and
+// tails.
 #include <gtest/gtest.h>
 
 #include "core/motion/lookahead.hpp"
@@ -63,7 +64,9 @@ TEST(Overrides, TurnedAtAnyTimeKeepEveryLimitInBodiesAndTailsAndEndInTheSamePlac
             const Ticks end = std::min(now + run.frame, run.path.duration().ceil());
             ASSERT_NO_FATAL_FAILURE(watch.follow(run.path, now, end)) << "frame at " << now.value;
             now = end;
-            if (now < run.path.duration().ceil()) { ASSERT_NO_FATAL_FAILURE(expect_tail(run, watch, now)) << now.value; }
+            if (now < run.path.duration().ceil()) {
+                ASSERT_NO_FATAL_FAILURE(expect_tail(run, watch, now)) << now.value;
+            }
         }
         ASSERT_NO_FATAL_FAILURE(watch.expect_rest());
         for (std::size_t i = 0; i < run.machine.limits.size(); ++i) {
