@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +33,10 @@ class SkewMeter {
 public:
     /// So many frames wait for the axes whose record of them comes late.
     static constexpr std::size_t kFramesWaiting = 64;
+
+    using OnLate = std::function<void(const std::string& axis, std::span<const LateStep> steps)>;
+    /// `on_late` hears of the steps of each frame, axis by axis.
+    explicit SkewMeter(OnLate on_late = {}) : on_late_(std::move(on_late)) {}
 
     /// Where the steps of an axis are to be told.
     StepListener& steps_of(const std::string& axis) { return lateness(axis); }
@@ -57,6 +63,7 @@ private:
     static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
     void take_pair(const Steps::value_type& first, const Steps::value_type& second);
 
+    OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
     std::map<FrameKey, Steps> frames_;
     std::map<std::pair<std::string, std::string>, Amounts> skews_;

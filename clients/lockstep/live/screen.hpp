@@ -3,6 +3,7 @@
 
 #include <termios.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -25,7 +26,7 @@ private:
     std::optional<termios> keyboard_before_;  // nothing: standard input is no terminal
 };
 
-/// What draw() writes. Pure.
-std::string redrawn(const std::string& text);
+/// What draw() writes on a screen of so many rows: where they are too few, the last one says so. Pure.
+std::string redrawn(const std::string& text, std::size_t rows);
 
 }  // namespace lockstep

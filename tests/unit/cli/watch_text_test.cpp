@@ -132,7 +132,12 @@ TEST(Watch, ScaleIsThatOfTheProtocol) {
 }
 
 TEST(Screen, IsDrawnOverLineByLineAndClearedBehind) {
-    EXPECT_EQ(redrawn("a\nb\n"), "\x1b[Ha\x1b[K\r\nb\x1b[K\r\n\x1b[J");
+    EXPECT_EQ(redrawn("a\nb\n", 24), "\x1b[Ha\x1b[K\r\nb\x1b[K\x1b[J");
+}
+
+TEST(Screen, ThatIsTooLowSaysHowMuchIsMissing) {
+    EXPECT_EQ(redrawn("a\nb\nc\nd\n", 2), "\x1b[Ha\x1b[K\r\n... 3 more lines: make the window higher\x1b[K\x1b[J");
+    EXPECT_EQ(redrawn("a\nb\n", 2), "\x1b[Ha\x1b[K\r\nb\x1b[K\x1b[J");
 }
 
 }  // namespace
