@@ -39,12 +39,13 @@ bool Coordinator::must_listen() {
     return woken_.has_value();
 }
 
-/// A job that the last owner had begun is at its end, wherever the axes came to rest.
+/// A job that the last owner had begun is at its end, wherever the axes came to rest. Overrides hold on.
 void Coordinator::take_over(CoordinatorOutputs& out) {
     out.notices.push_back({CoordinatorNotice::Kind::Claimed, FaultCode::None, ownership_.term().number});
     if (const auto& last = ownership_.other_owner(); last && last->job >= jobs_) {
         const bool in_progress = last->job > 0 && !last->outcome;
         jobs_ = last->job;
+        overrides_ = last->overrides;
         outcome_ = in_progress ? JobOutcome::Stopped : last->outcome;
         cut_job_ = in_progress ? jobs_ : 0;
         cut_line_ = last->line;

@@ -88,6 +88,17 @@ TEST_F(Standby, TakesOverAtRestWhenTheOwnerEnds) {
     expect_moves_without_homing();
 }
 
+TEST_F(Standby, KeepsTheOverridesThatSomebodyTurned) {
+    settle();
+    ASSERT_EQ(vm.state()->overrides, Overrides{});
+    const auto asked = vm.turn({50, 25});
+    wait(0.1);
+    ASSERT_EQ(vm.reply_to(asked)->status, ReplyStatus::Accepted);
+    befall(Kind::Crash, owner, 100);
+    ASSERT_TRUE(taken_over());
+    EXPECT_EQ(vm.state()->overrides, (Overrides{50, 25}));
+}
+
 TEST_F(Standby, NumbersJobsOnFromThoseOfTheOwnerBefore) {
     start_job();
     const auto job = vm.state()->job;
