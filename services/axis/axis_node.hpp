@@ -54,6 +54,10 @@ public:
     /// before the machine time is known.
     AxisOutputs step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
+    /// The two halves of a loop: what is decided, and what the device is told of it.
+    AxisOutputs decide(Tick own, const AxisMail& mail, const OnStep& on_step);
+    void carry_out(Tick own, const AxisOutputs& decided);
+
     /// What was last wrong with the device; empty: nothing ever was.
     const std::string& trouble() const { return trouble_; }
     /// Machine time at the last step, and whether it is known.
@@ -64,7 +68,7 @@ public:
 private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
     void look(Tick own);
-    AxisOutputs decide(const AxisMail& mail);
+    AxisOutputs control(const AxisMail& mail);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "core/clock/clock_asker.hpp"
@@ -80,6 +81,8 @@ public:
     /// The newest the client has heard.
     const std::optional<MachineState>& state() const { return machine_state_; }
     const std::vector<std::optional<AxisState>>& axis_states() const { return axis_states_; }
+    /// When an axis's device's clock came to read this, in true time.
+    double true_time(std::size_t i, Tick device) const { return clocks_of(i).device.truth(device, options_.start); }
     /// What an axis's device's clock reads now.
     Tick device_time(std::size_t i) const { return clocks_of(i).device.at(now_, options_.start); }
     /// An axis's device, which outlives its processes.
@@ -98,6 +101,8 @@ private:
     struct Process {
         bool alive = false;
         Tick next;
+        Tick stalls_until{};  // in its next loop, if that is to come
+        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided{};  // and not done: it stalls in a loop
     };
     /// A fault begins or ends.
     struct Turn {
@@ -120,8 +125,12 @@ private:
     void take_clock_mail(std::size_t process);
     void ask_time(std::size_t i);
 
-    void step_axis(std::size_t i);
-    void step_coordinator();
+    void run_loop(std::size_t process);
+    AxisOutputs decide_axis(std::size_t i);
+    CoordinatorOutputs decide_coordinator();
+    void carry_out(std::size_t process, const AxisOutputs& out);
+    void carry_out(std::size_t process, const CoordinatorOutputs& out);
+    void carry_out(std::size_t /*process*/, std::monostate /*nothing*/) {}
     void listen();
     void send(std::size_t from, std::size_t to, SharedMessage message);
     void multicast(VirtualMessage message, std::size_t from);

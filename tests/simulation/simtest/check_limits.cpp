@@ -6,8 +6,9 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kRounding = 1 + 1e-5;  // what integers make of doubles
-constexpr double kJointTicks = 2;       // phases of a motion meet on whole ticks: each may be off by one
+constexpr double kRounding = 1 + 1e-5;   // what integers make of doubles
+constexpr double kOwnClocks = 1 + 1e-3;  // rates apart, and slewing: boards with clocks of their own
+constexpr double kJointTicks = 2;        // phases of a motion meet on whole ticks: each may be off by one
 
 struct Limits {
     double start = 0;  // steps per tick
@@ -16,9 +17,10 @@ struct Limits {
     double decel = 0;
 };
 
-Limits in_ticks(const AxisConfig& axis, std::int64_t tick_ns) {
-    const double tick = static_cast<double>(tick_ns) * 1e-9;
-    const double scale = axis.steps_per_mm * tick;
+Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
+    const bool own_clocks = machine.timing.time_source == TimeSource::Network;
+    const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
+    const double scale = axis.steps_per_mm * tick * (own_clocks ? kOwnClocks : 1);
     return {axis.start_velocity_mm_s * scale * kRounding, axis.max_velocity_mm_s * scale * kRounding,
             axis.max_accel_mm_s2 * scale * tick * kRounding, axis.max_decel_mm_s2 * scale * tick * kRounding};
 }
@@ -27,7 +29,7 @@ Limits in_ticks(const AxisConfig& axis, std::int64_t tick_ns) {
 class LimitCheck {
 public:
     LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, Violations& violations)
-        : limits_(in_ticks(recording.machine.axes[axis], recording.machine.tick_ns)),
+        : limits_(in_ticks(recording.machine.axes[axis], recording.machine)),
           steps_(recording.steps_of(job, axis)),
           course_(job.homing ? nullptr : &job.course.axes[axis]),
           // Between two epochs, and between an axis's own moves, there is a rest of at least so long.
@@ -35,6 +37,7 @@ public:
                       recording.machine.slot_ticks().value),
           axis_(axis),
           first_(job.first_step[axis]),
+          stretch_(recording.machine.timing.time_source == TimeSource::Network ? kOwnClocks : 1),
           ceases_(job.emergency.has_value()),
           violations_(violations) {
         // Steps beyond the course are another check's matter.
@@ -92,7 +95,8 @@ private:
 
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n + 1, n + m) > 0) { return; }
-        const double most = course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding;
+        const double most =
+            course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * stretch_;
         const double speed = static_cast<double>(m) / (time(n, n + m) + 1);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
@@ -165,7 +169,8 @@ private:
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
-    bool ceases_;  // the last step may be followed by none, at any speed
+    double stretch_;  // of time, by a clock of the device's own
+    bool ceases_;     // the last step may be followed by none, at any speed
     Violations& violations_;
 };
 

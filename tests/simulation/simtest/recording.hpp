@@ -23,6 +23,14 @@ struct Track {
     std::int64_t net_steps = 0;  // what its pieces amount to
     bool cut = false;            // ended early: at a switch
     FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
+    Tick commanded;              // machine time of its start; all else here is the device's
+    Ticks commanded_ticks;
+};
+
+/// How far its clock may be off, as an axis has published it.
+struct PublishedBound {
+    Tick at;
+    Ticks error;
 };
 
 /// A process ended in the middle of a run: its device ran on, and nobody says what.
@@ -37,6 +45,11 @@ struct AxisRecord {
     std::vector<StepEdge> steps;  // from power-up on
     std::vector<Track> tracks;
     std::vector<LostRun> lost;
+    std::vector<Tick> true_ticks;  // of the steps, in true time, which is machine time; steps are in the device's
+    std::vector<PublishedBound> bounds;
+
+    /// Published last before that instant.
+    Ticks bound_at(Tick truth) const;
 };
 
 /// One axis's share of a frame as sent: where its body begins and ends, and where its tail does.
@@ -101,6 +114,11 @@ struct Recording {
     std::span<const StepEdge> steps_of(const JobRecord& job, std::size_t axis) const {
         return std::span(axes[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
     }
+    /// When they were made, in true time.
+    std::span<const Tick> true_ticks_of(const JobRecord& job, std::size_t axis) const {
+        return std::span(axes[axis].true_ticks)
+            .subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
+    }
     std::uint64_t steps() const;
     /// Of every step: axis, tick, direction.
     std::uint64_t hash() const;
@@ -109,10 +127,10 @@ struct Recording {
 /// Fills a recording's axes and frames from a machine in motion.
 class Recorder : public VirtualObserver {
 public:
-    explicit Recorder(Recording& recording)
-        : recording_(recording), epoch_(recording.axes.size(), 0), armed_(recording.axes.size(), 0) {}
+    Recorder(const VirtualMachine& vm, Recording& recording)
+        : vm_(vm), recording_(recording), epoch_(recording.axes.size(), 0), armed_(recording.axes.size(), 0) {}
 
-    void on_step(std::size_t axis, StepEdge step) override { recording_.axes[axis].steps.push_back(step); }
+    void on_step(std::size_t axis, StepEdge step) override;
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
@@ -121,6 +139,7 @@ private:
     void take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node);
     void keep(const Frame& frame);
 
+    const VirtualMachine& vm_;
     Recording& recording_;
     std::vector<Epoch> epoch_;        // the axes are in; 0: none
     std::vector<FrameNumber> armed_;  // in that epoch

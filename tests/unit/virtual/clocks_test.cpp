@@ -64,7 +64,7 @@ public:
 
 private:
     double truth_of(std::size_t axis, Tick device) const {
-        return test::true_time(options_.clocks[axis].device, device, options_.start);
+        return options_.clocks[axis].device.truth(device, options_.start);
     }
     std::vector<Tick> commanded_of(std::size_t axis) const {
         std::vector<Tick> steps;
