@@ -1,6 +1,7 @@
 #include "core/axis/device_time.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/axis/retime.hpp"
 
@@ -24,6 +25,7 @@ Ticks at_least_one_each(Ticks ticks, std::size_t pieces) {
 
 DeviceTime::DeviceTime(const MachineConfig& machine)
     : source_(machine.timing.time_source),
+      tick_ns_(machine.tick_ns),
       ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       machine_(machine.tick_ns),
       shown_(machine.tick_ns) {}
@@ -37,8 +39,9 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     const Tick shown = device.shares_clock ? own : device.now;
     shown_.take({own, shown, shown, own});
     own_ = own;
-    if (!machine_.known()) { return false; }
-    now_ = machine_.advance(own, in_use);
+    if (std::exchange(shown_steps_, shown_.steps()) != shown_.steps()) { machine_ = MachineTime(tick_ns_); }
+    if (shown_.doubtful() || !machine_.known()) { return false; }
+    now_ = std::max(now_, machine_.advance(own, in_use));
     return true;
 }
 
@@ -115,15 +118,14 @@ void DeviceTime::load(device::LoadFrame& frame) {
 
 /// `loaded.body_end` is where the frame is to start, and becomes what it says.
 void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
-    const auto map = [this](Tick machine) { return to_device(machine); };
     const Tick start = loaded.body_end;
-    const Ticks body = at_least_one_each(map(machine_end) - start, frame.track.body.size());
+    const Ticks body = at_least_one_each(to_device(machine_end) - start, frame.track.body.size());
     loaded.body_end = start + body;
     const Tick machine_rest = machine_end + length(frame.track.tail);
-    const Ticks tail = at_least_one_each(map(machine_rest) - loaded.body_end, frame.track.tail.size());
+    const Ticks tail = at_least_one_each(to_device(machine_rest) - loaded.body_end, frame.track.tail.size());
     loaded.end = frame.track.tail.empty() ? loaded.body_end : loaded.body_end + tail;
-    (void)retime(frame.track.body, {frame.start, start, loaded.body_end}, map);
-    (void)retime(frame.track.tail, {machine_end, loaded.body_end, loaded.end}, map);
+    (void)retime(frame.track.body, {start, loaded.body_end});
+    (void)retime(frame.track.tail, {loaded.body_end, loaded.end});
     frame.start = start;
 }
 

@@ -30,8 +30,9 @@ public:
         Tick now;                   // what it shows
         bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
     };
-    /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet. `in_use`: the axis
-    /// moves, its time is slewed and not set.
+    /// Each loop, when this process's clock reads `own`. False: the machine time is not known, not yet or no longer: the
+    /// device's clock says that this process's was set, and all that was heard by it is void. `in_use`: the axis moves,
+    /// its time is slewed and not set.
     bool look(Tick own, const Device& device, bool in_use);
 
     /// At the last look, as all below.
@@ -65,9 +66,11 @@ private:
     void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
 
     TimeSource source_;
+    std::int64_t tick_ns_;
     Ticks ptp_error_;
     MachineTime machine_;
     ClockEstimator shown_;  // by the device
+    std::uint64_t shown_steps_ = 0;
     Tick own_;
     Tick now_;
     Tick device_;

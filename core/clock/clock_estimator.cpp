@@ -33,8 +33,7 @@ void ClockEstimator::take(const ClockExchange& exchange) {
     if (!known()) {
         own_origin_ = exchange.sent;
         other_origin_ = exchange.received;
-        keep(sample_of(exchange));
-        return fit();
+        return keep(sample_of(exchange));
     }
     const Sample sample = sample_of(exchange);
     const Span expected = ahead_at(sample.own);
@@ -44,14 +43,14 @@ void ClockEstimator::take(const ClockExchange& exchange) {
         doubtful_.reset();
         keep(sample);
     } else if (doubtful_ && agree(*doubtful_, sample)) {  // twice the same: it is so
-        kept_.assign(1, sample);
+        kept_.clear();
+        keep(sample);
         doubtful_.reset();
         ++steps_;
     } else {
         doubtful_ = sample;
     }
     doubt_ = doubtful_ ? apart + 2 * doubtful_->half : 0;
-    fit();
 }
 
 bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
@@ -62,12 +61,12 @@ bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
 /// The best of its stretch of time; those that have left the window go.
 void ClockEstimator::keep(const Sample& sample) {
     const auto stretch_of = [this](const Sample& s) { return std::floor(s.own / stretch_); };
-    if (!kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample)) {
-        if (sample.half <= kept_.back().half) { kept_.back() = sample; }
-    } else {
-        kept_.push_back(sample);
-    }
+    const bool same_stretch = !kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample);
+    if (same_stretch && sample.half >= kept_.back().half) { return; }
+    if (same_stretch) { kept_.pop_back(); }
+    kept_.push_back(sample);
     while (kept_.front().own < sample.own - window_) { kept_.pop_front(); }
+    fit();
 }
 
 /// The rate that the exchanges suggest, within what they prove.

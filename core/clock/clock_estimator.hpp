@@ -58,6 +58,8 @@ public:
     double rate() const { return rate_; }
     /// How often one of the clocks was found to have been set.
     std::uint64_t steps() const { return steps_; }
+    /// The newest exchange contradicts those before: one more will say whether a clock was set.
+    bool doubtful() const { return doubtful_.has_value(); }
 
 private:
     /// Relative to the first exchange, so that fractions of a tick are kept.

@@ -7,7 +7,8 @@ namespace lockstep::simtest {
 namespace {
 
 constexpr double kRounding = 1 + 1e-5;   // what integers make of doubles
-constexpr double kOwnClocks = 1 + 1e-3;  // rates apart, and slewing: boards with clocks of their own
+constexpr double kOwnClocks = 1 + 2e-3;  // rates apart, and slewing: boards with clocks of their own
+constexpr double kOwnClockTicks = 4;     // there, each piece's end is put on a tick
 constexpr double kJointTicks = 2;        // phases of a motion meet on whole ticks: each may be off by one
 
 struct Limits {
@@ -20,9 +21,11 @@ struct Limits {
 Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
     const bool own_clocks = machine.timing.time_source == TimeSource::Network;
     const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
-    const double scale = axis.steps_per_mm * tick * (own_clocks ? kOwnClocks : 1);
+    const double rate = own_clocks ? kOwnClocks : 1;
+    const double scale = axis.steps_per_mm * tick * rate;
     return {axis.start_velocity_mm_s * scale * kRounding, axis.max_velocity_mm_s * scale * kRounding,
-            axis.max_accel_mm_s2 * scale * tick * kRounding, axis.max_decel_mm_s2 * scale * tick * kRounding};
+            axis.max_accel_mm_s2 * scale * tick * rate * kRounding,
+            axis.max_decel_mm_s2 * scale * tick * rate * kRounding};
 }
 
 /// One job's steps of one axis.
@@ -37,6 +40,7 @@ public:
                       recording.machine.slot_ticks().value),
           axis_(axis),
           first_(job.first_step[axis]),
+          rounding_(recording.machine.timing.time_source == TimeSource::Network ? kOwnClockTicks : 1),
           stretch_(recording.machine.timing.time_source == TimeSource::Network ? kOwnClocks : 1),
           ceases_(job.emergency.has_value()),
           violations_(violations) {
@@ -97,21 +101,24 @@ private:
         if (joints(n + 1, n + m) > 0) { return; }
         const double most =
             course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * stretch_;
-        const double speed = static_cast<double>(m) / (time(n, n + m) + 1);
+        const double speed = static_cast<double>(m) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
     void check_change(std::size_t n, std::size_t m) {
         const double t1 = time(n - m, n);
         const double t2 = time(n, n + m);
-        const double between = (t1 + t2 + 1) / 2 + kJointTicks;
+        const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
         const std::uint32_t jumps = joints(n - m + 1, n + m);
         if (jumps > 0) { return check_change_with_joints(n, m, between, jumps); }
         const auto steps = static_cast<double>(m);
-        const double rises = steps / (t2 + 1) - steps / std::max(t1 - 1, 1e-3);
-        const double falls = steps / (t1 + 1) - steps / std::max(t2 - 1, 1e-3);
-        if (rises > limits_.accel * between) { object("acceleration", n, rises, limits_.accel * between, m); }
-        if (falls > limits_.decel * between) { object("deceleration", n, falls, limits_.decel * between, m); }
+        const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
+        const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
+        const double rates_differ = (stretch_ - 1) * steps / std::min(t1, t2);  // of one frame from the next
+        const double most_rise = limits_.accel * between + rates_differ;
+        const double most_fall = limits_.decel * between + rates_differ;
+        if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }
+        if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
 
     void check_change_with_joints(std::size_t n, std::size_t m, double between, std::uint32_t jumps) {
@@ -136,7 +143,7 @@ private:
     double speed_beside_rest(std::size_t gap, double rate) const {
         const double joined = joints_beside_rest(gap) * limits_.start;
         const bool between = gap > 0 && gap < steps_.size();
-        const double slow = between ? 1 / (time(gap - 1, gap) - 1) : 0;
+        const double slow = between ? 1 / (time(gap - 1, gap) - rounding_) : 0;
         const double slowest = std::max(limits_.start, slow);
         return std::sqrt(slowest * slowest + 2 * rate) + joined;
     }
@@ -148,7 +155,7 @@ private:
     }
     void check_ramp(const char* rule, std::size_t from, std::size_t at, std::size_t m, double speed, double rate) {
         if (joints(from + 1, from + m) > 0) { return; }
-        const double t = time(from, from + m) + 1;
+        const double t = time(from, from + m) + rounding_;
         const double mean = static_cast<double>(m) / t;
         const double most = speed + rate * (t / 2 + kJointTicks);
         if (mean > most) { object(rule, at, mean, most, m); }
@@ -169,8 +176,9 @@ private:
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
-    double stretch_;  // of time, by a clock of the device's own
-    bool ceases_;     // the last step may be followed by none, at any speed
+    double rounding_;  // ticks, of the time between two steps
+    double stretch_;   // of time, by a clock of the device's own
+    bool ceases_;      // the last step may be followed by none, at any speed
     Violations& violations_;
 };
 

@@ -1,7 +1,5 @@
 #include "tests/simulation/simtest/coverage.hpp"
 
-#include <cstdlib>
-
 #include "tests/simulation/simtest/explain.hpp"
 #include "tests/simulation/simtest/names.hpp"
 
@@ -34,8 +32,8 @@ constexpr std::array kInjectedNames{"freeze of an axis that must not stop the ma
                                     "coordinator cut off one way",
                                     "stall in a loop of an axis",
                                     "stall in a loop of the coordinator",
-                                    "clock set by less than a slot",
-                                    "clock set by more"};
+                                    "clock set forward",
+                                    "clock set back"};
 
 std::string row_name(const AxisTransition& row) {
     return std::string(name_of(row.from)) + " on " + std::string(name_of(row.event));
@@ -45,8 +43,7 @@ std::string_view injected_name(const VirtualFault& fault, const MachineConfig& m
     const std::size_t coordinator = fault.process == machine.axes.size() ? 1 : 0;
     if (fault.in_loop) { return kInjectedNames[12 + coordinator]; }
     switch (fault.kind) {
-        case VirtualFault::Kind::SetClock:
-            return kInjectedNames[std::abs(fault.set_by.value) < machine.slot_ticks().value ? 14 : 15];
+        case VirtualFault::Kind::SetClock: return kInjectedNames[fault.set_by > Ticks{} ? 14 : 15];
         case VirtualFault::Kind::Freeze: return kInjectedNames[coordinator + (is_tolerable(fault, machine) ? 0 : 2)];
         case VirtualFault::Kind::Crash: return kInjectedNames[4 + coordinator];
         case VirtualFault::Kind::Cut: break;
