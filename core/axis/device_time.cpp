@@ -1,7 +1,6 @@
 #include "core/axis/device_time.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/axis/retime.hpp"
 
@@ -25,10 +24,10 @@ Ticks at_least_one_each(Ticks ticks, std::size_t pieces) {
 
 DeviceTime::DeviceTime(const MachineConfig& machine)
     : source_(machine.timing.time_source),
-      tick_ns_(machine.tick_ns),
       ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       machine_(machine.tick_ns),
-      shown_(machine.tick_ns) {}
+      shown_(machine.tick_ns),
+      undoubted_(machine.tick_ns) {}
 
 bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     device_ = device.now;
@@ -37,12 +36,30 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
         return true;
     }
     const Tick shown = device.shares_clock ? own : device.now;
-    shown_.take({own, shown, shown, own});
+    const bool is_certain = certain(own, shown);
     own_ = own;
-    if (std::exchange(shown_steps_, shown_.steps()) != shown_.steps()) { machine_ = MachineTime(tick_ns_); }
-    if (shown_.doubtful() || !machine_.known()) { return false; }
-    now_ = std::max(now_, machine_.advance(own, in_use));
+    if (!is_certain || !machine_.known()) { return false; }
+    now_ = machine_.advance(own, in_use);
     return true;
+}
+
+/// Takes a look at the device's clock.
+bool DeviceTime::certain(Tick own, Tick shown) {
+    const auto expected = shown_.known() ? shown_.at(own) : ClockEstimator::Reading{shown, {}};
+    const std::uint64_t times_set = shown_.steps();
+    const bool doubted_before = shown_.doubtful();
+    if (!doubted_before) { undoubted_ = shown_; }
+    shown_.take({own, shown, shown, own});
+    if (shown_.doubtful() && !doubted_before) {
+        set_by_ = expected.other - shown;
+        set_error_ = expected.error + Ticks{2};
+    }
+    if (shown_.steps() != times_set) {  // what was known of rates holds on
+        machine_.own_was_set(set_by_, set_error_);
+        shown_ = undoubted_;
+        shown_.own_was_set(set_by_, set_error_);
+    }
+    return !shown_.doubtful();
 }
 
 Ticks DeviceTime::error_at(Tick machine) const {

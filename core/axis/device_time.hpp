@@ -30,9 +30,9 @@ public:
         Tick now;                   // what it shows
         bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
     };
-    /// Each loop, when this process's clock reads `own`. False: the machine time is not known, not yet or no longer: the
-    /// device's clock says that this process's was set, and all that was heard by it is void. `in_use`: the axis moves,
-    /// its time is slewed and not set.
+    /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet; or, for one loop, it
+    /// is in doubt: this process's clock does not go by the device's, which nobody can set. If it was set, the device's
+    /// tells by how much. `in_use`: the axis moves, its time is slewed and not set.
     bool look(Tick own, const Device& device, bool in_use);
 
     /// At the last look, as all below.
@@ -59,6 +59,7 @@ private:
         Ticks tail_error;
     };
 
+    bool certain(Tick own, Tick shown);
     Tick to_device(Tick machine) const { return shown_.at(machine_.own_at(machine)).other; }
     Tick to_machine(Tick device) const;
     Ticks error_at(Tick machine) const;
@@ -66,11 +67,12 @@ private:
     void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
 
     TimeSource source_;
-    std::int64_t tick_ns_;
     Ticks ptp_error_;
     MachineTime machine_;
-    ClockEstimator shown_;  // by the device
-    std::uint64_t shown_steps_ = 0;
+    ClockEstimator shown_;      // by the device
+    ClockEstimator undoubted_;  // the same, before a look that contradicts it
+    Ticks set_by_;              // this process's clock, as it seemed when it was last in doubt...
+    Ticks set_error_;
     Tick own_;
     Tick now_;
     Tick device_;

@@ -53,6 +53,14 @@ void ClockEstimator::take(const ClockExchange& exchange) {
     doubt_ = doubtful_ ? apart + 2 * doubtful_->half : 0;
 }
 
+void ClockEstimator::own_was_set(Ticks by, Ticks error) {
+    own_origin_ += by;
+    for (Sample& sample : kept_) { sample.half += static_cast<double>(error.value); }
+    doubtful_.reset();
+    doubt_ = 0;
+    if (known()) { fit(); }
+}
+
 bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
     const double drift = kMaxRate * std::abs(one.own - other.own);
     return std::abs(one.ahead - other.ahead) <= one.half + other.half + drift;

@@ -39,6 +39,9 @@ public:
     /// Exchanges that cannot be (answered before received, arrived before sent) are left out.
     void take(const ClockExchange& exchange);
 
+    /// The own clock was set forward by so much, which is known within `error`: what was learned by it holds on.
+    void own_was_set(Ticks by, Ticks error);
+
     /// Whether there has been an exchange; before that nothing else may be asked.
     bool known() const { return !kept_.empty(); }
 
