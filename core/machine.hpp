@@ -85,6 +85,9 @@ struct MachineConfig {
     std::vector<AxisConfig> axes;
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }
+    constexpr double microseconds(Ticks ticks) const {
+        return static_cast<double>(ticks.value) * static_cast<double>(tick_ns) * 1e-3;
+    }
     Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
     Ticks clock_error_limit() const { return {timing.clock_error_limit_us * 1000 / tick_ns}; }
     Ticks frame_ticks() const { return slot_ticks() * timing.frame_slots; }

@@ -27,6 +27,7 @@ void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told
 void tell(const LogEvent& event, LogListener& listener) {
     if (is_of(event.channel, "_STEPS")) { return tell<step_batch_t>(event, listener, &LogListener::on_steps); }
     if (is_of(event.channel, "_POSITION")) { return tell<axis_position_t>(event, listener, &LogListener::on_position); }
+    if (is_of(event.channel, "_HEALTH")) { return tell<axis_health_t>(event, listener, &LogListener::on_health); }
     if (is_of(event.channel, "_RUN")) { return tell<run_t>(event, listener, &LogListener::on_run); }
     if (is_of(event.channel, "_JOB")) { return tell<job_t>(event, listener, &LogListener::on_job); }
     listener.on_foreign(event.channel);

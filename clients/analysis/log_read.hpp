@@ -7,6 +7,7 @@
 #include <expected>
 #include <filesystem>
 #include <functional>
+#include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/run_t.hpp>
@@ -25,6 +26,7 @@ public:
     virtual void on_position(const axis_position_t& message, std::uint64_t offset) = 0;
     virtual void on_run(const run_t& message, std::uint64_t offset) = 0;
     virtual void on_job(const job_t& message, std::uint64_t offset) = 0;
+    virtual void on_health(const axis_health_t& /*message*/, std::uint64_t /*offset*/) {}
     /// An event of a channel that is not Lockstep's.
     virtual void on_foreign(std::string_view channel) = 0;
     virtual void on_damage(std::uint64_t offset, std::string what) = 0;

@@ -16,12 +16,14 @@ from collections import defaultdict
 from itertools import accumulate
 
 try:
-    from lockstep import axis_position_t, job_t, run_t, step_batch_t
+    import lockstep
+    from lockstep import axis_position_t, step_batch_t
 except ImportError:
     sys.exit("read_log: no module 'lockstep': set PYTHONPATH to share/lockstep/python beside the programs,\n"
              "in the build tree: export PYTHONPATH=build/share/lockstep/python")
 
-TYPES = {kind._get_packed_fingerprint(): kind for kind in (axis_position_t, job_t, run_t, step_batch_t)}
+TYPES = {kind._get_packed_fingerprint(): kind
+         for kind in vars(lockstep).values() if hasattr(kind, "_get_packed_fingerprint")}
 EVENT = struct.Struct(">IQQII")  # sync word, number, time in us, lengths of channel and data
 SYNC = 0xEDA1DA01
 

@@ -34,7 +34,7 @@ AxisOutputs AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_st
     look(own);
     knows_time_ = time_.look(own, {status_.now, device_.shares_clock}, !controller_.at_rest());
     AxisOutputs out = knows_time_ ? control(mail) : AxisOutputs{};
-    if (const auto drained = driver_.drain_capture(on_step); !drained) { note(drained.error()); }
+    drain(on_step, out.device_clock);
     return out;
 }
 
@@ -43,9 +43,20 @@ void AxisNode::carry_out(Tick own, const AxisOutputs& decided) {
     if (device_.simulated) { device_.simulated->advance(own); }
 }
 
+void AxisNode::drain(const OnStep& on_step, const ClockView& machine_time) {
+    HealthMeter* meter = knows_time_ ? meter_ : nullptr;
+    const auto drained = driver_.drain_capture([&](StepEdge step) {
+        on_step(step);
+        if (meter != nullptr) { meter->step({machine_time.at(step.tick), step.direction}); }
+    });
+    if (!drained) { return note(drained.error()); }
+    if (meter != nullptr) { meter->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
+}
+
 AxisOutputs AxisNode::control(const AxisMail& mail) {
+    const DeviceStatus status = time_.in_machine_time(status_);
     AxisOutputs out = controller_.step({.now = time_.now(),
-                                        .device = time_.in_machine_time(status_),
+                                        .device = status,
                                         .device_failed = std::exchange(failed_, false),
                                         .frames = mail.frames,
                                         .peers = mail.peers,
@@ -53,6 +64,10 @@ AxisOutputs AxisNode::control(const AxisMail& mail) {
                                         .commands = mail.commands,
                                         .requests = mail.requests,
                                         .clock_error = time_.error()});
+    if (meter_ != nullptr) {
+        meter_->look(time_.now(), status);
+        meter_->take(out);
+    }
     for (ExecutedTrack& track : out.tracks) { track = time_.in_device_time(std::move(track)); }
     for (DeviceOrder& order : out.orders) { order = time_.in_device_time(std::move(order)); }
     out.device_clock = time_.device_clock();
@@ -72,6 +87,7 @@ void AxisNode::look(Tick own) {
 
 void AxisNode::note(std::string trouble) {
     trouble_ = std::move(trouble);
+    ++troubles_;
     failed_ = true;
 }
 

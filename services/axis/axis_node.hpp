@@ -10,6 +10,7 @@
 
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device_time.hpp"
+#include "core/axis/health_meter.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -58,6 +59,14 @@ public:
     AxisOutputs decide(Tick own, const AxisMail& mail, const OnStep& on_step);
     void carry_out(Tick own, const AxisOutputs& decided);
 
+    /// From the next step on every loop is measured. `meter` outlives the node.
+    void measure(HealthMeter& meter) { meter_ = &meter; }
+    /// What it is said of the device: orders refused and looks that failed, and steps whose time was not kept.
+    std::uint64_t troubles() const { return troubles_; }
+    std::uint64_t lost_captures() const { return driver_.lost_captures(); }
+    /// How far `now` may be off.
+    Ticks clock_error() const { return time_.error(); }
+
     /// What was last wrong with the device; empty: nothing ever was.
     const std::string& trouble() const { return trouble_; }
     /// Machine time at the last step, and whether it is known.
@@ -69,6 +78,7 @@ private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
     void look(Tick own);
     AxisOutputs control(const AxisMail& mail);
+    void drain(const OnStep& on_step, const ClockView& machine_time);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
@@ -81,7 +91,9 @@ private:
     Tick clock_moved_;          // when, by this process's clock, the device's clock was last seen to go on
     Ticks longest_standstill_;  // of it: a device that is late looks the same for a while
     std::string trouble_;
-    bool failed_ = false;  // since the controller was last told
+    std::uint64_t troubles_ = 0;
+    HealthMeter* meter_ = nullptr;  // null: nothing is measured
+    bool failed_ = false;           // since the controller was last told
 };
 
 }  // namespace lockstep

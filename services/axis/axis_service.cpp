@@ -43,14 +43,19 @@ public:
           node_(std::move(node)),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
-          recorder_(setup.machine, setup.axis, setup.identity, *sink_) {
+          recorder_(setup.machine, setup.axis, setup.identity, *sink_),
+          meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
+        node_.measure(meter_);
         if (setup.machine.timing.time_source != TimeSource::Network) { return; }
         const ClockAsker asker(static_cast<std::uint32_t>(setup.axis), setup.identity, setup.machine.tick_ns);
         clock_client_ = std::make_unique<ClockClient>(bus_.participant, asker, [clock] { return clock.now(); });
     }
 
-    /// False: another process runs this axis.
-    bool loop() {
+    AxisService(const AxisService&) = delete;  // the node measures itself by this object
+    AxisService& operator=(const AxisService&) = delete;
+
+    /// `begun`: when the loop was to begin, on CLOCK_MONOTONIC. False: another process runs this axis.
+    bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
         hear();
         const Tick now = clock_.now();
         const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
@@ -59,6 +64,8 @@ public:
         recorder_.loop(out, node_.controller().zero_count());
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
+        meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
+        say_health(skipped_loops);
         return !doubled_;
     }
 
@@ -83,17 +90,34 @@ private:
         if (!machine_.empty()) { machine_heard_ = clock_.now(); }
     }
 
+    void say_health(std::uint64_t skipped_loops) {
+        const auto health = meter_.report(node_.clock_error(), {.messages = refused_messages(),
+                                                                .orders = node_.troubles(),
+                                                                .captures = node_.lost_captures(),
+                                                                .records = sink_->failures(),
+                                                                .skipped_loops = skipped_loops});
+        if (!health) { return; }
+        (void)bus_.health.write(*health);
+        recorder_.health(*health);
+    }
+
+    std::uint64_t refused_messages() const {
+        return bus_.frames.refusals().count + bus_.states.refusals().count + bus_.machine.refusals().count +
+               bus_.commands.refusals().count + bus_.requests.refusals().count;
+    }
+
     /// Once every few seconds: whom it waits for, what it was sent and did not believe, what its device says.
     void complain(Tick now) {
         const Ticks period{5'000'000'000 / setup_.machine.tick_ns};
         if (now - complained_ < period) { return; }
         complained_ = now;
         if (now - machine_heard_ > period) { log_info("waits for the coordinator of machine " + setup_.machine.name); }
-        const std::uint64_t refused = bus_.frames.refusals().count + bus_.states.refusals().count;
+        const std::uint64_t refused = refused_messages();
         if (refused != refused_) {
             refused_ = refused;
             log_warning(std::to_string(refused) + " messages refused so far: " + bus_.frames.refusals().last + " " +
-                        bus_.states.refusals().last);
+                        bus_.states.refusals().last + " " + bus_.machine.refusals().last + " " +
+                        bus_.commands.refusals().last + " " + bus_.requests.refusals().last);
         }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
         if (node_.trouble() != trouble_) {
@@ -108,6 +132,7 @@ private:
     AxisBus bus_;
     std::unique_ptr<RecordSink> sink_;
     AxisRecorder recorder_;
+    HealthMeter meter_;
     std::vector<Frame> frames_;
     std::vector<AxisState> states_;
     std::vector<MachineState> machine_;
@@ -143,8 +168,8 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
 
     PeriodicLoop periodic(loop_period(machine));
     bool alone = true;
-    periodic.run(stop, [&](nanoseconds) {
-        alone = alone && service.loop();
+    periodic.run(stop, [&](nanoseconds begun) {
+        alone = alone && service.loop(begun, periodic.skipped_periods());
         if (!alone) { stop.request(); }
     });
     service.finish();

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "services/wire/translate_lcm.hpp"
-
 namespace lockstep {
 
 AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink)

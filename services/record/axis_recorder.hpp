@@ -9,6 +9,7 @@
 #include "services/record/record_sink.hpp"
 #include "services/wire/lcm_channels.hpp"
 #include "services/wire/step_batcher.hpp"
+#include "services/wire/translate_lcm.hpp"
 
 namespace lockstep {
 
@@ -25,6 +26,7 @@ public:
     /// After each loop: its outputs, and what the axis's zero then is. Steps and runs are recorded in the device's
     /// time, with what that is in machine time.
     void loop(const AxisOutputs& out, std::int64_t zero_count);
+    void health(const AxisHealth& health) { sink_.publish(channels_.health, to_lcm(machine_, health)); }
     /// At the end: what is still in hand.
     void finish();
 

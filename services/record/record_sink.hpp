@@ -11,8 +11,10 @@ namespace lockstep {
 class RecordSink {
 public:
     virtual ~RecordSink() = default;
-    /// utime: microseconds of machine time. What cannot be written is the sink's to count: motion never waits for it.
+    /// utime: microseconds of machine time. What cannot be written is counted: motion never waits for it.
     virtual void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) = 0;
+    /// Messages that could not be written.
+    virtual std::uint64_t failures() const { return 0; }
 
     /// Message: a type that lcm-gen made.
     template <typename Message>

@@ -16,7 +16,7 @@ public:
     void write(const std::string& channel, std::int64_t /*utime*/, std::span<const std::uint8_t> bytes) override {
         (void)publisher_.publish_bytes(channel, bytes);
     }
-    std::uint64_t failures() const { return publisher_.failures(); }
+    std::uint64_t failures() const override { return publisher_.failures(); }
 
 private:
     LcmPublisher publisher_;
@@ -26,14 +26,15 @@ class LogSink : public RecordSink {
 public:
     explicit LogSink(LogWriter writer) : writer_(std::move(writer)) {}
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
-        good_ = writer_.write(channel, utime, bytes) && good_;
+        failures_ += writer_.write(channel, utime, bytes) ? 0 : 1;
     }
     /// False: the file lacks something.
-    bool finish() { return writer_.flush() && good_; }
+    bool finish() { return writer_.flush() && failures_ == 0; }
+    std::uint64_t failures() const override { return failures_; }
 
 private:
     LogWriter writer_;
-    bool good_ = true;
+    std::uint64_t failures_ = 0;
 };
 
 /// Where nothing is recorded.

@@ -33,6 +33,7 @@ struct AxisBus {
     Reader<AxisCommand> commands{participant};
     Reader<Command> requests{participant};  // clients', to the coordinator
     Writer<AxisState> state{participant};
+    Writer<AxisHealth> health{participant};
 };
 
 struct CoordinatorBus {
@@ -53,6 +54,7 @@ struct ClientBus {
     Reader<Reply> replies{participant, [to = arrivals.get()] { to->notify(); }};
     Reader<MachineState> machine{participant, [to = arrivals.get()] { to->notify(); }};
     Reader<AxisState> states{participant};
+    Reader<AxisHealth> healths{participant};
     Writer<Command> commands{participant};
     Writer<ProgramChunk> chunks{participant};
 };

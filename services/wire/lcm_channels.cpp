@@ -19,7 +19,7 @@ std::string upper(std::string_view name) {
 
 AxisChannels channels_of(std::string_view machine, std::string_view axis) {
     const std::string stem = "LOCKSTEP_" + upper(machine) + "_" + upper(axis);
-    return {.steps = stem + "_STEPS", .position = stem + "_POSITION", .run = stem + "_RUN"};
+    return {.steps = stem + "_STEPS", .position = stem + "_POSITION", .run = stem + "_RUN", .health = stem + "_HEALTH"};
 }
 
 std::string job_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_JOB"; }

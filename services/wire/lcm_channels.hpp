@@ -12,6 +12,7 @@ struct AxisChannels {
     std::string steps;
     std::string position;
     std::string run;
+    std::string health;
 };
 
 inline constexpr std::size_t kMaxChannelName = 63;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/run_t.hpp>
@@ -19,6 +20,8 @@ namespace lockstep {
 /// arrays that follow it, given by the size of their elements.
 template <typename Message>
 inline constexpr std::string_view kLcmLayout = "";
+template <>
+inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss888888888448881888888888";
 template <>
 inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
 template <>

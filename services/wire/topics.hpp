@@ -13,13 +13,15 @@
 //
 // Commands, program parts and replies are reliable and 64 deep: a client has fewer than 64 unanswered.
 //
-// Clock requests and replies are best effort: a copy sent again would tell a wrong time. Only the newest few matter.
+// Health, clock requests and replies are best effort: a copy sent again would tell what was. Only the newest few
+// matter.
 #pragma once
 
-#include "core/protocol/messages.hpp"
+#include "core/protocol/axis_health.hpp"
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
 #include "idl/dds/clock.h"
+#include "idl/dds/health.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
 
@@ -48,6 +50,7 @@ struct Topic;
 
 LOCKSTEP_TOPIC(Frame, Setpoint, {"lockstep/setpoint", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(AxisState, AxisState, {"lockstep/axis_state", kType, Delivery::BestEffort, 64})
+LOCKSTEP_TOPIC(AxisHealth, AxisHealth, {"lockstep/axis_health", kType, Delivery::BestEffort, 8})
 LOCKSTEP_TOPIC(AxisCommand, AxisCommand, {"lockstep/axis_command", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(MachineState, MachineState, {"lockstep/machine_state", kType, Delivery::BestEffort, 64})
 LOCKSTEP_TOPIC(Command, Command, {"lockstep/command", kType, Delivery::Reliable, 64})

@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "core/protocol/messages.hpp"
+#include "core/protocol/axis_health.hpp"
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
 #include "idl/dds/clock.h"
+#include "idl/dds/health.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
 
@@ -39,6 +40,7 @@ struct SetpointMessage : lockstep_wire_Setpoint {
 
 SetpointMessage to_wire(const Frame& frame);
 lockstep_wire_AxisState to_wire(const AxisState& state);
+lockstep_wire_AxisHealth to_wire(const AxisHealth& health);
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command);
 lockstep_wire_MachineState to_wire(const MachineState& state);
 lockstep_wire_ClockRequest to_wire(const ClockRequest& request);
@@ -54,6 +56,7 @@ using FromWire = std::expected<T, std::string>;
 
 FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire);
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire);
+FromWire<AxisHealth> from_wire(const lockstep_wire_AxisHealth& wire);
 FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire);
 FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire);
 FromWire<ClockRequest> from_wire(const lockstep_wire_ClockRequest& wire);

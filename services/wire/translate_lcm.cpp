@@ -31,6 +31,40 @@ axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
     return out;
 }
 
+axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health) {
+    const auto us = [&](Ticks ticks) { return machine.microseconds(ticks); };
+    axis_health_t out{};
+    out.utime = utime_of(health.tick, machine.tick_ns);
+    out.tick = health.tick.value;
+    out.machine = machine.name;
+    out.axis = machine.axes.at(health.axis).name;
+    out.steps_compared = bits(health.step_lateness.count);
+    out.step_lateness_min_us = us(health.step_lateness.least);
+    out.step_lateness_max_us = us(health.step_lateness.most);
+    out.step_intervals = bits(health.step_interval.count);
+    out.step_interval_min_us = us(health.step_interval.least);
+    out.step_interval_max_us = us(health.step_interval.most);
+    out.setpoints = bits(health.setpoint_slack.count);
+    out.setpoint_slack_min_ms = us(health.setpoint_slack.least) * 1e-3;
+    out.setpoint_slack_max_ms = us(health.setpoint_slack.most) * 1e-3;
+    out.least_free_segments = static_cast<std::int32_t>(health.least_free_segments);
+    out.least_free_captures = static_cast<std::int32_t>(health.least_free_captures);
+    out.loop_p50_us = us(health.loop.p50);
+    out.loop_p99_us = us(health.loop.p99);
+    out.loop_max_us = us(health.loop.most);
+    out.awaits_setpoint = health.setpoint_age ? 1 : 0;
+    out.setpoint_age_ms = us(health.setpoint_age.value_or(Ticks{})) * 1e-3;
+    out.clock_error_us = us(health.clock_error);
+    out.refused_frames = bits(health.refused.frames);
+    out.refused_commands = bits(health.refused.commands);
+    out.refused_messages = bits(health.refused.messages);
+    out.refused_orders = bits(health.refused.orders);
+    out.lost_captures = bits(health.refused.captures);
+    out.lost_records = bits(health.refused.records);
+    out.skipped_loops = bits(health.refused.skipped_loops);
+    return out;
+}
+
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     run_t out{};
     out.utime = utime_of(record.start + record.ahead, tick_ns);

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/run_t.hpp>
 
 #include "core/machine.hpp"
-#include "core/protocol/messages.hpp"
+#include "core/protocol/axis_health.hpp"
 
 namespace lockstep {
 
@@ -21,6 +22,9 @@ std::int64_t utime_of(Tick machine, std::int64_t tick_ns);
 
 /// Where an axis is. state.axis is an index into the machine's axes.
 axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state);
+
+/// How well it is doing. health.axis is an index into the machine's axes.
+axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health);
 
 /// One frame or tail that an axis's device has run.
 struct RunRecord {

@@ -90,7 +90,7 @@ ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunRep
     if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
     voice.report(report);
     if (verdict == JobVerdict::InProgress) {
-        voice.say(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep status --watch");
+        voice.say(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
         return kExitDone;
     }
     say_end(job, report, voice);

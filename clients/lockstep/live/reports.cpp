@@ -1,5 +1,6 @@
 #include "clients/lockstep/live/reports.hpp"
 
+#include "clients/lockstep/live/health_report.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -82,6 +83,8 @@ proto::StatusReport status_report(const Session& session) {
         const auto& axis = session.axis(i);
         *report.add_axes() =
             axis_status(machine.axes[i], machine.tick_ns, axis ? &axis->state : nullptr, session.axis_present(i));
+        const auto& health = session.health(i);
+        if (health) { *report.mutable_axes()->rbegin()->mutable_health() = health_report(*health, machine); }
     }
     return report;
 }

@@ -28,7 +28,11 @@ Identity new_identity() {
 }  // namespace
 
 Session::Session(const ChosenMachine& machine, ClientBus bus)
-    : machine_(machine), bus_(std::move(bus)), client_(new_identity()), axes_(machine.config.axes.size()) {}
+    : machine_(machine),
+      bus_(std::move(bus)),
+      client_(new_identity()),
+      axes_(machine.config.axes.size()),
+      healths_(axes_.size()) {}
 
 std::expected<Session, Failure> Session::join(const ChosenMachine& machine) {
     auto bus = open_bus<ClientBus>(machine.config.network, machine.config.name);
@@ -66,6 +70,13 @@ std::expected<void, Failure> Session::reach_axes(nanoseconds patience) {
     return {};
 }
 
+void Session::await_healths(nanoseconds patience) {
+    const nanoseconds deadline = monotonic_now() + patience;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        while (axes_[i] && !healths_[i] && monotonic_now() < deadline) { listen(20ms); }
+    }
+}
+
 void Session::listen(nanoseconds at_most) {
     (void)bus_.arrivals->wait_for(at_most);
     take();
@@ -80,6 +91,9 @@ void Session::take() {
     });
     bus_.states.take([&](AxisState&& state) {
         if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
+    });
+    bus_.healths.take([&](AxisHealth&& health) {
+        if (health.axis < healths_.size()) { healths_[health.axis] = health; }
     });
     bus_.replies.take([&](Reply&& reply) {
         if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }

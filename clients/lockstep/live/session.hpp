@@ -11,6 +11,7 @@
 #include "clients/lockstep/live/failure.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "core/program.hpp"
+#include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
 #include "services/wire/bus.hpp"
 
@@ -35,6 +36,8 @@ public:
     std::expected<void, Failure> reach(std::chrono::nanoseconds patience = kReachPatience);
     /// Waits until every axis is heard. Error: who is not.
     std::expected<void, Failure> reach_axes(std::chrono::nanoseconds patience = kReachPatience);
+    /// Waits, at most so long, for the live figures of every axis that is heard: they come ten times a second.
+    void await_healths(std::chrono::nanoseconds patience);
 
     /// Sleeps until something comes, at most so long, and takes it.
     void listen(std::chrono::nanoseconds at_most);
@@ -46,6 +49,7 @@ public:
     /// The newest heard; nothing before the first.
     const std::optional<Heard<MachineState>>& state() const { return state_; }
     const std::optional<Heard<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
+    const std::optional<AxisHealth>& health(std::size_t i) const { return healths_[i]; }
     /// Whether it was heard within the time after which the machine counts it as gone.
     bool axis_present(std::size_t i) const;
     /// No state of the coordinator for longer than any stall that the machine's timing allows.
@@ -73,6 +77,7 @@ private:
     std::uint64_t sequence_ = 0;
     std::optional<Heard<MachineState>> state_;
     std::vector<std::optional<Heard<AxisState>>> axes_;
+    std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at
 };
 

@@ -23,12 +23,6 @@ std::string job_parts(const proto::StatusReport& status, const std::string& sepa
     return text;
 }
 
-std::string age_text(const proto::StatusReport& status) {
-    if (!status.has_age_ms()) { return "no coordinator heard"; }
-    const double age_ms = status.age_ms();
-    return "heard " + (age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000)) + " ago";
-}
-
 std::string headline(const proto::StatusReport& status) {
     std::string text = status.machine() + ": " + (status.phase().empty() ? "unknown" : status.phase());
     if (status.has_job()) { text += ", job " + std::to_string(status.job()); }
@@ -62,6 +56,12 @@ std::string clock_line(const proto::StatusReport& status) {
 }
 
 }  // namespace
+
+std::string age_text(const proto::StatusReport& status) {
+    if (!status.has_age_ms()) { return "no coordinator heard"; }
+    const double age_ms = status.age_ms();
+    return "heard " + (age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000)) + " ago";
+}
 
 std::string status_text(const proto::StatusReport& status) {
     std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");

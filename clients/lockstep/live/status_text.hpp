@@ -10,6 +10,8 @@ namespace lockstep {
 /// A block of lines: the machine, a table of the axes, the faults with what to do.
 std::string status_text(const proto::StatusReport& status);
 
+/// "heard 4 ms ago", of the coordinator.
+std::string age_text(const proto::StatusReport& status);
 /// One line: "[######              ]  30 %  line 12  4.2 s left".
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".

@@ -29,7 +29,7 @@ constexpr std::array kInterrupts{
     Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed", is_at_rest,
               "go on with: lockstep resume; end the job with: lockstep stop"},
     Interrupt{"resume", CommandKind::Resume, "go on with a job that is held or paused", is_anything,
-              "watch it with: lockstep status --watch"},
+              "watch it with: lockstep watch"},
     Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", is_at_rest, ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
               "cease all pulses at once, also without a coordinator; positions are kept, homing is suspect",

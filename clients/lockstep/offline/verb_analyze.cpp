@@ -5,10 +5,10 @@
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/words.hpp"
+#include "clients/lockstep/colour.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
-#include "clients/lockstep/offline/colour.hpp"
 #include "clients/lockstep/verb.hpp"
 
 namespace lockstep {

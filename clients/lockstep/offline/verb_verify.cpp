@@ -1,10 +1,10 @@
 // lockstep verify
 #include <memory>
 
+#include "clients/lockstep/colour.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
-#include "clients/lockstep/offline/colour.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/verification/verification.hpp"
 

@@ -106,6 +106,22 @@ TEST(HostileAxisState, IsRefused) {
     refused("clock_error_ticks", [](auto& w) { w.clock_error_ticks = -1; });
 }
 
+TEST(HostileAxisHealth, IsRefused) {
+    const auto refused = [](const char* field, auto lie) {
+        auto wire = to_wire(RandomMessages(5).axis_health());
+        lie(wire);
+        expect_refused(wire, field);
+    };
+    refused("axis", [](auto& w) { w.axis = kMaxAxes; });
+    refused("tick", [](auto& w) { w.tick = INT64_MIN; });
+    refused("step_lateness", [](auto& w) { w.step_lateness.least = INT64_MIN; });
+    refused("step_interval", [](auto& w) { w.step_interval.most = INT64_MAX; });
+    refused("setpoint_slack", [](auto& w) { w.setpoint_slack.most = INT64_MAX; });
+    refused("loop_p99_ticks", [](auto& w) { w.loop_p99_ticks = INT64_MAX; });
+    refused("setpoint_age_ticks", [](auto& w) { w.setpoint_age_ticks = INT64_MIN; });
+    refused("clock_error_ticks", [](auto& w) { w.clock_error_ticks = INT64_MAX; });
+}
+
 TEST(HostileClockMessages, AreRefused) {
     auto request = to_wire(ClockRequest{});
     request.axis = kMaxAxes;

@@ -9,6 +9,7 @@ TEST(LcmChannels, AreUpperCasedAndFreeOfRegularExpressions) {
     EXPECT_EQ(channels_of("mill-2", "x.a").steps, "LOCKSTEP_MILL_2_X_A_STEPS");
     EXPECT_EQ(channels_of("Mill", "Z").position, "LOCKSTEP_MILL_Z_POSITION");
     EXPECT_EQ(channels_of("Mill", "Z").run, "LOCKSTEP_MILL_Z_RUN");
+    EXPECT_EQ(channels_of("Mill", "Z").health, "LOCKSTEP_MILL_Z_HEALTH");
     EXPECT_EQ(job_channel("Mill"), "LOCKSTEP_MILL_JOB");
 }
 

@@ -47,13 +47,19 @@ job_t a_job() {
     return to_lcm(record, {1'000'000}, 1000);
 }
 
+MachineConfig a_machine() { return {.name = "mill", .axes = {{.name = "X", .steps_per_mm = 400}}}; }
+
+axis_health_t a_health() {
+    return to_lcm(a_machine(), AxisHealth{.tick = {5000},
+                                          .step_lateness = {7, {-2}, {3}},
+                                          .setpoint_slack = {1, {390'000}, {390'000}},
+                                          .setpoint_age = Ticks{1500},
+                                          .refused = {.frames = 4}});
+}
+
 axis_position_t a_position() {
-    MachineConfig machine;
-    machine.name = "mill";
-    machine.axes.resize(1);
-    machine.axes[0].name = "X";
-    machine.axes[0].steps_per_mm = 400;
-    return to_lcm(machine, {.homed = true, .position = Position::steps(800), .velocity = {INT64_MAX}, .tick = {5000}});
+    return to_lcm(a_machine(),
+                  AxisState{.homed = true, .position = Position::steps(800), .velocity = {INT64_MAX}, .tick = {5000}});
 }
 
 template <typename Message>
@@ -69,6 +75,7 @@ TEST(LcmDecode, EveryMessageOfTheRecordComesBack) {
     expect_decodes_back(a_run());
     expect_decodes_back(a_job());
     expect_decodes_back(a_position());
+    expect_decodes_back(a_health());
 }
 
 TEST(LcmDecode, AnotherTypeIsRefused) { EXPECT_FALSE(decode_lcm<run_t>(encoded(a_batch()))); }
@@ -94,6 +101,7 @@ TEST(LcmDecode, DamageIsRefusedOrHarmless) {
     expect_survives_damage(a_run());
     expect_survives_damage(a_job());
     expect_survives_damage(a_position());
+    expect_survives_damage(a_health());
 }
 
 TEST(LcmDecode, ACountThatLiesIsRefused) {
@@ -115,6 +123,18 @@ TEST(ToLcm, APositionIsInStepsAndInMillimetres) {
     EXPECT_NEAR(position.velocity_mm_per_s, 1250, 0.01);
     EXPECT_EQ(position.utime, 5000);
     EXPECT_EQ(position.state, "Initialize");
+}
+
+TEST(ToLcm, HealthIsInMicrosecondsAndMilliseconds) {
+    const axis_health_t health = a_health();
+    EXPECT_EQ(health.axis, "X");
+    EXPECT_EQ(health.steps_compared, 7);
+    EXPECT_DOUBLE_EQ(health.step_lateness_min_us, -2);
+    EXPECT_DOUBLE_EQ(health.step_lateness_max_us, 3);
+    EXPECT_DOUBLE_EQ(health.setpoint_slack_min_ms, 390);
+    EXPECT_EQ(health.awaits_setpoint, 1);
+    EXPECT_DOUBLE_EQ(health.setpoint_age_ms, 1.5);
+    EXPECT_EQ(health.refused_frames, 4);
 }
 
 TEST(ToLcm, ARunThatWasNotCutEndsWhereItsPiecesDo) {

@@ -41,6 +41,21 @@ AxisState RandomMessages::axis_state() {
             .clock_error = {between(0, std::int64_t{1} << 62)}};
 }
 
+AxisHealth RandomMessages::axis_health() {
+    return {.identity = bits(),
+            .axis = index(kMaxAxes),
+            .tick = {far()},
+            .step_lateness = extremes(),
+            .step_interval = extremes(),
+            .setpoint_slack = extremes(),
+            .least_free_segments = static_cast<std::uint32_t>(bits()),
+            .least_free_captures = static_cast<std::uint32_t>(bits()),
+            .loop = {{far()}, {far()}, {far()}},
+            .setpoint_age = coin() ? std::optional(Ticks{far()}) : std::nullopt,
+            .clock_error = {far()},
+            .refused = {bits(), bits(), bits(), bits(), bits(), bits(), bits()}};
+}
+
 AxisCommand RandomMessages::axis_command() {
     return {.coordinator = bits(),
             .sequence = bits(),

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "core/protocol/messages.hpp"
+#include "core/protocol/axis_health.hpp"
 
 namespace lockstep {
 
@@ -13,6 +13,7 @@ public:
 
     Frame frame();
     AxisState axis_state();
+    AxisHealth axis_health();
     AxisCommand axis_command();
     ClockRequest clock_request();
     ClockReply clock_reply();
@@ -33,6 +34,7 @@ private:
     std::int64_t far() { return between(-(std::int64_t{1} << 62), std::int64_t{1} << 62); }
     std::int64_t rate() { return between(-INT64_MAX, INT64_MAX); }
     std::uint16_t fault() { return static_cast<std::uint16_t>(bits()); }
+    Extremes extremes() { return {bits(), {far()}, {far()}}; }
     bool coin() { return bits() % 2 == 1; }
     Position position() { return Position::from_count(far(), bits()); }
     std::optional<FrameNumber> veto() { return coin() ? std::optional(bits()) : std::nullopt; }

@@ -21,6 +21,7 @@ void expect_round_trips(Message (RandomMessages::*make)()) {
 
 TEST(RoundTrip, AFrameArrivesAsItWasSent) { expect_round_trips(&RandomMessages::frame); }
 TEST(RoundTrip, AnAxisStateArrivesAsItWasSent) { expect_round_trips(&RandomMessages::axis_state); }
+TEST(RoundTrip, AnAxisHealthArrivesAsItWasSent) { expect_round_trips(&RandomMessages::axis_health); }
 TEST(RoundTrip, AnAxisCommandArrivesAsItWasSent) { expect_round_trips(&RandomMessages::axis_command); }
 TEST(RoundTrip, AClockRequestArrivesAsItWasSent) { expect_round_trips(&RandomMessages::clock_request); }
 TEST(RoundTrip, AClockReplyArrivesAsItWasSent) { expect_round_trips(&RandomMessages::clock_reply); }

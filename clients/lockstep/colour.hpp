@@ -11,6 +11,9 @@ namespace lockstep {
 
 inline constexpr std::string_view kGood = "\x1b[32m";
 inline constexpr std::string_view kBad = "\x1b[31m";
+inline constexpr std::string_view kWarning = "\x1b[33m";
+inline constexpr std::string_view kBold = "\x1b[1m";
+inline constexpr std::string_view kFaint = "\x1b[2m";
 
 /// Standard output is a terminal and NO_COLOR (no-color.org) is not set.
 inline bool wants_colour() {

@@ -1,0 +1,11 @@
+// An axis's live figures as its part of the status report, in the units people read.
+#pragma once
+
+#include "core/protocol/axis_health.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+
+proto::HealthReport health_report(const AxisHealth& health, const MachineConfig& machine);
+
+}  // namespace lockstep

@@ -1,0 +1,75 @@
+// lockstep watch
+#include "clients/lockstep/colour.hpp"
+#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/screen.hpp"
+#include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/watch_text.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kRedrawPeriod = 100ms;  // on a terminal
+constexpr nanoseconds kLinePeriod = 1s;       // elsewhere
+
+/// Both go on while nobody speaks, which the age then shows.
+void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
+    const SlackScale scale = slack_scale(session.config().timing);
+    Screen screen;
+    while (!stop.requested() && !screen.pressed('q')) {
+        screen.draw(watch_text(status_report(session), scale, ink) + "\nq or Ctrl-C leaves; the machine goes on\n");
+        const nanoseconds next = monotonic_now() + kRedrawPeriod;
+        while (!stop.requested() && monotonic_now() < next) { session.listen(next - monotonic_now()); }
+    }
+}
+
+void watch_in_lines(Session& session, const StopSignal& stop, Voice& voice) {
+    const SlackScale scale = slack_scale(session.config().timing);
+    while (!stop.requested()) {
+        const proto::StatusReport report = status_report(session);
+        voice.report(report);
+        voice.say(watch_line(report, scale));
+        const nanoseconds next = monotonic_now() + kLinePeriod;
+        while (!stop.requested() && monotonic_now() < next) {
+            session.listen(std::min(kRedrawPeriod, next - monotonic_now()));
+        }
+    }
+}
+
+ExitCode watch(const LiveOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine);
+    if (!session) { return voice.fail(session.error()); }
+    if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    session->await_healths(300ms);
+    const StopSignal stop;
+    if (voice.is_terminal() && !voice.json()) {
+        watch_on_screen(*session, stop, wants_colour() ? Ink::Colour : Ink::Plain);
+    } else {
+        watch_in_lines(*session, stop, voice);
+    }
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "watch", "the machine at a glance, ten times a second; where there is no terminal, a line a second");
+    const auto options = std::make_shared<LiveOptions>();
+    add_live_options(*verb, *options);
+    verb->footer(
+        footer("  lockstep watch\n  lockstep watch | tee watched.txt\n"
+               "  lockstep watch --json | jq -c '.axes[] | [.name, .health.setpoint_slack_ms.min]'\n"));
+    verb->callback([&action, options] { action = [options] { return watch(*options); }; });
+}
+
+}  // namespace lockstep
