@@ -4,6 +4,7 @@
 // read all the same.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <expected>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
+#include "clients/analysis/event_log.hpp"
 #include "clients/analysis/job_moves.hpp"
 #include "clients/analysis/skew.hpp"
 #include "clients/drawing/svg.hpp"
@@ -32,7 +34,8 @@ struct JobLog {
     std::optional<std::int64_t> begun_us;
     std::optional<std::int64_t> ended_us;
     std::string name;                        // of the program; empty for homing
-    std::int64_t epochs = 0;                 // more than one: it was interrupted and went on
+    std::int64_t epochs = 0;                 // stretches from rest to rest that its axes ran together
+    std::int64_t legs = 0;                   // as many as its program has; where it is more, it was interrupted
     std::optional<std::string> unplannable;  // why what it asked for is not known
     std::int64_t move_count = 0;
     std::vector<MoveLog> moves;  // the first, as many as are kept
@@ -44,20 +47,26 @@ struct JobLog {
     std::optional<double> largest_distance_mm;  // from the line asked
     TickHistogram late;                         // of its steps
 
+    std::int64_t interruptions() const { return std::max<std::int64_t>(0, epochs - legs); }
     bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };
 
-/// A place in the file that cannot be read.
+/// Places in the file that cannot be read, or not understood, for one reason. Bytes from the file's beginning.
 struct Damage {
-    std::uint64_t offset = 0;  // bytes from the file's beginning
+    std::uint64_t first_byte = 0;  // of the first place
+    std::uint64_t last_byte = 0;   // of the last place
+    std::uint64_t places = 0;
+    std::uint64_t bytes = 0;  // of all of them
     std::string what;
 };
 
 struct Analysis {
-    static constexpr std::size_t kDamagesKept = 100;
+    static constexpr std::size_t kDamagesKept = 100;  // reasons
     static constexpr std::size_t kJobsKept = 10'000;
     static constexpr std::size_t kMovesKept = 5000;           // of all jobs
     static constexpr std::size_t kAskedPointsKept = 200'000;  // of all jobs' paths
+
+    static constexpr Int128 kEnd = Int128{1} << 60;
 
     std::filesystem::path log;
     std::string machine;
@@ -68,8 +77,9 @@ struct Analysis {
     std::uint64_t events = 0;                      // read, of every kind
     std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
     std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification
-    std::vector<Damage> damages;                   // the first kDamagesKept
-    std::uint64_t damage_count = 0;
+    std::vector<Damage> damages;                   // by reason; the last of kDamagesKept is of all further reasons
+    std::vector<Event> happened;                   // in the order of time
+    std::uint64_t events_not_kept = 0;
     std::vector<PairSkew> step_skew;                         // between axes that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the line asked, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the one before
@@ -85,6 +95,13 @@ struct Analysis {
     std::optional<Tick> last_tick() const;
     double seconds(Ticks ticks) const {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns()) * 1e-9;
+    }
+    /// Microseconds of machine time as ticks, and back; no number is too large.
+    Tick tick_at(std::int64_t microseconds) const {
+        return {static_cast<std::int64_t>(std::clamp(Int128{microseconds} * 1000 / tick_ns(), -kEnd, kEnd))};
+    }
+    std::int64_t microseconds_at(Tick tick) const {
+        return static_cast<std::int64_t>(std::clamp(Int128{tick.value} * tick_ns() / 1000, -kEnd, kEnd));
     }
     double microseconds(Ticks ticks) const { return seconds(ticks) * 1e6; }
 };

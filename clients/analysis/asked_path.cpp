@@ -76,6 +76,7 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
     if (!plan) { return std::unexpected(plan.error().text); }
     AskedPath asked;
     asked.planned_ = plan->duration;
+    asked.legs_ = static_cast<std::int64_t>(plan->paths.size());
     asked.moves_of_.resize(machine.axes.size());
     for (const AxisConfig& axis : machine.axes) { asked.mm_per_step_.push_back(1 / axis.steps_per_mm); }
     const auto add_place = [&asked](const AxisCounts& counts) {

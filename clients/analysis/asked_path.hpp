@@ -33,6 +33,8 @@ public:
     std::size_t size() const { return moves_.size(); }
     const AskedMove& operator[](std::size_t move) const { return moves_[move]; }
     Ticks planned() const { return planned_; }
+    /// From rest to rest; between two of them the program waits for a person.
+    std::int64_t legs() const { return legs_; }
 
     /// The machine's axes, in its order; none without a program.
     std::size_t axes() const { return mm_per_step_.size(); }
@@ -50,6 +52,7 @@ private:
     std::vector<AskedMove> moves_;      // the n-th leads from the n-th place to the next
     std::vector<std::vector<std::uint32_t>> moves_of_;
     Ticks planned_;
+    std::int64_t legs_ = 0;
 };
 
 }  // namespace lockstep::analysis

@@ -10,7 +10,9 @@
 
 #include "clients/analysis/axis_statistics.hpp"
 #include "clients/analysis/csv.hpp"
+#include "clients/analysis/lateness.hpp"
 #include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/tick_histogram.hpp"
 #include "clients/analysis/trace.hpp"
 
 namespace lockstep::analysis {
@@ -39,12 +41,22 @@ public:
     void tell(StepMerge& merge, std::size_t lane) { statistics_.tell(merge, lane); }
     void take(StepBatch batch) { stream_.take(std::move(batch)); }
     void take(const PositionSample& sample);
+    void take(const LateStep& step) {
+        late_.add(step.late);
+        late_course_.add({step.commanded + step.late, static_cast<double>(step.late.value)});
+    }
+    void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     /// Call once, at the end. The error is that of a file that was not written whole.
     std::expected<void, std::string> finish();
 
     const std::string& name() const { return name_; }
     const StreamCounts& counts() const { return stream_.counts(); }
     const AxisStatistics& statistics() const { return statistics_; }
+    /// How far its steps were from the ticks commanded, and over time, signed: ticks.
+    const TickHistogram& late() const { return late_; }
+    std::vector<Sample> late_course() const { return late_course_.samples(); }
+    /// The least time before its start at which a frame came, over time: ms.
+    std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
     /// As the axis's own messages have it; none where they do not tell.
@@ -57,6 +69,9 @@ private:
     std::string name_;
     AxisStatistics statistics_;
     Trace trace_;
+    TickHistogram late_;
+    Course late_course_;
+    Course slack_;
     std::unique_ptr<StepCsv> step_csv_;
     std::unique_ptr<CsvFile> position_csv_;
     std::int64_t positions_ = 0;

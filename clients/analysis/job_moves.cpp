@@ -93,15 +93,33 @@ void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& s
     made_[move].last = step.tick;
 }
 
-void JobMoves::take_late(std::size_t axis, std::int64_t count, int direction, Ticks late) {
+void JobMoves::take(std::size_t axis, const LateStep& step) {
     if (asked_.size() == 0) { return; }
-    if (const auto move = late_cursor_[axis].find(asked_, axis, count, direction)) { made_[*move].late.add(late); }
+    const auto move = late_cursor_[axis].find(asked_, axis, step.count - step.direction, step.direction);
+    if (!move) { return; }
+    Made& made = made_[*move];
+    made.earliest = made.late.empty() ? step.late : std::min(made.earliest, step.late);
+    made.latest = made.late.empty() ? step.late : std::max(made.latest, step.late);
+    made.late.add(step.late);
+}
+
+std::optional<std::int32_t> JobMoves::line_at(Tick tick) const {
+    std::optional<std::int32_t> line;
+    for (std::size_t move = 0; move < made_.size(); ++move) {
+        if (made_[move].first && *made_[move].first <= tick) { line = asked_[move].line; }
+    }
+    return line;
 }
 
 MoveLog JobMoves::move(std::size_t number) const {
     const AskedMove& asked = asked_[number];
     const Made& made = made_[number];
-    MoveLog log{.line = asked.line, .length_mm = asked.length_mm, .planned = asked.planned, .late = made.late};
+    MoveLog log{.line = asked.line,
+                .length_mm = asked.length_mm,
+                .planned = asked.planned,
+                .first = made.first,
+                .late = made.late,
+                .skew = made.latest - made.earliest};
     if (made.first) {
         log.made = made.last - *made.first + asked.planned - asked.stepping;
         if (on_a_line_) { log.largest_distance_mm = made.largest_distance_mm; }

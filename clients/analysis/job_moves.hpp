@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clients/analysis/asked_path.hpp"
+#include "clients/analysis/lateness.hpp"
 #include "clients/analysis/step_merge.hpp"
 #include "clients/analysis/tick_histogram.hpp"
 
@@ -31,7 +32,9 @@ struct MoveLog {
     /// From end to end: between its first step and its last, and what the plan has before and behind. None: no steps.
     std::optional<Ticks> made;
     std::optional<double> largest_distance_mm;  // of any step from the line asked; none where axes moved on their own
+    std::optional<Tick> first;                  // of the steps of the axis that has the most
     TickHistogram late;                         // of its steps, against the ticks commanded
+    Ticks skew;                                 // from its earliest step to its latest, against these
     std::vector<AxisMove> axes;                 // in the machine's order
     bool is_dwell = false;
     bool is_whole() const;
@@ -56,13 +59,12 @@ public:
     const AskedPath& asked() const { return asked_; }
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     void take(std::size_t axis, const MeasuredStep& step);
-    /// How late a step was that led an axis from `count` on.
-    void take_late(std::size_t axis, std::int64_t count, int direction, Ticks late);
+    void take(std::size_t axis, const LateStep& step);
 
     /// Steps that no move asked for.
     std::int64_t unasked_steps() const { return unasked_steps_; }
-    /// The move that is being made.
-    std::size_t current() const { return current_; }
+    /// The program's line in motion; none before the first.
+    std::optional<std::int32_t> line_at(Tick tick) const;
     MoveLog move(std::size_t number) const;
 
 private:
@@ -71,6 +73,8 @@ private:
         Tick last;
         double largest_distance_mm = 0;
         TickHistogram late;
+        Ticks earliest;  // of how late its steps were
+        Ticks latest;
     };
     struct MadeByAxis {
         std::int64_t steps = 0;

@@ -51,7 +51,12 @@ std::vector<LateStep> Lateness::compare(StepMaker maker) {
     }
     for (; !seen_.empty() && is_next(seen_.front()); seen_.pop_front(), maker.pass()) {
         const Tick commanded = maker.commanded();
-        steps.push_back({commanded, seen_.front().edge.tick - commanded, seen_.front().clock_error});
+        const SeenStep& seen = seen_.front();
+        steps.push_back({.commanded = commanded,
+                         .late = seen.edge.tick - commanded,
+                         .error = seen.clock_error,
+                         .count = seen.count,
+                         .direction = seen.edge.direction});
     }
     return steps;
 }

@@ -17,8 +17,10 @@ namespace lockstep::analysis {
 
 struct LateStep {
     Tick commanded;
-    Ticks late;   // below 0: before its time
-    Ticks error;  // `late` is known within
+    Ticks late;              // below 0: before its time
+    Ticks error;             // `late` is known within
+    std::int64_t count = 0;  // after it, machine coordinates
+    std::int8_t direction = 0;
 };
 
 class Lateness final : public StepListener {

@@ -15,12 +15,12 @@ bool is_of(std::string_view channel, std::string_view suffix) {
 }
 
 template <typename Message>
-void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told)(const Message&, std::uint64_t)) {
+void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told)(const Message&, LogPlace)) {
     const auto message = decode_lcm<Message>(event.data);
     if (message) {
-        (listener.*told)(*message, event.offset);
+        (listener.*told)(*message, {event.offset, event.bytes});
     } else {
-        listener.on_damage(event.offset, message.error() + " on " + std::string(event.channel));
+        listener.on_damage({event.offset, event.bytes}, message.error() + " on " + std::string(event.channel));
     }
 }
 
@@ -33,13 +33,25 @@ void tell(const LogEvent& event, LogListener& listener) {
     listener.on_foreign(event.channel);
 }
 
+std::string reason_of(LogDamage::Kind kind) {
+    switch (kind) {
+        case LogDamage::Kind::CutOff: return "the log ends within an event";
+        case LogDamage::Kind::NoEvent: return "bytes that are no event";
+        case LogDamage::Kind::WrongLength: return "an event whose length is wrong";
+    }
+    return "";
+}
+
 void tell_damages(const LogReader& reader, LogListener& listener) {
+    std::uint64_t bytes = 0;
     for (const LogDamage& damage : reader.damages()) {
-        listener.on_damage(damage.offset, std::to_string(damage.bytes) + " bytes that are no whole event");
+        listener.on_damage({damage.offset, damage.bytes}, reason_of(damage.kind));
+        bytes += damage.bytes;
     }
-    for (auto i = reader.damages().size(); i < reader.damaged_stretches(); ++i) {
-        listener.on_damage(reader.damages().back().offset, "bytes that are no whole event, further on");
-    }
+    if (reader.damaged_stretches() == reader.damages().size()) { return; }
+    const std::uint64_t more = reader.damaged_stretches() - reader.damages().size();
+    listener.on_damage({reader.damages().back().offset, reader.damaged_bytes() - bytes},
+                       std::to_string(more) + " more damaged stretches, further on");
 }
 
 /// Events read. Progress is the share of the file behind us.

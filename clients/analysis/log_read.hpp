@@ -18,18 +18,25 @@
 
 namespace lockstep::analysis {
 
-/// `offset` is that of the event in the file, in bytes.
+/// A stretch of the file, in bytes.
+struct LogPlace {
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// `place` is that of the event in the file.
 class LogListener {
 public:
     virtual ~LogListener() = default;
-    virtual void on_steps(const step_batch_t& message, std::uint64_t offset) = 0;
-    virtual void on_position(const axis_position_t& message, std::uint64_t offset) = 0;
-    virtual void on_run(const run_t& message, std::uint64_t offset) = 0;
-    virtual void on_job(const job_t& message, std::uint64_t offset) = 0;
-    virtual void on_health(const axis_health_t& /*message*/, std::uint64_t /*offset*/) {}
+    virtual void on_steps(const step_batch_t& message, LogPlace place) = 0;
+    virtual void on_position(const axis_position_t& message, LogPlace place) = 0;
+    virtual void on_run(const run_t& message, LogPlace place) = 0;
+    virtual void on_job(const job_t& message, LogPlace place) = 0;
+    virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
     /// An event of a channel that is not Lockstep's.
     virtual void on_foreign(std::string_view channel) = 0;
-    virtual void on_damage(std::uint64_t offset, std::string what) = 0;
+    /// What is there cannot be read, or not understood.
+    virtual void on_damage(LogPlace place, std::string what) = 0;
 };
 
 /// The number of events read. `progress` hears 0 ... 1 now and then. The error is a sentence for the user: the file is

@@ -51,10 +51,10 @@ void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step
     if (lanes_[lane] == "Y") { plane_.step(1, step.count, step.direction); }
 }
 
-void MoveMeter::on_late(const std::string& axis, Tick commanded, std::int64_t count, int direction, Ticks late) {
-    Job* job = job_at(commanded);
+void MoveMeter::on_late(const std::string& axis, const LateStep& step) {
+    Job* job = job_at(step.commanded);
     if (job == nullptr) { return; }
-    if (const auto number = job->axis(axis)) { job->moves.take_late(*number, count, direction, late); }
+    if (const auto number = job->axis(axis)) { job->moves.take(*number, step); }
 }
 
 void MoveMeter::end_first() {

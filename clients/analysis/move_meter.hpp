@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clients/analysis/job_moves.hpp"
+#include "clients/analysis/lateness.hpp"
 #include "clients/analysis/plane_trace.hpp"
 #include "clients/analysis/step_merge.hpp"
 #include "core/machine.hpp"
@@ -32,8 +33,7 @@ public:
     void on_step(std::size_t lane, const MeasuredStep& step) override;
     /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
     const PlaneTrace& plane() const { return plane_; }
-    /// How late a step was, that led the axis from `count` on at this tick.
-    void on_late(const std::string& axis, Tick commanded, std::int64_t count, int direction, Ticks late);
+    void on_late(const std::string& axis, const LateStep& step);
     /// Call once, at the end.
     void finish();
 

@@ -12,56 +12,76 @@
 
 namespace lockstep::analysis {
 
-void Recorder::on_steps(const step_batch_t& message, std::uint64_t offset) {
-    AxisLog* log = axis(message.machine, message.axis, offset);
+void Recorder::on_steps(const step_batch_t& message, LogPlace place) {
+    AxisLog* log = axis(message.machine, message.axis, place);
     if (log == nullptr) { return; }
     auto batch = to_batch(message);
-    if (!batch) { return on_damage(offset, batch.error()); }
+    if (!batch) { return on_damage(place, batch.error()); }
     log->take(in_machine_time(std::move(*batch)));
     merge_.settle();
 }
 
-void Recorder::on_position(const axis_position_t& message, std::uint64_t offset) {
-    AxisLog* log = axis(message.machine, message.axis, offset);
+void Recorder::on_position(const axis_position_t& message, LogPlace place) {
+    AxisLog* log = axis(message.machine, message.axis, place);
     if (log == nullptr) { return; }
     if (!is_countable(message.tick) || !is_countable(message.position_steps)) {
-        return on_damage(offset, "a position with numbers that no machine counts to");
+        return on_damage(place, "a position with numbers that no machine counts to");
     }
+    events_.take(message);
     log->take(
         PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
 }
 
-void Recorder::on_run(const run_t& message, std::uint64_t offset) {
-    if (axis(message.machine, message.axis, offset) == nullptr) { return; }
-    ++analysis_.runs;
-    auto run = to_run(message);
-    run ? skew_.take(message.axis, std::move(*run)) : on_damage(offset, run.error());
+void Recorder::on_health(const axis_health_t& message, LogPlace place) {
+    AxisLog* log = axis(message.machine, message.axis, place);
+    if (log == nullptr || message.setpoints <= 0) { return; }
+    if (!is_countable(message.tick)) { return on_damage(place, "figures with numbers that no machine counts to"); }
+    log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms});
 }
 
-void Recorder::on_job(const job_t& message, std::uint64_t offset) {
+void Recorder::on_run(const run_t& message, LogPlace place) {
+    if (axis(message.machine, message.axis, place) == nullptr) { return; }
+    ++analysis_.runs;
+    auto run = to_run(message);
+    if (!run) { return on_damage(place, run.error()); }
+    events_.take(message.axis, *run);
+    skew_.take(message.axis, std::move(*run));
+}
+
+void Recorder::on_job(const job_t& message, LogPlace place) {
     if (!is_ours(message.machine)) { return; }
     if (!is_countable(message.utime) || !is_countable(message.start_tick)) {
-        return on_damage(offset, "a job with times that no machine counts to");
+        return on_damage(place, "a job with times that no machine counts to");
     }
     JobLog* record = job(message);
     if (record == nullptr) { return; }
     if (message.event == "begun") {
-        begin_job(message, *record, offset);
+        begin_job(message, *record, place);
     } else if (message.event == "epoch") {
         ++record->epochs;
     } else if (message.event == "ended") {
         record->ended_us = message.utime;
         record->outcome = message.outcome;
     } else {
-        on_damage(offset, "a job's event is neither begun, epoch nor ended");
+        on_damage(place, "a job's event is neither begun, epoch nor ended");
     }
 }
 
 void Recorder::on_foreign(std::string_view channel) { ++analysis_.foreign[std::string(channel)]; }
 
-void Recorder::on_damage(std::uint64_t offset, std::string what) {
-    ++analysis_.damage_count;
-    if (analysis_.damages.size() < Analysis::kDamagesKept) { analysis_.damages.push_back({offset, std::move(what)}); }
+void Recorder::on_damage(LogPlace place, std::string what) {
+    auto& all = analysis_.damages;
+    auto known = std::ranges::find(all, what, &Damage::what);
+    if (known == all.end() && all.size() == Analysis::kDamagesKept) { known = all.end() - 1; }
+    if (known == all.end()) {
+        if (all.size() + 1 == Analysis::kDamagesKept) { what = "further reasons"; }
+        all.push_back({.first_byte = place.offset, .what = std::move(what)});
+        known = all.end() - 1;
+    }
+    known->first_byte = std::min(known->first_byte, place.offset);
+    known->last_byte = std::max(known->last_byte, place.offset + std::max<std::uint64_t>(1, place.bytes) - 1);
+    known->bytes += place.bytes;
+    ++known->places;
 }
 
 /// Whether the message is of the machine analysed; the first message says which that is where nobody asked for one.
@@ -72,14 +92,14 @@ bool Recorder::is_ours(const std::string& machine) {
     return false;
 }
 
-AxisLog* Recorder::axis(const std::string& machine, const std::string& name, std::uint64_t offset) {
+AxisLog* Recorder::axis(const std::string& machine, const std::string& name, LogPlace place) {
     if (!is_axis_name(name)) {
-        on_damage(offset, "an axis's name is none");
+        on_damage(place, "an axis's name is none");
         return nullptr;
     }
     if (!is_ours(machine)) { return nullptr; }
     if (axes_.size() == kMaxAxes && !axes_.contains(name)) {
-        on_damage(offset, "more axes than a machine can have");
+        on_damage(place, "more axes than a machine can have");
         return nullptr;
     }
     auto& log = axes_[name];
@@ -109,16 +129,19 @@ JobLog* Recorder::job(const job_t& message) {
     return &analysis_.jobs.back();
 }
 
-void Recorder::begin_job(const job_t& message, JobLog& record, std::uint64_t offset) {
+void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // it came twice
     record.begun_us = message.utime;
-    const auto program = read_documents(message, offset);
+    const auto program = read_documents(message, place);
     if (!analysis_.config) { return; }
     AskedPath asked;
     if (program) {
         record.name = program->name;
         auto planned = AskedPath::of(*analysis_.config, *program);
-        if (planned) { record.planned = planned->planned(); }
+        if (planned) {
+            record.planned = planned->planned();
+            record.legs = planned->legs();
+        }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
     const bool on_a_line = message.kind != "own-move";  // axes on their own are asked for no line
@@ -126,9 +149,18 @@ void Recorder::begin_job(const job_t& message, JobLog& record, std::uint64_t off
         keep_asked_way(*program);
         latest_program_ = message.program;
     }
-    const Tick from{static_cast<std::int64_t>(Int128{message.utime} * 1000 / analysis_.config->tick_ns)};
-    moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), from, *analysis_.config,
-                 JobMoves(std::move(asked), on_a_line));
+    moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), analysis_.tick_at(message.utime),
+                 *analysis_.config, JobMoves(std::move(asked), on_a_line));
+}
+
+void Recorder::on_late(const std::string& axis, const LateStep& step) {
+    moves_.on_late(axis, step);
+    if (const auto log = axes_.find(axis); log != axes_.end()) { log->second->take(step); }
+}
+
+bool Recorder::is_during(Tick tick, const JobLog& job) const {
+    const std::int64_t us = analysis_.microseconds_at(tick);
+    return job.begun_us && *job.begun_us <= us && (!job.ended_us || us <= *job.ended_us);
 }
 
 void Recorder::keep_asked_way(const Program& program) {
@@ -140,21 +172,24 @@ void Recorder::keep_asked_way(const Program& program) {
 }
 
 /// The program; none where there is none, or it cannot be read.
-std::optional<Program> Recorder::read_documents(const job_t& message, std::uint64_t offset) {
+std::optional<Program> Recorder::read_documents(const job_t& message, LogPlace place) {
     auto config = parse_machine(message.config);
     if (config) {
         analysis_.config = std::move(*config);
     } else {
-        on_damage(offset, to_text("the configuration recorded with the job", config.error()));
+        on_damage(place, to_text("the configuration recorded with the job", config.error()));
     }
     if (message.program.empty()) { return std::nullopt; }
     auto program = program_from_text(message.program);
     if (program) { return std::move(*program); }
-    on_damage(offset, "the program recorded with the job: " + program.error());
+    on_damage(place, "the program recorded with the job: " + program.error());
     return std::nullopt;
 }
 
 void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
+    for (Event& event : events_.events()) {
+        if (is_during(event.at, job)) { event.line = moves.line_at(event.at); }
+    }
     job.unasked_steps = moves.unasked_steps();
     for (std::size_t i = 0; i < moves.asked().size(); ++i) { note_move(job, moves.move(i)); }
 }
@@ -181,16 +216,21 @@ void Recorder::note_error(const std::expected<void, std::string>& result) {
 }
 
 Analysis Recorder::finish() {
-    for (auto& [name, log] : axes_) {
-        note_error(log->finish());
-        analysis_.axes.push_back(std::move(log));
-    }
+    for (auto& [name, log] : axes_) { note_error(log->finish()); }
+    analysis_.step_skew = skew_.finish();
+    for (auto& [name, log] : axes_) { analysis_.axes.push_back(std::move(log)); }
     axes_.clear();
     merge_.finish();
-    analysis_.step_skew = skew_.finish();
+    for (Event& event : events_.events()) {
+        const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });
+        if (job != analysis_.jobs.end()) { event.job = job->job; }
+    }
     moves_.finish();
+    analysis_.happened = std::move(events_.events());
+    analysis_.events_not_kept = events_.not_kept();
+    std::ranges::stable_sort(analysis_.happened, {}, &Event::at);
     analysis_.stepped_ways = moves_.plane().ways();
-    std::ranges::sort(analysis_.damages, {}, &Damage::offset);
+    std::ranges::sort(analysis_.damages, {}, &Damage::first_byte);
     analysis_.machine = machine_.value_or("");
     if (analysis_.config) {
         const auto& order = analysis_.config->axes;

@@ -21,12 +21,13 @@ public:
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    void on_steps(const step_batch_t& message, std::uint64_t offset) override;
-    void on_position(const axis_position_t& message, std::uint64_t offset) override;
-    void on_run(const run_t& message, std::uint64_t offset) override;
-    void on_job(const job_t& message, std::uint64_t offset) override;
+    void on_steps(const step_batch_t& message, LogPlace place) override;
+    void on_position(const axis_position_t& message, LogPlace place) override;
+    void on_health(const axis_health_t& message, LogPlace place) override;
+    void on_run(const run_t& message, LogPlace place) override;
+    void on_job(const job_t& message, LogPlace place) override;
     void on_foreign(std::string_view channel) override;
-    void on_damage(std::uint64_t offset, std::string what) override;
+    void on_damage(LogPlace place, std::string what) override;
 
     /// The first file that could not be written, if any.
     const std::optional<std::string>& write_error() const { return write_error_; }
@@ -35,10 +36,12 @@ public:
 
 private:
     bool is_ours(const std::string& machine);
-    AxisLog* axis(const std::string& machine, const std::string& name, std::uint64_t offset);
+    AxisLog* axis(const std::string& machine, const std::string& name, LogPlace place);
     JobLog* job(const job_t& message);
-    void begin_job(const job_t& message, JobLog& job, std::uint64_t offset);
-    std::optional<Program> read_documents(const job_t& message, std::uint64_t offset);
+    void begin_job(const job_t& message, JobLog& job, LogPlace place);
+    std::optional<Program> read_documents(const job_t& message, LogPlace place);
+    void on_late(const std::string& axis, const LateStep& step);
+    bool is_during(Tick tick, const JobLog& job) const;
     void keep_asked_way(const Program& program);
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
@@ -46,9 +49,10 @@ private:
 
     const AnalysisOptions& options_;
     std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
-    SkewMeter skew_;
+    EventLog events_;
     MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
     StepMerge merge_{moves_};
+    SkewMeter skew_{[this](const std::string& axis, const LateStep& step) { on_late(axis, step); }};
     std::map<std::string, std::unique_ptr<AxisLog>> axes_;
     Analysis analysis_;
     std::string latest_program_;

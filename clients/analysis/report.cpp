@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "clients/analysis/verdict.hpp"
 #include "clients/analysis/words.hpp"
 
 namespace lockstep::analysis {
@@ -30,6 +31,13 @@ void fill_lengths(const Analysis& analysis, const AxisLog& axis, proto::AxisAnal
     report.set_position_end_mm(static_cast<double>(found.last()->position_steps) / *steps_per_mm);
 }
 
+void fill(const Analysis& analysis, const TickHistogram& late, proto::StepTimeError& report) {
+    report.set_steps(late.total());
+    report.set_p50_us(analysis.microseconds(late.quantile(50)));
+    report.set_p99_us(analysis.microseconds(late.quantile(99)));
+    report.set_max_us(analysis.microseconds(late.largest()));
+}
+
 void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& report) {
     const AxisStatistics& found = axis.statistics();
     report.set_name(axis.name());
@@ -39,16 +47,101 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     if (found.first()) { report.set_first_tick(found.first()->tick.value); }
     if (found.last()) { report.set_last_tick(found.last()->tick.value); }
     report.set_clock_error_us(analysis.microseconds(found.clock_error()));
+    fill(analysis, axis.late(), *report.mutable_step_time_error());
     fill_lengths(analysis, axis, report);
     fill_gaps(axis, report);
 }
 
-void fill(const JobLog& job, proto::JobAnalysis& report) {
+/// In seconds after the log's first step.
+double since_first_step(const Analysis& analysis, Tick tick) {
+    return analysis.seconds(tick - analysis.first_tick().value_or(tick));
+}
+
+void fill(const Analysis& analysis, const AxisConfig& config, const AxisMove& move, proto::AxisMoveAnalysis& report) {
+    const double per_s = 1e9 / static_cast<double>(analysis.tick_ns());
+    report.set_name(config.name);
+    report.set_asked_steps(move.asked_steps);
+    report.set_made_steps(move.made_steps);
+    if (move.peak_steps_per_tick > 0) {
+        report.set_peak_velocity_mm_s(move.peak_steps_per_tick * per_s / config.steps_per_mm);
+    }
+    if (move.peak_steps_per_tick2 > 0) {
+        report.set_peak_acceleration_mm_s2(move.peak_steps_per_tick2 * per_s * per_s / config.steps_per_mm);
+    }
+}
+
+void fill(const Analysis& analysis, const MoveLog& move, proto::MoveAnalysis& report) {
+    report.set_line(move.line);
+    report.set_length_mm(move.length_mm);
+    report.set_planned_s(analysis.seconds(move.planned));
+    if (move.made) { report.set_real_s(analysis.seconds(*move.made)); }
+    if (move.first) { report.set_begun_s(since_first_step(analysis, *move.first)); }
+    if (move.largest_distance_mm) { report.set_largest_distance_mm(*move.largest_distance_mm); }
+    report.set_skew_max_us(analysis.microseconds(move.skew));
+    fill(analysis, move.late, *report.mutable_step_time_error());
+    const std::size_t axes = analysis.config ? std::min(move.axes.size(), analysis.config->axes.size()) : 0;
+    for (std::size_t i = 0; i < axes; ++i) {
+        if (move.axes[i].asked_steps == 0 && move.axes[i].made_steps == 0) { continue; }
+        fill(analysis, analysis.config->axes[i], move.axes[i], *report.add_axes());
+    }
+}
+
+void fill_steps(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& report) {
+    report.set_move_count(job.move_count);
+    report.set_asked_steps(job.asked_steps);
+    report.set_made_steps(job.made_steps);
+    report.set_unasked_steps(job.unasked_steps);
+    report.set_moves_not_whole(job.moves_not_whole);
+    report.set_interruptions(job.interruptions());
+    if (job.largest_distance_mm) { report.set_largest_distance_mm(*job.largest_distance_mm); }
+    fill(analysis, job.late, *report.mutable_step_time_error());
+    for (const MoveLog& move : job.moves) { fill(analysis, move, *report.add_moves()); }
+}
+
+void fill(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& report) {
     report.set_job(job.job);
     report.set_kind(job.kind);
     report.set_outcome(job.outcome);
     report.set_name(job.name);
+    if (job.planned) { report.set_planned_s(analysis.seconds(*job.planned)); }
+    if (job.begun_us) { report.set_begun_s(since_first_step(analysis, analysis.tick_at(*job.begun_us))); }
     if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
+    fill_steps(analysis, job, report);
+}
+
+void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report) {
+    report.set_tick(event.at.value);
+    report.set_at_s(since_first_step(analysis, event.at));
+    report.set_what(event.what);
+    if (!event.axis.empty()) { report.set_axis(event.axis); }
+    if (!event.remedy.empty()) { report.set_remedy(event.remedy); }
+    if (event.job) { report.set_job(*event.job); }
+    if (event.line) { report.set_line(*event.line); }
+    for (const auto& [axis, steps] : event.at_steps) {
+        proto::FinalPosition& position = *report.add_positions();
+        position.set_name(axis);
+        position.set_position_steps(steps);
+        const AxisConfig* config = analysis.axis_config(axis);
+        if (config != nullptr) { position.set_position_mm(to_mm(*config, static_cast<double>(steps))); }
+    }
+}
+
+void fill(const Damage& damage, proto::UnreadStretch& report) {
+    report.set_first_byte(damage.first_byte);
+    report.set_last_byte(damage.last_byte);
+    report.set_places(damage.places);
+    report.set_bytes(damage.bytes);
+    report.set_reason(damage.what);
+}
+
+void fill_findings(const Analysis& analysis, proto::AnalysisReport& report) {
+    const auto found = findings(analysis);
+    report.set_verdict(std::string(name_of(verdict(found))));
+    for (const Finding& finding : found) {
+        proto::Finding& out = *report.add_findings();
+        out.set_grade(std::string(name_of(finding.grade)));
+        out.set_text(finding.text);
+    }
 }
 
 void fill(const Analysis& analysis, const PairSkew& skew, proto::StepSkew& report) {
@@ -71,9 +164,13 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
         report.set_duration_s(analysis.seconds(*analysis.last_tick() - *first));
     }
     for (const auto& axis : analysis.axes) { fill(analysis, *axis, *report.add_axes()); }
-    for (const JobLog& job : analysis.jobs) { fill(job, *report.add_jobs()); }
+    for (const JobLog& job : analysis.jobs) { fill(analysis, job, *report.add_jobs()); }
     for (const PairSkew& skew : analysis.step_skew) { fill(analysis, skew, *report.add_step_skew_between_axes()); }
     if (analysis.largest_distance_mm) { report.set_largest_distance_mm(*analysis.largest_distance_mm); }
+    fill_findings(analysis, report);
+    report.set_jobs_not_listed(analysis.jobs_not_kept);
+    for (const Event& event : analysis.happened) { fill(analysis, event, *report.add_events()); }
+    for (const Damage& damage : analysis.damages) { fill(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -32,6 +33,10 @@ public:
     /// So many frames wait for the axes whose record of them comes late.
     static constexpr std::size_t kFramesWaiting = 64;
 
+    using OnLate = std::function<void(const std::string& axis, const LateStep& step)>;
+    /// `on_late` hears of each step of a frame, axis by axis.
+    explicit SkewMeter(OnLate on_late = {}) : on_late_(std::move(on_late)) {}
+
     /// Where the steps of an axis are to be told.
     StepListener& steps_of(const std::string& axis) { return lateness(axis); }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
@@ -57,6 +62,7 @@ private:
     static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
     void take_pair(const Steps::value_type& first, const Steps::value_type& second);
 
+    OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
     std::map<FrameKey, Steps> frames_;
     std::map<std::pair<std::string, std::string>, Amounts> skews_;

@@ -4,24 +4,14 @@
 
 #include <cstdlib>
 
+#include "clients/analysis/numbers.hpp"
+#include "clients/analysis/verdict.hpp"
+
 namespace lockstep::analysis {
 namespace {
 
 constexpr std::size_t kBreaksShown = 5;  // per axis
-constexpr std::size_t kDamagesShown = 5;
-
-std::string grouped(std::int64_t number) {
-    std::string text = std::to_string(number);
-    for (std::size_t at = text.size(); at > (number < 0 ? 4U : 3U);) {
-        at -= 3;
-        text.insert(at, " ");
-    }
-    return text;
-}
-
-std::string plural(std::int64_t count, const std::string& one) {
-    return grouped(count) + " " + one + (count == 1 ? "" : "s");
-}
+constexpr std::size_t kEventsShown = 10;
 
 std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&)) {
     std::int64_t sum = 0;
@@ -31,9 +21,6 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
-std::int64_t missing_steps_of(const AxisLog& axis) {
-    return axis.statistics().missing_steps() + std::abs(axis.unrecorded_steps());
-}
 
 std::string missing_in_short(const Analysis& analysis) {
     const std::int64_t steps = total(analysis, missing_steps_of);
@@ -105,6 +92,28 @@ std::string skew_table(const Analysis& analysis) {
     return text;
 }
 
+std::string verdict_text(const Analysis& analysis) {
+    std::string text;
+    for (const Finding& finding : findings(analysis)) {
+        text += fmt::format("{:<9} {}\n", name_of(finding.grade), finding.text);
+    }
+    return text;
+}
+
+std::string events_text(const Analysis& analysis) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(analysis.happened.size(), kEventsShown); ++i) {
+        const Event& event = analysis.happened[i];
+        text += fmt::format("{} at {:.3f} s", event.axis.empty() ? "all axes" : event.axis,
+                            analysis.seconds(event.at - analysis.first_tick().value_or(event.at)));
+        if (event.line) { text += fmt::format(", line {}", *event.line); }
+        text += ": " + event.what + "\n";
+    }
+    const std::uint64_t all = analysis.happened.size() + analysis.events_not_kept;
+    if (all > kEventsShown) { text += fmt::format("and {} more such events\n", all - kEventsShown); }
+    return text;
+}
+
 std::string tick_text(const std::optional<Tick>& tick, const char* otherwise) {
     return tick ? "tick " + grouped(tick->value) : otherwise;
 }
@@ -150,14 +159,15 @@ std::string axis_notes(const AxisLog& axis) {
     return text;
 }
 
+std::string damage_sentence(const Damage& damage) {
+    const auto bytes = plural(static_cast<std::int64_t>(damage.bytes), "byte");
+    if (damage.places == 1) { return fmt::format("damaged at byte {}: {}, {}", damage.first_byte, damage.what, bytes); }
+    return fmt::format("damaged in {} places from byte {} to {}: {}, {}", damage.places, damage.first_byte,
+                       damage.last_byte, damage.what, bytes);
+}
+
 std::string log_notes(const Analysis& analysis) {
     std::string text;
-    for (std::size_t i = 0; i < std::min(analysis.damages.size(), kDamagesShown); ++i) {
-        text += fmt::format("damaged at byte {}: {}\n", analysis.damages[i].offset, analysis.damages[i].what);
-    }
-    if (analysis.damage_count > kDamagesShown) {
-        text += fmt::format("and {} more damaged places\n", analysis.damage_count - kDamagesShown);
-    }
     for (const auto& [channel, events] : analysis.foreign) {
         text += "not looked at: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
     }
@@ -174,10 +184,6 @@ std::string in_a_line(const Analysis& analysis) {
 
 std::vector<std::string> notes(const Analysis& analysis) {
     std::string text;
-    if (analysis.largest_distance_mm) {
-        text +=
-            fmt::format("the path stepped is at most {:.4f} mm from the path asked\n", *analysis.largest_distance_mm);
-    }
     for (const auto& axis : analysis.axes) {
         const Ticks error = axis->statistics().clock_error();
         if (error == Ticks{}) { continue; }
@@ -185,7 +191,7 @@ std::vector<std::string> notes(const Analysis& analysis) {
                             axis->name(), analysis.microseconds(error));
     }
     for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
-    text += log_notes(analysis);
+    text += events_text(analysis) + log_notes(analysis);
     std::vector<std::string> lines;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = text.find('\n', at);
@@ -198,9 +204,11 @@ std::vector<std::string> notes(const Analysis& analysis) {
 std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
+    text += verdict_text(analysis) + "\n";
     text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
     const auto lines = notes(analysis);
-    if (!lines.empty()) { text += "\n"; }
+    if (!lines.empty() || !analysis.damages.empty()) { text += "\n"; }
+    for (const Damage& damage : analysis.damages) { text += damage_sentence(damage) + "\n"; }
     for (const std::string& line : lines) { text += line + "\n"; }
     return text;
 }

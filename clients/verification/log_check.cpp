@@ -18,48 +18,48 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck& jobs
           },
           [this](std::int64_t from, std::int64_t end) { check.runs_missing(from, end); }) {}
 
-void LogCheck::on_steps(const step_batch_t& message, std::uint64_t offset) {
-    Axis* to = axis(message.machine, message.axis, offset);
+void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
+    Axis* to = axis(message.machine, message.axis, place);
     if (to == nullptr) { return; }
     auto batch = analysis::to_batch(message);
-    batch ? to->check.take(std::move(*batch)) : on_damage(offset, batch.error());
+    batch ? to->check.take(std::move(*batch)) : on_damage(place, batch.error());
 }
 
-void LogCheck::on_run(const run_t& message, std::uint64_t offset) {
-    Axis* to = axis(message.machine, message.axis, offset);
+void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
+    Axis* to = axis(message.machine, message.axis, place);
     if (to == nullptr) { return; }
     auto run = analysis::to_run(message);
-    run ? to->runs.take(std::move(*run)) : on_damage(offset, run.error());
+    run ? to->runs.take(std::move(*run)) : on_damage(place, run.error());
 }
 
-void LogCheck::on_job(const job_t& message, std::uint64_t offset) {
+void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
     if (!analysis::is_countable(message.start_tick) ||
         !std::ranges::all_of(message.start_count, analysis::is_countable)) {
-        return on_damage(offset, "a job with numbers that no machine counts to");
+        return on_damage(place, "a job with numbers that no machine counts to");
     }
-    if (Machine* to = machine(message.machine, offset)) { to->jobs.take(message); }
+    if (Machine* to = machine(message.machine, place)) { to->jobs.take(message); }
 }
 
-void LogCheck::on_damage(std::uint64_t offset, std::string what) {
+void LogCheck::on_damage(analysis::LogPlace place, std::string what) {
     if (++damages_ > kDamagesNoted) { return; }
-    findings_.notes.push_back("damaged at byte " + std::to_string(offset) + ": " + what);
+    findings_.notes.push_back("damaged at byte " + std::to_string(place.offset) + ": " + what);
 }
 
-LogCheck::Machine* LogCheck::machine(const std::string& name, std::uint64_t offset) {
+LogCheck::Machine* LogCheck::machine(const std::string& name, analysis::LogPlace place) {
     const auto known = machines_.find(name);
     if (known != machines_.end()) { return &known->second; }
     if (machines_.size() == kMaxMachines) {
-        on_damage(offset, "more machines than a log is believed to hold");
+        on_damage(place, "more machines than a log is believed to hold");
         return nullptr;
     }
     return &machines_.try_emplace(name, JobCheck(findings_)).first->second;
 }
 
-LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::string& name, std::uint64_t offset) {
-    Machine* of = machine(machine_name, offset);
+LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::string& name, analysis::LogPlace place) {
+    Machine* of = machine(machine_name, place);
     if (of == nullptr) { return nullptr; }
     if (of->axes.size() == kMaxAxes && !of->axes.contains(name)) {
-        on_damage(offset, "more axes than a machine can have");
+        on_damage(place, "more axes than a machine can have");
         return nullptr;
     }
     auto& found = of->axes[name];

@@ -15,12 +15,12 @@ namespace lockstep::verification {
 
 class LogCheck final : public analysis::LogListener {
 public:
-    void on_steps(const step_batch_t& message, std::uint64_t offset) override;
-    void on_position(const axis_position_t& /*message*/, std::uint64_t /*offset*/) override {}
-    void on_run(const run_t& message, std::uint64_t offset) override;
-    void on_job(const job_t& message, std::uint64_t offset) override;
+    void on_steps(const step_batch_t& message, analysis::LogPlace place) override;
+    void on_position(const axis_position_t& /*message*/, analysis::LogPlace /*place*/) override {}
+    void on_run(const run_t& message, analysis::LogPlace place) override;
+    void on_job(const job_t& message, analysis::LogPlace place) override;
     void on_foreign(std::string_view /*channel*/) override {}
-    void on_damage(std::uint64_t offset, std::string what) override;
+    void on_damage(analysis::LogPlace place, std::string what) override;
 
     Findings finish();
 
@@ -38,8 +38,8 @@ private:
         std::map<std::string, std::unique_ptr<Axis>> axes;
     };
 
-    Machine* machine(const std::string& name, std::uint64_t offset);
-    Axis* axis(const std::string& machine, const std::string& name, std::uint64_t offset);
+    Machine* machine(const std::string& name, analysis::LogPlace place);
+    Axis* axis(const std::string& machine, const std::string& name, analysis::LogPlace place);
 
     Findings findings_;
     std::map<std::string, Machine> machines_;

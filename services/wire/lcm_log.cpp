@@ -87,10 +87,11 @@ bool LogReader::hides_another(std::uint64_t offset, std::uint64_t end) {
 }
 
 /// Goes to the next place that looks like an event, or to the end, and notes what was skipped.
-void LogReader::skip_damage() {
+void LogReader::skip_damage(LogDamage::Kind kind) {
     std::uint64_t to = at_;
     do { to = find_sync(to + 1, file_.size()).value_or(file_.size()); } while (to < file_.size() && !header_at(to));
-    if (damages_.size() < kMaxDamages) { damages_.push_back({at_, to - at_}); }
+    if (to == file_.size() && kind == LogDamage::Kind::WrongLength) { kind = LogDamage::Kind::CutOff; }
+    if (damages_.size() < kMaxDamages) { damages_.push_back({at_, to - at_, kind}); }
     ++damaged_stretches_;
     damaged_bytes_ += to - at_;
     at_ = to;
@@ -101,6 +102,7 @@ LogEvent LogReader::event_at(std::uint64_t offset, const Header& header) {
     if (bytes.size() < header.event_bytes()) { return {}; }  // reading failed: next() says so
     const auto channel = bytes.subspan(kHeaderBytes, header.channel_bytes);
     return {.offset = offset,
+            .bytes = header.event_bytes(),
             .number = header.number,
             .utime = header.utime,
             .channel = {reinterpret_cast<const char*>(channel.data()), channel.size()},
@@ -113,7 +115,7 @@ std::expected<std::optional<LogEvent>, std::string> LogReader::next() {
         const std::uint64_t end = header ? at_ + header->event_bytes() : 0;
         const bool whole = header && end <= file_.size();
         if (!whole || (!begins_event(at_) && hides_another(at_, end))) {
-            skip_damage();
+            skip_damage(header ? LogDamage::Kind::WrongLength : LogDamage::Kind::NoEvent);
             continue;
         }
         const LogEvent event = event_at(at_, *header);

@@ -21,6 +21,7 @@ namespace lockstep {
 
 struct LogEvent {
     std::uint64_t offset = 0;  // in the file
+    std::uint64_t bytes = 0;   // there, its header included
     std::int64_t number = 0;
     std::int64_t utime = 0;  // microseconds, of the logger's clock
     std::string_view channel;
@@ -29,8 +30,14 @@ struct LogEvent {
 
 /// A stretch of the file that is no event, or is half of one.
 struct LogDamage {
+    enum class Kind : std::uint8_t {
+        CutOff,       // the file ends within an event
+        NoEvent,      // no event begins here
+        WrongLength,  // an event whose length takes in others
+    };
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
+    Kind kind = Kind::NoEvent;
 };
 
 class LogReader {
@@ -65,7 +72,7 @@ private:
     std::optional<std::uint64_t> find_sync(std::uint64_t from, std::uint64_t to);
     bool hides_another(std::uint64_t offset, std::uint64_t end);
     LogEvent event_at(std::uint64_t offset, const Header& header);
-    void skip_damage();
+    void skip_damage(LogDamage::Kind kind);
 
     FileWindow file_;
     std::uint64_t at_ = 0;

@@ -1,4 +1,6 @@
 // lockstep analyze
+#include <expected>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 
@@ -10,6 +12,7 @@
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/report_page/report_page.hpp"
 
 namespace lockstep {
 namespace {
@@ -18,6 +21,8 @@ struct AnalyzeOptions {
     std::string log;
     std::string svg_dir;
     std::string csv_dir;
+    std::string html;
+    bool no_html = false;
     bool json = false;
     bool no_colour = false;
 };
@@ -37,6 +42,34 @@ std::string coloured(const std::string& text) {
     return out;
 }
 
+/// Beside the log, unless another place was asked for.
+std::filesystem::path page_path(const AnalyzeOptions& options) {
+    if (!options.html.empty()) { return options.html; }
+    auto path = std::filesystem::path(options.log);
+    return path.replace_extension(".html");
+}
+
+/// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
+std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
+                                                             const analysis::Analysis& found, Voice& voice) {
+    const bool asked = !options.html.empty();
+    if (!asked && (options.no_html || options.json)) { return std::filesystem::path(); }
+    const auto path = page_path(options);
+    std::string problem;
+    if (!analysis::may_replace(path)) {
+        problem = path.string() +
+                  ": is there already and is no report, so it is left as it is; name another file with "
+                  "--html FILE";
+    } else if (const auto written = analysis::write_html(found, path); !written) {
+        problem = written.error();
+    } else {
+        return path;
+    }
+    if (asked) { return std::unexpected(problem); }
+    voice.warn("no report page: " + problem);
+    return std::filesystem::path();
+}
+
 ExitCode analyze(const AnalyzeOptions& options) {
     Voice voice(options.json);
     analysis::AnalysisOptions what;
@@ -48,9 +81,12 @@ ExitCode analyze(const AnalyzeOptions& options) {
     const auto found = analysis::analyze_log(options.log, what);
     if (!found) { return voice.fail(bad_input(found.error())); }
     std::string text = analysis::summary(*found);
+    const auto page = write_page(options, *found, voice);
+    if (!page) { return voice.fail(bad_input(page.error())); }
     if (wants_colour() && !options.no_colour) { text = coloured(text); }
     if (text.ends_with('\n')) { text.pop_back(); }
     voice.say(text);
+    if (!page->empty()) { voice.say("\nreport: " + page->string()); }
     voice.report(analysis::to_report(*found));
     return kExitDone;
 }
@@ -62,11 +98,18 @@ void add_analyze(CLI::App& app, Action& action) {
         app.add_subcommand("analyze", "say what a log holds: of each axis, of each job, and what is missing");
     const auto options = std::make_shared<AnalyzeOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
+    verb->add_option("--html", options->html, "the report page to write; beside the log as LOG.html unless given");
+    verb->add_flag("--no-html", options->no_html, "write no report page; with --json none is written unless --html is");
     verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
     verb->add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->add_flag("--no-color", options->no_colour, "no colours, also on a terminal");
-    verb->footer(footer("  lockstep analyze plate.lcm\n  lockstep analyze plate.lcm --svg pictures --csv tables\n"));
+    verb->footer(
+        footer("  lockstep analyze plate.lcm                 # and plate.html\n"
+               "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
+               "  lockstep analyze plate.lcm --json          # verdict: good, doubtful or bad\n\n"
+               "A log that is damaged, cut short or partly of another version is read as far as it can be and\n"
+               "exits 0: what could not be read is listed by its bytes. 2: nothing in it could be read.\n"));
     verb->callback([&action, options] { action = [options] { return analyze(*options); }; });
 }
 

@@ -129,7 +129,7 @@ TEST_F(AnalysisTest, ReadsWhatIsThereOfALogCutShort) {
     ASSERT_TRUE(found) << found.error();
     EXPECT_EQ(found->axes.at(0)->counts().steps, 90);
     ASSERT_EQ(found->damages.size(), 1U);
-    EXPECT_EQ(found->damages[0].offset, bytes / 10 * 9);
+    EXPECT_EQ(found->damages[0].first_byte, bytes / 10 * 9);
 }
 
 TEST_F(AnalysisTest, GoesOnBehindADamagedMessage) {
@@ -147,7 +147,7 @@ TEST_F(AnalysisTest, GoesOnBehindADamagedMessage) {
     EXPECT_EQ(found->axes.at(0)->counts().steps, 20);
     EXPECT_EQ(found->axes.at(0)->statistics().missing_steps(), 10);
     ASSERT_EQ(found->damages.size(), 1U);
-    EXPECT_EQ(found->damages[0].offset, event);
+    EXPECT_EQ(found->damages[0].first_byte, event);
 }
 
 TEST_F(AnalysisTest, SurvivesDamageAnywhere) {

@@ -35,15 +35,15 @@ struct LoggedSteps final : LogListener {
         Tick machine;
         Ticks error;
     };
-    void on_steps(const step_batch_t& message, std::uint64_t) override {
+    void on_steps(const step_batch_t& message, LogPlace) override {
         const StepBatch batch = in_machine_time(to_batch(message).value());
         for (const StepEdge& step : batch.steps) { axes[message.axis].push_back({step.tick, batch.clock_error}); }
     }
-    void on_position(const axis_position_t&, std::uint64_t) override {}
-    void on_run(const run_t&, std::uint64_t) override {}
-    void on_job(const job_t&, std::uint64_t) override {}
+    void on_position(const axis_position_t&, LogPlace) override {}
+    void on_run(const run_t&, LogPlace) override {}
+    void on_job(const job_t&, LogPlace) override {}
     void on_foreign(std::string_view) override {}
-    void on_damage(std::uint64_t, std::string what) override { ADD_FAILURE() << what; }
+    void on_damage(LogPlace, std::string what) override { ADD_FAILURE() << what; }
     std::map<std::string, std::vector<Step>> axes;
 };
 
@@ -159,7 +159,7 @@ TEST(MachineTimeByPtp, OfAMachineThatCountsFrom1970IsReadAndVerified) {
     }
     const auto found = analyze_log(log);
     ASSERT_TRUE(found.has_value()) << found.error();
-    EXPECT_EQ(found->damage_count, 0u);
+    EXPECT_TRUE(found->damages.empty());
     ASSERT_EQ(found->step_skew.size(), 1U);
     EXPECT_EQ(found->step_skew.front().largest, Ticks{0});
     EXPECT_EQ(found->step_skew.front().error, options.machine.clock_error_limit() * 2) << "believed, and said so";

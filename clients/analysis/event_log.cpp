@@ -1,0 +1,55 @@
+#include "clients/analysis/event_log.hpp"
+
+#include <utility>
+
+#include "core/faults.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+Event fault_event(const axis_position_t& message) {
+    const FaultText* known = find_fault(static_cast<FaultCode>(message.fault));
+    Event event{.at = {message.tick}, .what = {}, .axis = message.axis, .remedy = {}, .is_fault = true};
+    event.what = "fault " + std::to_string(message.fault);
+    if (known == nullptr) { return event; }
+    event.what += ", " + std::string(known->name) + ": " + std::string(known->cause);
+    event.remedy = known->remedy;
+    return event;
+}
+
+}  // namespace
+
+void EventLog::take(const axis_position_t& message) {
+    at_steps_[message.axis] = message.position_steps;
+    const std::int32_t before = std::exchange(faults_[message.axis], message.fault);
+    if (message.fault != 0 && message.fault != before) { note(fault_event(message)); }
+}
+
+/// A frame's own end is no event: a tail is run where the next frame was vetoed or did not come.
+void EventLog::take(const std::string& axis, const Run& run) {
+    if (run.epoch == 0) { return; }
+    if (run.cut) {
+        note({.at = run.commanded_start(),
+              .what = "pulses ceased at once, in " + name_of(run),
+              .axis = axis,
+              .remedy = {}});
+    }
+    if (!run.tail || std::exchange(latest_tail_, std::pair{run.epoch, run.frame}) == std::pair{run.epoch, run.frame}) {
+        return;
+    }
+    note({.at = run.commanded_start(),
+          .what = "began to come to rest, by the " + name_of(run),
+          .axis = {},
+          .remedy = {}});
+}
+
+void EventLog::note(Event event) {
+    if (events_.size() == kEventsKept) {
+        ++not_kept_;
+        return;
+    }
+    event.at_steps = at_steps_;
+    events_.push_back(std::move(event));
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,24 @@
+#include "clients/analysis/numbers.hpp"
+
+#include <cstdlib>
+
+namespace lockstep::analysis {
+
+std::string grouped(std::int64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t at = text.size(); at > (number < 0 ? 4U : 3U);) {
+        at -= 3;
+        text.insert(at, " ");
+    }
+    return text;
+}
+
+std::string plural(std::int64_t count, const std::string& one) {
+    return grouped(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+std::int64_t missing_steps_of(const AxisLog& axis) {
+    return axis.statistics().missing_steps() + std::abs(axis.unrecorded_steps());
+}
+
+}  // namespace lockstep::analysis

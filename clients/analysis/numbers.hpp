@@ -1,0 +1,18 @@
+// Numbers as people read them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "clients/analysis/axis_log.hpp"
+
+namespace lockstep::analysis {
+
+/// "12 345"
+std::string grouped(std::int64_t number);
+/// "1 step", "12 345 steps"
+std::string plural(std::int64_t count, const std::string& one);
+/// At least so many of an axis's steps were made and are not in the log.
+std::int64_t missing_steps_of(const AxisLog& axis);
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,14 @@
+// What the report page draws, as JSON: rows over time of every axis, the path, how far steps were from their times.
+#pragma once
+
+#include <string>
+
+#include "clients/analysis/analysis.hpp"
+
+namespace lockstep::analysis {
+
+/// {whole: [s, s], rows: [{kind, name, what, unit, colour, x, y, limits, missing}], path: {asked, stepped} or null,
+/// step_times: [{name, colour, classes, counts}]}. x: seconds after the first step; null breaks a curve.
+std::string page_charts(const Analysis& analysis);
+
+}  // namespace lockstep::analysis

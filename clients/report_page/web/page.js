@@ -1,0 +1,193 @@
+// Puts the page together: what was asked and made, then what it looked like, then what went wrong.
+"use strict";
+
+const report = JSON.parse(document.getElementById("report").textContent);
+const charts = JSON.parse(document.getElementById("charts").textContent);
+const main = document.getElementById("main");
+
+function section(title, ...content) {
+  const part = make("section", {}, make("h2", {}, title), ...content);
+  main.append(part);
+  return part;
+}
+
+function showTime(from, to) {
+  zoomTo(from, to);
+  document.getElementById("time")?.scrollIntoView({ behavior: "smooth" });
+}
+
+const micro = (value) => (value === undefined ? "–" : (value * 1000).toFixed(1));
+const peak = (key) => (move) => Math.max(...move.axes.map((axis) => axis[key] ?? NaN).filter((value) => value > 0), -Infinity);
+const shownPeak = (digits) => (value) => (value === -Infinity ? "–" : value.toFixed(digits));
+const sum = (key) => (move) => move.axes.reduce((all, axis) => all + Number(axis[key]), 0);
+const isWhole = (move) => move.axes.every((axis) => axis.asked_steps === axis.made_steps);
+
+const stepColumns = (asked, made, grade) => [
+  { head: "steps asked", of: asked, show: count },
+  { head: "made", of: made, show: count, grade },
+];
+
+function jobs() {
+  const rows = report.jobs;
+  if (rows.length === 0) { return; }
+  const outcome = { done: "good", failed: "bad" };
+  const columns = [
+    { head: "job", of: (job) => Number(job.job) },
+    { head: "kind", of: (job) => job.kind, text: true },
+    { head: "program", of: (job) => job.name, text: true },
+    { head: "outcome", of: (job) => job.outcome || "not ended", text: true, grade: (job) => outcome[job.outcome] ?? "doubtful" },
+    { head: "moves", of: (job) => Number(job.move_count), show: count },
+    ...stepColumns((job) => Number(job.asked_steps), (job) => Number(job.made_steps),
+      (job) => (job.outcome === "done" && (Number(job.moves_not_whole) || Number(job.unasked_steps)) ? "bad" : "")),
+    { head: "planned, s", of: (job) => job.planned_s, show: fixed(3) },
+    { head: "took, s", of: (job) => job.real_s, show: fixed(3) },
+    { head: "interrupted", of: (job) => Number(job.interruptions), grade: (job) => (Number(job.interruptions) ? "doubtful" : "") },
+    { head: "off the path, \u00b5m", of: (job) => job.largest_distance_mm, show: micro },
+    { head: "step time off, \u00b5s", of: (job) => job.step_time_error.max_us, show: fixed(1) },
+  ];
+  const onRow = (job) => showTime(job.begun_s ?? whole[0], (job.begun_s ?? 0) + (job.real_s ?? whole[1]));
+  section("Jobs", table(columns, rows, { first: 50, onRow }));
+}
+
+function moves() {
+  const all = report.jobs.flatMap((job) => job.moves.map((move) => ({ ...move, job: Number(job.job) })));
+  if (all.length === 0) { return; }
+  const wholeGrade = (move) => (isWhole(move) ? "" : "bad");
+  const columns = [
+    { head: "job", of: (move) => move.job },
+    { head: "line", of: (move) => move.line },
+    { head: "axes", of: (move) => move.axes.map((axis) => axis.name).join(" ") || "dwell", text: true },
+    { head: "length, mm", of: (move) => move.length_mm, show: fixed(3) },
+    ...stepColumns(sum("asked_steps"), sum("made_steps"), wholeGrade),
+    { head: "planned, s", of: (move) => move.planned_s, show: fixed(4) },
+    { head: "took, s", of: (move) => move.real_s, show: fixed(4) },
+    { head: "differs, ms", of: (move) => (move.real_s === undefined ? undefined : (move.real_s - move.planned_s) * 1000), show: fixed(3) },
+    { head: "peak, mm/s", of: peak("peak_velocity_mm_s"), show: shownPeak(2) },
+    { head: "peak, mm/s\u00b2", of: peak("peak_acceleration_mm_s2"), show: shownPeak(0) },
+    { head: "off the line, \u00b5m", of: (move) => move.largest_distance_mm, show: micro },
+    { head: "step time off, \u00b5s: p50", of: (move) => move.step_time_error.p50_us, show: fixed(1) },
+    { head: "p99", of: (move) => move.step_time_error.p99_us, show: fixed(1) },
+    { head: "most", of: (move) => move.step_time_error.max_us, show: fixed(1) },
+    { head: "axes apart, \u00b5s", of: (move) => move.skew_max_us, show: fixed(1) },
+  ];
+  const listed = report.jobs.reduce((sumOf, job) => sumOf + Number(job.move_count), 0);
+  const note = all.length < listed ? `The first ${count(all.length)} of ${count(listed)}; all are in the jobs' figures.` : "";
+  const onRow = (move) => {
+    if (move.begun_s === undefined) { return; }
+    const lasts = move.real_s ?? move.planned_s;
+    showTime(move.begun_s - 0.1 * lasts, move.begun_s + 1.1 * lasts);
+  };
+  section("Moves", make("p", { className: "soft" }, `Peaks are the fastest axis's, from its steps. A click on a head sorts, one on a move shows it. ${note}`),
+    table(columns, all, { first: 25, onRow }));
+}
+
+function axes() {
+  const columns = [
+    { head: "axis", of: (axis) => axis.name, text: true },
+    { head: "steps", of: (axis) => Number(axis.steps), show: count },
+    { head: "from, mm", of: (axis) => axis.position_start_mm, show: fixed(3) },
+    { head: "to, mm", of: (axis) => axis.position_end_mm, show: fixed(3) },
+    { head: "peak, mm/s", of: (axis) => axis.peak_velocity_mm_s, show: fixed(2) },
+    { head: "peak, mm/s\u00b2", of: (axis) => axis.peak_acceleration_mm_s2, show: fixed(0) },
+    { head: "missing steps", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "doubtful" : "") },
+    { head: "step time off, \u00b5s: p50", of: (axis) => axis.step_time_error.p50_us, show: fixed(1) },
+    { head: "p99", of: (axis) => axis.step_time_error.p99_us, show: fixed(1) },
+    { head: "most", of: (axis) => axis.step_time_error.max_us, show: fixed(1) },
+  ];
+  section("Axes", table(columns, report.axes));
+  if (report.step_skew_between_axes.length === 0) { return; }
+  section("Step skew between axes", table([
+    { head: "axes", of: (skew) => `${skew.first} – ${skew.second}`, text: true },
+    { head: "steps", of: (skew) => Number(skew.steps), show: count },
+    { head: "p50, \u00b5s", of: (skew) => skew.p50_us, show: fixed(1) },
+    { head: "p99", of: (skew) => skew.p99_us, show: fixed(1) },
+    { head: "most", of: (skew) => skew.max_us, show: fixed(1) },
+  ], report.step_skew_between_axes));
+}
+
+function events() {
+  if (report.events.length === 0) { return; }
+  const place = (event) => event.positions.map((at) => `${at.name} ${at.position_mm ? at.position_mm.toFixed(3) : at.position_steps}`).join("  ");
+  section("Faults, stops and interruptions", table([
+    { head: "at, s", of: (event) => event.at_s, show: fixed(3) },
+    { head: "axis", of: (event) => event.axis ?? "all", text: true },
+    { head: "what", of: (event) => event.what, text: true, long: true },
+    { head: "job", of: (event) => event.job ?? "–" },
+    { head: "line", of: (event) => event.line ?? "–" },
+    { head: "axes were at", of: place, text: true },
+    { head: "remedy", of: (event) => event.remedy ?? "", text: true, long: true },
+  ], report.events, { first: 50, onRow: (event) => showTime(event.at_s - 1, event.at_s + 1) }));
+}
+
+function record() {
+  const gaps = report.axes.flatMap((axis) => axis.gaps.map((gap) => ({ ...gap, axis: axis.name })));
+  if (gaps.length > 0) {
+    section("Gaps in the record", table([
+      { head: "axis", of: (gap) => gap.axis, text: true },
+      { head: "after tick", of: (gap) => Number(gap.after_tick), show: count },
+      { head: "before tick", of: (gap) => Number(gap.before_tick), show: count },
+      { head: "steps missing", of: (gap) => Number(gap.missing_steps), show: count },
+    ], gaps, { first: 50 }));
+  }
+  if (report.unread.length > 0) {
+    section("What could not be read", table([
+      { head: "reason", of: (part) => part.reason, text: true, long: true },
+      { head: "first byte", of: (part) => Number(part.first_byte), show: count },
+      { head: "last byte", of: (part) => Number(part.last_byte), show: count },
+      { head: "places", of: (part) => Number(part.places), show: count },
+      { head: "bytes skipped", of: (part) => Number(part.bytes), show: count },
+    ], report.unread));
+  }
+  if (report.notes.length > 0) { section("Notes", make("ul", {}, ...report.notes.map((note) => make("li", {}, note)))); }
+}
+
+function overTime() {
+  if (charts.rows.length === 0) { return; }
+  whole = charts.whole;
+  const buttons = make("p");
+  const holder = make("div");
+  const part = section("Over time", make("p", { className: "soft" },
+    "Drag to zoom, double-click to see all again. Dashed: limits; shaded: steps missing from the log; red: faults and stops."), buttons, holder);
+  part.id = "time";
+  const kinds = [...new Set(charts.rows.map((row) => row.kind))];
+  const draw = (kind) => {
+    const range = timeCharts.length > 0 ? timeCharts[0].scales.x : undefined;
+    const zoom = range ? [range.min, range.max] : whole;
+    timeCharts.splice(0).forEach((chart) => { joined.unsub(chart); chart.destroy(); });
+    holder.replaceChildren();
+    const rows = charts.rows.filter((row) => row.kind === kind);
+    rows.forEach((row, i) => {
+      const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
+      holder.append(figure);
+      timeChart(figure, row, report.events, i + 1 === rows.length);
+    });
+    zoomTo(...zoom);
+    [...buttons.children].forEach((button) => button.setAttribute("aria-pressed", button.textContent === kind));
+  };
+  kinds.forEach((kind) => buttons.append(make("button", { type: "button", onclick: () => draw(kind) }, kind)));
+  buttons.append(make("button", { type: "button", onclick: () => zoomTo(...whole) }, "all of it"));
+  draw(kinds[0]);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
+}
+
+function path() {
+  if (charts.path === null) { return; }
+  const figure = make("figure");
+  section("Path", make("p", { className: "soft" }, "X–Y. Drag a rectangle to zoom, double-click to see all again."), figure);
+  pathChart(figure, charts.path);
+}
+
+function stepTimes() {
+  if (charts.step_times.length === 0) { return; }
+  barChart(section("Step times against those commanded"), charts.step_times);
+}
+
+jobs();
+events();
+moves();
+axes();
+overTime();
+path();
+stepTimes();
+record();
+document.documentElement.dataset.drawn = "yes";

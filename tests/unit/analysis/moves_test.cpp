@@ -1,0 +1,134 @@
+// Each move of a job is measured by itself, and whether all was good is said.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/analysis/report.hpp"
+#include "clients/analysis/step_merge.hpp"
+#include "clients/analysis/verdict.hpp"
+#include "tests/unit/analysis/log_makers.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+using test::even_steps;
+using test::LogMaker;
+using test::path_through;
+
+struct Moves : testing::Test {
+    std::filesystem::path log = test::test_directory() / "run.lcm";
+
+    /// X 0 to 10 mm and back, with so many steps on the way there.
+    proto::AnalysisReport there_and_back(int steps_there, const std::string& outcome = "done") const {
+        const Program program = path_through({{0, 0}, {10, 0}, {0, 0}});
+        {
+            LogMaker maker(log);
+            maker.job("begun", 0, program);
+            maker.job("epoch", 500, program);
+            maker.steps("X", 0, 0, even_steps(1000, 200, steps_there));
+            maker.steps("X", 1, steps_there, even_steps(1'000'000, 200, 1000, -1));
+            if (!outcome.empty()) { maker.job("ended", 2'000'000, program, outcome); }
+        }
+        return to_report(analyze_log(log).value());
+    }
+};
+
+TEST_F(Moves, HaveTheStepsAskedAndMade) {
+    const auto report = there_and_back(1000);
+    ASSERT_EQ(report.jobs_size(), 1);
+    const auto& job = report.jobs(0);
+    ASSERT_EQ(job.moves_size(), 2);
+    EXPECT_EQ(job.asked_steps(), 2000);
+    EXPECT_EQ(job.made_steps(), 2000);
+    EXPECT_EQ(job.moves_not_whole(), 0);
+    EXPECT_EQ(job.moves(0).line(), 1);
+    EXPECT_DOUBLE_EQ(job.moves(0).length_mm(), 10);
+    ASSERT_EQ(job.moves(1).axes_size(), 1);
+    EXPECT_EQ(job.moves(1).axes(0).made_steps(), 1000);
+    EXPECT_NEAR(job.moves(0).axes(0).peak_velocity_mm_s(), 50, 1e-4);
+    EXPECT_EQ(report.verdict(), "good");
+}
+
+/// 999 intervals of 200 us, and what the plan has before the first step and behind the last.
+TEST_F(Moves, LastFromTheFirstStepToTheLast) {
+    const auto& move = there_and_back(1000).jobs(0).moves(0);
+    const double ends = move.real_s() - 999 * 200e-6;
+    EXPECT_GT(ends, 0);
+    EXPECT_LT(ends, 0.01);
+}
+
+TEST_F(Moves, ThatAreNotAsAskedAreBad) {
+    const auto report = there_and_back(1003);
+    EXPECT_EQ(report.jobs(0).unasked_steps(), 6) << "three there, and three to come back";
+    EXPECT_EQ(report.verdict(), "bad");
+    EXPECT_NE(report.findings(0).text().find("6 steps were not asked for"), std::string::npos);
+}
+
+TEST_F(Moves, OfAJobWithoutItsEndAreDoubtful) {
+    const auto report = there_and_back(1000, "");
+    EXPECT_EQ(report.verdict(), "doubtful");
+    EXPECT_EQ(report.findings(0).text(), "the log ends before job 3 (square) does");
+    EXPECT_EQ(there_and_back(1000, "failed").verdict(), "bad");
+}
+
+/// Where the record is damaged, what was made is not known.
+TEST_F(Moves, OfADamagedLogAreDoubtful) {
+    there_and_back(1000);
+    std::ostringstream text;
+    text << std::ifstream(log).rdbuf();
+    const std::size_t event = text.str().rfind("LOCKSTEP_MILL_X_STEPS") - 28;
+    std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(event));
+    file.put('?');  // in its sync word
+    file.close();
+    const auto report = to_report(analyze_log(log).value());
+    EXPECT_EQ(report.verdict(), "doubtful");
+    ASSERT_EQ(report.unread_size(), 1);
+    EXPECT_EQ(report.unread(0).reason(), "bytes that are no event");
+    EXPECT_EQ(report.unread(0).first_byte(), event);
+    EXPECT_EQ(report.unread(0).bytes(), report.unread(0).last_byte() - event + 1);
+}
+
+/// One entry, whatever the number of messages: first and last byte, and how many.
+TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
+    {
+        auto writer = LogWriter::open(log).value();
+        const std::vector<std::uint8_t> unknown(100, 7);
+        for (int i = 0; i < 10; ++i) { writer.write("LOCKSTEP_MILL_X_STEPS", i, unknown); }
+        writer.write_message("LOCKSTEP_MILL_Z_POSITION", 11, to_lcm(test::two_axes(), AxisState{}));
+        ASSERT_TRUE(writer.flush());
+    }
+    const auto report = to_report(analyze_log(log).value());
+    ASSERT_EQ(report.unread_size(), 1);
+    EXPECT_EQ(report.unread(0).places(), 10U);
+    EXPECT_EQ(report.unread(0).first_byte(), 0U);
+    EXPECT_EQ(report.unread(0).bytes(), report.unread(0).last_byte() + 1);
+    EXPECT_EQ(report.unread(0).reason(), "not a step_batch_t of this version on LOCKSTEP_MILL_X_STEPS");
+}
+
+struct Told final : MergedStepListener {
+    std::vector<std::int64_t> ticks;
+    void on_step(std::size_t, const MeasuredStep& step) override { ticks.push_back(step.tick.value); }
+};
+
+TEST(StepMerge, TellsTheStepsOfAllAxesInTheOrderOfTime) {
+    Told told;
+    StepMerge merge(told);
+    const std::size_t x = merge.add_lane();
+    const std::size_t y = merge.add_lane();
+    for (int i = 0; i < 100; ++i) { merge.take(x, {.tick = {i * 10}}); }
+    for (int i = 0; i < 100; ++i) { merge.take(y, {.tick = {i * 7 + 3}}); }
+    merge.settle();
+    EXPECT_TRUE(told.ticks.empty()) << "an earlier one may still come";
+    merge.take(x, {.tick = Tick{500} + StepMerge::kPatience});
+    merge.settle();
+    EXPECT_EQ(told.ticks.size(), 50U + 71U);
+    merge.finish();
+    EXPECT_EQ(told.ticks.size(), 201U);
+    EXPECT_TRUE(std::ranges::is_sorted(told.ticks));
+}
+
+}  // namespace
+}  // namespace lockstep::analysis
