@@ -1,6 +1,7 @@
 #include "core/axis/device_time.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/axis/retime.hpp"
 
@@ -26,8 +27,7 @@ DeviceTime::DeviceTime(const MachineConfig& machine)
     : source_(machine.timing.time_source),
       ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       machine_(machine.tick_ns),
-      shown_(machine.tick_ns),
-      undoubted_(machine.tick_ns) {}
+      shown_(machine.tick_ns) {}
 
 bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     device_ = device.now;
@@ -35,31 +35,29 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
         now_ = own;
         return true;
     }
-    const Tick shown = device.shares_clock ? own : device.now;
-    const bool is_certain = certain(own, shown);
-    own_ = own;
-    if (!is_certain || !machine_.known()) { return false; }
+    if (!certain(own, device.shares_clock ? own : device.now) || !machine_.known()) { return false; }
     now_ = machine_.advance(own, in_use);
     return true;
 }
 
 /// Takes a look at the device's clock.
 bool DeviceTime::certain(Tick own, Tick shown) {
-    const auto expected = shown_.known() ? shown_.at(own) : ClockEstimator::Reading{shown, {}};
-    const std::uint64_t times_set = shown_.steps();
-    const bool doubted_before = shown_.doubtful();
-    if (!doubted_before) { undoubted_ = shown_; }
-    shown_.take({own, shown, shown, own});
-    if (shown_.doubtful() && !doubted_before) {
-        set_by_ = expected.other - shown;
-        set_error_ = expected.error + Ticks{2};
-    }
-    if (shown_.steps() != times_set) {  // what was known of rates holds on
-        machine_.own_was_set(set_by_, set_error_);
-        shown_ = undoubted_;
-        shown_.own_was_set(set_by_, set_error_);
-    }
-    return !shown_.doubtful();
+    const auto finding = shown_.offer({own, shown, shown, own});
+    if (finding == ClockEstimator::Finding::Doubtful) { return false; }
+    if (finding == ClockEstimator::Finding::ClockSet) { own_was_set(own, shown); }
+    own_ = own;
+    seen_ = shown;
+    return true;
+}
+
+/// What this process's clock says of the time since the last look, beyond what the device's says.
+void DeviceTime::own_was_set(Tick own, Tick shown) {
+    const auto by_device = static_cast<double>((shown - seen_).value);
+    const Ticks passed{std::llround(by_device / (1 + shown_.rate()))};
+    const Ticks error{2 + std::llround(std::ceil(std::abs(by_device) * shown_.rate_error()))};
+    const Ticks by = own - own_ - passed;
+    machine_.own_was_set(by, error);
+    shown_.own_was_set(by, error);
 }
 
 Ticks DeviceTime::error_at(Tick machine) const {

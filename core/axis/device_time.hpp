@@ -60,6 +60,7 @@ private:
     };
 
     bool certain(Tick own, Tick shown);
+    void own_was_set(Tick own, Tick shown);
     Tick to_device(Tick machine) const { return shown_.at(machine_.own_at(machine)).other; }
     Tick to_machine(Tick device) const;
     Ticks error_at(Tick machine) const;
@@ -69,11 +70,9 @@ private:
     TimeSource source_;
     Ticks ptp_error_;
     MachineTime machine_;
-    ClockEstimator shown_;      // by the device
-    ClockEstimator undoubted_;  // the same, before a look that contradicts it
-    Ticks set_by_;              // this process's clock, as it seemed when it was last in doubt...
-    Ticks set_error_;
-    Tick own_;
+    ClockEstimator shown_;  // by the device
+    Tick own_;              // this process's clock, at the last look without doubt
+    Tick seen_;             // the device's, then
     Tick now_;
     Tick device_;
 

@@ -44,7 +44,7 @@ void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
 VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
     VirtualFault fault{.kind = Kind::SetClock, .process = draw.index(machine.axes.size())};
     const double by_s =
-        (draw.chance(0.5) ? 1 : -1) * draw.magnitude(1e-6 * static_cast<double>(machine.timing.slot_us), 1);
+        (draw.chance(0.5) ? 1 : -1) * draw.magnitude(1e-6 * static_cast<double>(machine.timing.slot_us), 10);
     fault.set_by = {static_cast<std::int64_t>(by_s * machine.ticks_per_second())};
     fault.lasts = {static_cast<std::int64_t>(6 * ClockAsker::kPeriod_s * machine.ticks_per_second())};
     return fault;
