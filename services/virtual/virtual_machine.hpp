@@ -81,8 +81,6 @@ public:
     /// The newest the client has heard.
     const std::optional<MachineState>& state() const { return machine_state_; }
     const std::vector<std::optional<AxisState>>& axis_states() const { return axis_states_; }
-    /// When an axis's device's clock came to read this, in true time.
-    double true_time(std::size_t i, Tick device) const { return clocks_of(i).device.truth(device, options_.start); }
     /// What an axis's device's clock reads now.
     Tick device_time(std::size_t i) const { return clocks_of(i).device.at(now_, options_.start); }
     /// An axis's device, which outlives its processes.

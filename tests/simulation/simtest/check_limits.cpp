@@ -6,10 +6,20 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kRounding = 1 + 1e-5;   // what integers make of doubles
-constexpr double kOwnClocks = 1 + 2e-3;  // rates apart, and slewing: boards with clocks of their own
-constexpr double kOwnClockTicks = 4;     // there, each piece's end is put on a tick
-constexpr double kJointTicks = 2;        // phases of a motion meet on whole ticks: each may be off by one
+constexpr double kRounding = 1 + 1e-5;  // what integers make of doubles
+constexpr double kJointTicks = 2;       // phases of a motion meet on whole ticks: each may be off by one
+
+/// What a device's own clock makes of machine time.
+struct OwnClock {
+    double stretch = 1;   // of a frame: rates 100 ppm apart, slewed by 500, and its length off by three ticks
+    double rounding = 1;  // ticks, of the time between two steps; pieces end on whole ticks of it
+};
+
+OwnClock own_clock(const MachineConfig& machine) {
+    if (machine.timing.time_source != TimeSource::Network) { return {}; }
+    const auto frame = static_cast<double>((machine.slot_ticks() * machine.timing.frame_slots).value);
+    return {.stretch = 1 + 600e-6 + 3 / frame, .rounding = 2};
+}
 
 struct Limits {
     double start = 0;  // steps per tick
@@ -19,9 +29,8 @@ struct Limits {
 };
 
 Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
-    const bool own_clocks = machine.timing.time_source == TimeSource::Network;
     const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
-    const double rate = own_clocks ? kOwnClocks : 1;
+    const double rate = own_clock(machine).stretch;
     const double scale = axis.steps_per_mm * tick * rate;
     return {axis.start_velocity_mm_s * scale * kRounding, axis.max_velocity_mm_s * scale * kRounding,
             axis.max_accel_mm_s2 * scale * tick * rate * kRounding,
@@ -40,8 +49,8 @@ public:
                       recording.machine.slot_ticks().value),
           axis_(axis),
           first_(job.first_step[axis]),
-          rounding_(recording.machine.timing.time_source == TimeSource::Network ? kOwnClockTicks : 1),
-          stretch_(recording.machine.timing.time_source == TimeSource::Network ? kOwnClocks : 1),
+          rounding_(own_clock(recording.machine).rounding),
+          stretch_(own_clock(recording.machine).stretch),
           ceases_(job.emergency.has_value()),
           violations_(violations) {
         // Steps beyond the course are another check's matter.

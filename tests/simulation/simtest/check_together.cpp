@@ -85,9 +85,9 @@ private:
     std::optional<Tick> next_tick() const {
         std::optional<Tick> next;
         for (std::size_t i = 0; i < made_.size(); ++i) {
-            const auto ticks = recording_.true_ticks_of(job_, i);
-            if (made_[i] == ticks.size()) { continue; }
-            const Tick certain = ticks[made_[i]] + error_at(i, ticks[made_[i]]);
+            const auto steps = recording_.steps_of(job_, i);
+            if (made_[i] == steps.size()) { continue; }
+            const Tick certain = latest(i, steps[made_[i]]);
             if (!next || certain < *next) { next = certain; }
         }
         return next;
@@ -98,13 +98,21 @@ private:
         const bool own_clocks = recording_.machine.timing.time_source == TimeSource::Network;
         return own_clocks ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
     }
+    Tick latest(std::size_t i, const StepEdge& step) const {
+        const Tick truth = recording_.axes[i].truth(step);
+        return truth + error_at(i, truth);
+    }
+    Tick earliest(std::size_t i, const StepEdge& step) const {
+        const Tick truth = recording_.axes[i].truth(step);
+        return truth - error_at(i, truth);
+    }
 
     void make_steps_at(Tick tick, std::size_t i) {
-        const auto ticks = recording_.true_ticks_of(job_, i);
-        while (made_[i] < ticks.size() && ticks[made_[i]] + error_at(i, ticks[made_[i]]) <= tick) {
+        const auto steps = recording_.steps_of(job_, i);
+        while (made_[i] < steps.size() && latest(i, steps[made_[i]]) <= tick) {
             places_[i].made(static_cast<std::int64_t>(++made_[i]));
         }
-        while (may_[i] < ticks.size() && ticks[may_[i]] - error_at(i, ticks[may_[i]]) <= tick) {
+        while (may_[i] < steps.size() && earliest(i, steps[may_[i]]) <= tick) {
             places_[i].may_have_made(static_cast<std::int64_t>(++may_[i]));
         }
     }

@@ -39,7 +39,7 @@ void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
     fault.incoming = way != 2;
 }
 
-/// By a slot, since what is less than a round trip passes for delay, up to a second; over when two exchanges have said
+/// By a slot, since what is less than a round trip passes for delay, up to seconds; over when two exchanges have said
 /// so.
 VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
     VirtualFault fault{.kind = Kind::SetClock, .process = draw.index(machine.axes.size())};

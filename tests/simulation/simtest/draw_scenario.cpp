@@ -112,6 +112,7 @@ FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
 /// Set seconds apart, up to 100 ppm fast or slow, processes and devices each for themselves.
 void give_clocks(Draw& draw, Scenario& scenario) {
     MachineConfig& machine = scenario.machine;
+    scenario.power_up = {100'000'000};  // later than any clock is behind
     machine.timing.time_source = TimeSource::Network;
     machine.timing.clock_error_limit_us = machine.timing.most_clock_error_us();
     const auto draw_clock = [&] {

@@ -54,14 +54,11 @@ std::uint64_t Recording::hash() const {
     return hash;
 }
 
+Tick AxisRecord::truth(const StepEdge& step) const { return {std::llround(clock.truth(step.tick, power_up))}; }
+
 Ticks AxisRecord::bound_at(Tick truth) const {
     const auto later = std::ranges::upper_bound(bounds, truth, {}, &PublishedBound::at);
     return later == bounds.begin() ? Ticks{} : std::prev(later)->error;
-}
-
-void Recorder::on_step(std::size_t axis, StepEdge step) {
-    recording_.axes[axis].steps.push_back(step);
-    recording_.axes[axis].true_ticks.push_back({std::llround(vm_.true_time(axis, step.tick))});
 }
 
 void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/course.hpp"
 #include "tests/simulation/simtest/violation.hpp"
@@ -42,11 +43,15 @@ struct LostRun {
 };
 
 struct AxisRecord {
-    std::vector<StepEdge> steps;  // from power-up on
-    std::vector<Track> tracks;
-    std::vector<LostRun> lost;
-    std::vector<Tick> true_ticks;  // of the steps, in true time, which is machine time; steps are in the device's
-    std::vector<PublishedBound> bounds;
+    Tick power_up;
+    VirtualClock clock{};           // the device's: steps and tracks are in its time
+    std::vector<StepEdge> steps{};  // from power-up on
+    std::vector<Track> tracks{};
+    std::vector<LostRun> lost{};
+    std::vector<PublishedBound> bounds{};
+
+    /// In true time, which is machine time.
+    Tick truth(const StepEdge& step) const;
 
     /// Published last before that instant.
     Ticks bound_at(Tick truth) const;
@@ -114,11 +119,6 @@ struct Recording {
     std::span<const StepEdge> steps_of(const JobRecord& job, std::size_t axis) const {
         return std::span(axes[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
     }
-    /// When they were made, in true time.
-    std::span<const Tick> true_ticks_of(const JobRecord& job, std::size_t axis) const {
-        return std::span(axes[axis].true_ticks)
-            .subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
-    }
     std::uint64_t steps() const;
     /// Of every step: axis, tick, direction.
     std::uint64_t hash() const;
@@ -127,10 +127,10 @@ struct Recording {
 /// Fills a recording's axes and frames from a machine in motion.
 class Recorder : public VirtualObserver {
 public:
-    Recorder(const VirtualMachine& vm, Recording& recording)
-        : vm_(vm), recording_(recording), epoch_(recording.axes.size(), 0), armed_(recording.axes.size(), 0) {}
+    explicit Recorder(Recording& recording)
+        : recording_(recording), epoch_(recording.axes.size(), 0), armed_(recording.axes.size(), 0) {}
 
-    void on_step(std::size_t axis, StepEdge step) override;
+    void on_step(std::size_t axis, StepEdge step) override { recording_.axes[axis].steps.push_back(step); }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
@@ -139,7 +139,6 @@ private:
     void take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node);
     void keep(const Frame& frame);
 
-    const VirtualMachine& vm_;
     Recording& recording_;
     std::vector<Epoch> epoch_;        // the axes are in; 0: none
     std::vector<FrameNumber> armed_;  // in that epoch

@@ -73,6 +73,7 @@ struct Scenario {
     std::uint64_t seed = 0;
     MachineConfig machine;
     NetworkBehaviour network;
+    Tick power_up{1'000'000};
     std::vector<AxisClocks> clocks;  // none: one clock for all
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
