@@ -47,7 +47,7 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
 }
 
 StepBatch in_machine_time(StepBatch batch) {
-    if (batch.steps.empty()) { return batch; }
+    if (batch.steps.empty() || (batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{})) { return batch; }
     const ClockStretch time = batch.machine_time();
     for (StepEdge& step : batch.steps) { step.tick = time.at(step.tick); }
     batch.ahead_first = batch.ahead_last = {};

@@ -51,10 +51,15 @@ void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step
     if (lanes_[lane] == "Y") { plane_.step(1, step.count, step.direction); }
 }
 
-void MoveMeter::on_late(const std::string& axis, const LateStep& step) {
-    Job* job = job_at(step.commanded);
-    if (job == nullptr) { return; }
-    if (const auto number = job->axis(axis)) { job->moves.take(*number, step); }
+void MoveMeter::on_late(const std::string& axis, std::span<const LateStep> steps) {
+    Job* latest = nullptr;
+    std::optional<std::size_t> number;
+    for (const LateStep& step : steps) {
+        Job* job = job_at(step.commanded);
+        if (job == nullptr) { continue; }
+        if (job != std::exchange(latest, job)) { number = job->axis(axis); }
+        if (number) { job->moves.take(*number, step); }
+    }
 }
 
 void MoveMeter::end_first() {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ public:
     void on_step(std::size_t lane, const MeasuredStep& step) override;
     /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
     const PlaneTrace& plane() const { return plane_; }
-    void on_late(const std::string& axis, const LateStep& step);
+    void on_late(const std::string& axis, std::span<const LateStep> steps);
     /// Call once, at the end.
     void finish();
 

@@ -153,9 +153,11 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
                  *analysis_.config, JobMoves(std::move(asked), on_a_line));
 }
 
-void Recorder::on_late(const std::string& axis, const LateStep& step) {
-    moves_.on_late(axis, step);
-    if (const auto log = axes_.find(axis); log != axes_.end()) { log->second->take(step); }
+void Recorder::on_late(const std::string& axis, std::span<const LateStep> steps) {
+    moves_.on_late(axis, steps);
+    const auto log = axes_.find(axis);
+    if (log == axes_.end()) { return; }
+    for (const LateStep& step : steps) { log->second->take(step); }
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {

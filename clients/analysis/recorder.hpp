@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "clients/analysis/analysis.hpp"
@@ -40,7 +41,7 @@ private:
     JobLog* job(const job_t& message);
     void begin_job(const job_t& message, JobLog& job, LogPlace place);
     std::optional<Program> read_documents(const job_t& message, LogPlace place);
-    void on_late(const std::string& axis, const LateStep& step);
+    void on_late(const std::string& axis, std::span<const LateStep> steps);
     bool is_during(Tick tick, const JobLog& job) const;
     void keep_asked_way(const Program& program);
     void note_moves(JobLog& job, const JobMoves& moves);
@@ -52,7 +53,7 @@ private:
     EventLog events_;
     MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
     StepMerge merge_{moves_};
-    SkewMeter skew_{[this](const std::string& axis, const LateStep& step) { on_late(axis, step); }};
+    SkewMeter skew_{[this](const std::string& axis, std::span<const LateStep> steps) { on_late(axis, steps); }};
     std::map<std::string, std::unique_ptr<AxisLog>> axes_;
     Analysis analysis_;
     std::string latest_program_;

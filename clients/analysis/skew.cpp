@@ -34,9 +34,7 @@ Lateness& SkewMeter::lateness(const std::string& axis) {
     auto& found = axes_[axis];
     if (!found) {
         found = std::make_unique<Lateness>([this, axis](const Run& run, std::vector<LateStep> steps) {
-            for (const LateStep& step : steps) {
-                if (on_late_) { on_late_(axis, step); }
-            }
+            if (on_late_) { on_late_(axis, steps); }
             frames_[{run.commanded_start(), run.epoch}][axis] = std::move(steps);
             if (frames_.size() > kFramesWaiting) { take_first_frame(); }
         });

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,8 +34,8 @@ public:
     /// So many frames wait for the axes whose record of them comes late.
     static constexpr std::size_t kFramesWaiting = 64;
 
-    using OnLate = std::function<void(const std::string& axis, const LateStep& step)>;
-    /// `on_late` hears of each step of a frame, axis by axis.
+    using OnLate = std::function<void(const std::string& axis, std::span<const LateStep> steps)>;
+    /// `on_late` hears of the steps of each frame, axis by axis.
     explicit SkewMeter(OnLate on_late = {}) : on_late_(std::move(on_late)) {}
 
     /// Where the steps of an axis are to be told.

@@ -51,7 +51,7 @@ struct AxisHealth {
     Tick tick;               // machine time
 
     // Of the second before, as all that follows to the next line.
-    Extremes step_lateness;                 // device against plan; as soon as the step's frame has been run
+    Extremes step_lateness;                 // device against plan, in frames; as soon as the frame has been run
     Extremes step_interval;                 // between steps of a motion
     Extremes setpoint_slack;                // how long before its start a frame came
     std::uint32_t least_free_segments = 0;  // room in the device's segment ring

@@ -25,7 +25,7 @@ inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss8888888884488
 template <>
 inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
 template <>
-inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888ssn8";
+inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888844ssn8";
 template <>
 inline constexpr std::string_view kLcmLayout<run_t> = "8ss8888188888188n888n8";
 template <>

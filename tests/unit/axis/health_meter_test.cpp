@@ -95,13 +95,24 @@ TEST_F(Health, AStandstillIsNoStepInterval) {
 
 TEST_F(Health, LatenessIsKnownOnceTheFrameWasRun) {
     AxisOutputs ran;
-    ran.tracks = {{.start = Tick{1'000'000},
+    ran.tracks = {{.epoch = 1,
+                   .start = Tick{1'000'000},
                    .from = Position::steps(0),
                    .pieces = {{{256}, {static_cast<std::int64_t>(kOneStep / 128)}, {}}}}};  // steps at 64 and 192
     loop({1'000'100}, {}, {{{1'000'067}, 1}});
     (void)report();
     loop({1'000'300}, ran, {{{1'000'190}, 1}});
     EXPECT_EQ(after({1'000'300}).step_lateness, (Extremes{2, {-2}, {3}}));
+}
+
+TEST_F(Health, AnOwnMoveIsNotComparedWithMachineTime) {
+    AxisOutputs ran;
+    ran.tracks = {{.start = Tick{1'000'000},
+                   .from = Position::steps(0),
+                   .pieces = {{{128}, {static_cast<std::int64_t>(kOneStep / 128)}, {}}}}};
+    loop({1'000'100}, ran, {{{1'000'090}, 1}});
+    (void)report();
+    EXPECT_EQ(after({1'000'100}).step_lateness.count, 0U);
 }
 
 TEST_F(Health, LowWaterMarksAreTheLeastRoomThatThereWas) {
