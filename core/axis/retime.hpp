@@ -4,7 +4,8 @@
 // spread over the whole stretch, since a short piece that had to make up for it all would break the axis's limits.
 // Between, the velocity is solved again. What rounding leaves of a piece (less than a tick's worth of the smallest
 // velocity) goes into the next, and the last piece gives up its last tick to a piece of its own that ends on the very
-// place. So nothing accumulates, neither in time nor in space, and the next frame, or the axis's rest, joins bit for bit.
+// place. So nothing accumulates, neither in time nor in space, and the next frame, or the axis's rest, joins bit for
+// bit.
 #pragma once
 
 #include "core/protocol/messages.hpp"

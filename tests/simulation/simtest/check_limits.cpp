@@ -11,14 +11,14 @@ constexpr double kJointTicks = 2;       // phases of a motion meet on whole tick
 
 /// What a device's own clock makes of machine time.
 struct OwnClock {
-    double stretch = 1;   // of a frame: rates 100 ppm apart, slewed by 500, and its length off by three ticks
+    double stretch = 1;   // of a frame: rates 100 ppm apart, known to 200, slewed by 500; and three ticks
     double rounding = 1;  // ticks, of the time between two steps; pieces end on whole ticks of it
 };
 
 OwnClock own_clock(const MachineConfig& machine) {
     if (machine.timing.time_source != TimeSource::Network) { return {}; }
     const auto frame = static_cast<double>((machine.slot_ticks() * machine.timing.frame_slots).value);
-    return {.stretch = 1 + 600e-6 + 3 / frame, .rounding = 2};
+    return {.stretch = 1 + 800e-6 + 3 / frame, .rounding = 2};
 }
 
 struct Limits {

@@ -138,9 +138,7 @@ TEST_F(JudgesOfOwnClocks, SeeAnAxisOneMillisecondBehindTheOther) {
 TEST_F(JudgesOfOwnClocks, SeeAFrameThatRunsAFiftiethFaster) {
     const auto steps = job_steps(0);
     const Tick from = steps[400].tick;
-    for (StepEdge& step : steps.subspan(400, 60)) {
-        step.tick = from + Ticks{(step.tick - from).value * 49 / 50};
-    }
+    for (StepEdge& step : steps.subspan(400, 60)) { step.tick = from + Ticks{(step.tick - from).value * 49 / 50}; }
     EXPECT_FALSE(check_limits(recording).empty());
 }
 
