@@ -1,6 +1,7 @@
 // A vector that lives where it stands and has a named bound: nothing is allocated where motion is decided.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
@@ -26,6 +27,13 @@ public:
         if (full()) { return false; }
         items_[size_++] = value;
         return true;
+    }
+
+    void pop_back() { --size_; }
+    /// The first so many; the others move up.
+    void erase_front(std::size_t count) {
+        std::move(begin() + count, end(), begin());
+        size_ -= count;
     }
 
     T& operator[](std::size_t i) { return items_[i]; }

@@ -1,6 +1,7 @@
 #include "core/axis/device_time.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/axis/retime.hpp"
 
@@ -34,12 +35,29 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
         now_ = own;
         return true;
     }
-    const Tick shown = device.shares_clock ? own : device.now;
-    shown_.take({own, shown, shown, own});
-    own_ = own;
-    if (!machine_.known()) { return false; }
+    if (!certain(own, device.shares_clock ? own : device.now) || !machine_.known()) { return false; }
     now_ = machine_.advance(own, in_use);
     return true;
+}
+
+/// Takes a look at the device's clock.
+bool DeviceTime::certain(Tick own, Tick shown) {
+    const auto finding = shown_.offer({own, shown, shown, own});
+    if (finding == ClockEstimator::Finding::Doubtful) { return false; }
+    if (finding == ClockEstimator::Finding::ClockSet) { own_was_set(own, shown); }
+    own_ = own;
+    seen_ = shown;
+    return true;
+}
+
+/// What this process's clock says of the time since the last look, beyond what the device's says.
+void DeviceTime::own_was_set(Tick own, Tick shown) {
+    const auto by_device = static_cast<double>((shown - seen_).value);
+    const Ticks passed{std::llround(by_device / (1 + shown_.rate()))};
+    const Ticks error{2 + std::llround(std::ceil(std::abs(by_device) * shown_.rate_error()))};
+    const Ticks by = own - own_ - passed;
+    machine_.own_was_set(by, error);
+    shown_.own_was_set(by, error);
 }
 
 Ticks DeviceTime::error_at(Tick machine) const {
@@ -115,15 +133,14 @@ void DeviceTime::load(device::LoadFrame& frame) {
 
 /// `loaded.body_end` is where the frame is to start, and becomes what it says.
 void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
-    const auto map = [this](Tick machine) { return to_device(machine); };
     const Tick start = loaded.body_end;
-    const Ticks body = at_least_one_each(map(machine_end) - start, frame.track.body.size());
+    const Ticks body = at_least_one_each(to_device(machine_end) - start, frame.track.body.size());
     loaded.body_end = start + body;
     const Tick machine_rest = machine_end + length(frame.track.tail);
-    const Ticks tail = at_least_one_each(map(machine_rest) - loaded.body_end, frame.track.tail.size());
+    const Ticks tail = at_least_one_each(to_device(machine_rest) - loaded.body_end, frame.track.tail.size());
     loaded.end = frame.track.tail.empty() ? loaded.body_end : loaded.body_end + tail;
-    (void)retime(frame.track.body, {frame.start, start, loaded.body_end}, map);
-    (void)retime(frame.track.tail, {machine_end, loaded.body_end, loaded.end}, map);
+    (void)retime(frame.track.body, {start, loaded.body_end});
+    (void)retime(frame.track.tail, {loaded.body_end, loaded.end});
     frame.start = start;
 }
 

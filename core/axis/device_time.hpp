@@ -30,8 +30,9 @@ public:
         Tick now;                   // what it shows
         bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
     };
-    /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet. `in_use`: the axis
-    /// moves, its time is slewed and not set.
+    /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet; or, for one loop, it
+    /// is in doubt: this process's clock does not go by the device's, which nobody can set. If it was set, the device's
+    /// tells by how much. `in_use`: the axis moves, its time is slewed and not set.
     bool look(Tick own, const Device& device, bool in_use);
 
     /// At the last look, as all below.
@@ -58,6 +59,8 @@ private:
         Ticks tail_error;
     };
 
+    bool certain(Tick own, Tick shown);
+    void own_was_set(Tick own, Tick shown);
     Tick to_device(Tick machine) const { return shown_.at(machine_.own_at(machine)).other; }
     Tick to_machine(Tick device) const;
     Ticks error_at(Tick machine) const;
@@ -68,7 +71,8 @@ private:
     Ticks ptp_error_;
     MachineTime machine_;
     ClockEstimator shown_;  // by the device
-    Tick own_;
+    Tick own_;              // this process's clock, at the last look without doubt
+    Tick seen_;             // the device's, then
     Tick now_;
     Tick device_;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clock/clock_view.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -21,25 +23,34 @@ Piece solved(const Piece& piece, Displacement covers, Ticks ticks) {
     return result;
 }
 
+template <typename Pieces>
+Ticks length(const Pieces& pieces) {
+    Ticks all;
+    for (const Piece& piece : pieces) { all += piece.ticks; }
+    return all;
+}
+
 /// One tick that covers just so much.
 Piece tick_of(Displacement covers) { return {{1}, {static_cast<std::int64_t>(covers.raw)}, {}}; }
 
 }  // namespace
 
 template <std::size_t Capacity>
-bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when, const ToDevice& to_device) {
+bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
     StaticVector<Piece, Capacity> result;
-    Tick machine = when.machine_start;
-    Tick device = when.device_start;
+    const ClockStretch stretch{
+        .from = {}, .ticks = length(pieces), .other_from = when.start, .other_ticks = when.end - when.start};
+    Tick gone;  // ticks of the pieces as they are
+    Tick device = when.start;
     Displacement left;  // of what the pieces so far should have covered
     bool fits = true;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
         const bool last = i + 1 == pieces.size();
-        machine += piece.ticks;
+        gone += piece.ticks;
         const Ticks needed{static_cast<std::int64_t>(pieces.size() - i) - 1};  // a tick for each that follows
-        const Tick wanted = last ? when.device_end : to_device(machine);
-        const Tick end = std::max(device + Ticks{1}, std::min(wanted, when.device_end - needed));
+        const Tick wanted = last ? when.end : stretch.at(gone);
+        const Tick end = std::max(device + Ticks{1}, std::min(wanted, when.end - needed));
         const Displacement covers = piece.covered() + left;
         Piece solution = solved(piece, covers, end - device);
         left = covers - solution.covered();
@@ -55,7 +66,7 @@ bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when, const T
     return fits;
 }
 
-template bool retime(StaticVector<Piece, kMaxBodyPieces + 1>&, const Retiming&, const ToDevice&);
-template bool retime(StaticVector<Piece, kMaxTailPieces + 1>&, const Retiming&, const ToDevice&);
+template bool retime(StaticVector<Piece, kMaxBodyPieces + 1>&, const Retiming&);
+template bool retime(StaticVector<Piece, kMaxTailPieces + 1>&, const Retiming&);
 
 }  // namespace lockstep

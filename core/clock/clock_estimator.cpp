@@ -29,12 +29,20 @@ ClockEstimator::Sample ClockEstimator::sample_of(const ClockExchange& exchange) 
 }
 
 void ClockEstimator::take(const ClockExchange& exchange) {
-    if (exchange.arrived < exchange.sent || exchange.answered < exchange.received) { return; }
+    if (offer(exchange) != Finding::ClockSet) { return; }
+    kept_.clear();
+    doubtful_.reset();
+    doubt_ = 0;
+    keep(sample_of(exchange));
+}
+
+ClockEstimator::Finding ClockEstimator::offer(const ClockExchange& exchange) {
+    if (exchange.arrived < exchange.sent || exchange.answered < exchange.received) { return Finding::Agrees; }
     if (!known()) {
         own_origin_ = exchange.sent;
         other_origin_ = exchange.received;
         keep(sample_of(exchange));
-        return fit();
+        return Finding::Agrees;
     }
     const Sample sample = sample_of(exchange);
     const Span expected = ahead_at(sample.own);
@@ -42,16 +50,23 @@ void ClockEstimator::take(const ClockExchange& exchange) {
         std::max({0.0, expected.low - sample.ahead - sample.half, sample.ahead - sample.half - expected.high});
     if (apart == 0) {
         doubtful_.reset();
+        doubt_ = 0;
         keep(sample);
-    } else if (doubtful_ && agree(*doubtful_, sample)) {  // twice the same: it is so
-        kept_.assign(1, sample);
-        doubtful_.reset();
-        ++steps_;
-    } else {
-        doubtful_ = sample;
+        return Finding::Agrees;
     }
-    doubt_ = doubtful_ ? apart + 2 * doubtful_->half : 0;
-    fit();
+    const bool twice = doubtful_ && agree(*doubtful_, sample);
+    doubtful_ = sample;
+    doubt_ = apart + 2 * sample.half;
+    if (twice) { ++steps_; }
+    return twice ? Finding::ClockSet : Finding::Doubtful;
+}
+
+void ClockEstimator::own_was_set(Ticks by, Ticks error) {
+    own_origin_ += by;
+    for (Sample& sample : kept_) { sample.half += static_cast<double>(error.value); }
+    doubtful_.reset();
+    doubt_ = 0;
+    if (known()) { fit(); }
 }
 
 bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
@@ -62,12 +77,14 @@ bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
 /// The best of its stretch of time; those that have left the window go.
 void ClockEstimator::keep(const Sample& sample) {
     const auto stretch_of = [this](const Sample& s) { return std::floor(s.own / stretch_); };
-    if (!kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample)) {
-        if (sample.half <= kept_.back().half) { kept_.back() = sample; }
-    } else {
-        kept_.push_back(sample);
-    }
-    while (kept_.front().own < sample.own - window_) { kept_.pop_front(); }
+    const bool same_stretch = !kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample);
+    if (same_stretch && sample.half >= kept_.back().half) { return; }
+    if (same_stretch) { kept_.pop_back(); }
+    const auto is_young = [&](const Sample& s) { return s.own >= sample.own - window_; };
+    const auto outdated = static_cast<std::size_t>(std::ranges::find_if(kept_, is_young) - kept_.begin());
+    kept_.erase_front(std::max<std::size_t>(outdated, kept_.full() ? 1 : 0));
+    (void)kept_.push_back(sample);
+    fit();
 }
 
 /// The rate that the exchanges suggest, within what they prove.
@@ -75,6 +92,8 @@ void ClockEstimator::fit() {
     const Span proven = proven_rates();
     rate_ = std::clamp(slope(), proven.low, proven.high);
     rate_error_ = std::max(proven.high - rate_, rate_ - proven.low) + kWander;
+    newest_ = std::ranges::max(kept_, {}, &Sample::own).own;
+    then_ = proven_at(newest_);
 }
 
 /// From any two exchanges: what was least ahead then and most ahead now, and the other way round.
@@ -116,8 +135,14 @@ double ClockEstimator::slope() const {
     return spread > 0 ? together / spread : 0;
 }
 
-/// What all that is kept proves together.
+/// What all that is kept proves together. After the newest, the span only shifts and widens.
 ClockEstimator::Span ClockEstimator::ahead_at(double own) const {
+    if (own < newest_) { return proven_at(own); }
+    const double since = own - newest_;
+    return {then_.low + (rate_ - rate_error_) * since, then_.high + (rate_ + rate_error_) * since};
+}
+
+ClockEstimator::Span ClockEstimator::proven_at(double own) const {
     Span all{-1e300, 1e300};
     for (const Sample& s : kept_) {
         const double time = own - s.own;

@@ -13,10 +13,10 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "core/clock/clock_view.hpp"
+#include "core/static_vector.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {
@@ -36,8 +36,17 @@ public:
     /// tick_ns: both clocks' tick, nominally.
     explicit ClockEstimator(std::int64_t tick_ns);
 
-    /// Exchanges that cannot be (answered before received, arrived before sent) are left out.
+    /// Exchanges that cannot be (answered before received, arrived before sent) are left out. When a clock was set, all
+    /// before is forgotten.
     void take(const ClockExchange& exchange);
+
+    /// How an exchange goes with those before: one that contradicts them is doubtful; when a second says the same, a
+    /// clock was set.
+    enum class Finding : std::uint8_t { Agrees, Doubtful, ClockSet };
+    /// As `take`, but when a clock was set what is known stays: for whoever can tell which, and by how much.
+    Finding offer(const ClockExchange& exchange);
+    /// The own clock was set forward by so much, which is known within `error`: what was learned by it holds on.
+    void own_was_set(Ticks by, Ticks error);
 
     /// Whether there has been an exchange; before that nothing else may be asked.
     bool known() const { return !kept_.empty(); }
@@ -56,10 +65,14 @@ public:
 
     /// The other clock's ticks in one own tick, minus 1.
     double rate() const { return rate_; }
+    /// At most so far off, either way.
+    double rate_error() const { return rate_error_; }
     /// How often one of the clocks was found to have been set.
     std::uint64_t steps() const { return steps_; }
 
 private:
+    static constexpr std::size_t kKept = 40;  // one of each stretch of the window, and a few that came out of turn
+
     /// Relative to the first exchange, so that fractions of a tick are kept.
     struct Sample {
         double own = 0;
@@ -78,6 +91,7 @@ private:
     void fit();
     Span proven_rates() const;
     double slope() const;
+    Span proven_at(double own) const;
     Span ahead_at(double own) const;
     bool agree(const Sample& one, const Sample& other) const;
 
@@ -85,11 +99,13 @@ private:
     double stretch_;  // of which one exchange is kept
     Tick own_origin_;
     Tick other_origin_;
-    std::deque<Sample> kept_;
+    StaticVector<Sample, kKept> kept_;
     std::optional<Sample> doubtful_;  // contradicts those kept: was a clock set?
     double doubt_ = 0;                // how far it is from them
     double rate_ = 0;
     double rate_error_ = kMaxRate;
+    double newest_ = 0;  // of those kept; later the span only widens:
+    Span then_;          // what they prove then
     std::uint64_t steps_ = 0;
 };
 

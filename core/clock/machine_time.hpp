@@ -14,6 +14,11 @@ public:
 
     /// An exchange with the coordinator.
     void take(const ClockExchange& exchange) { coordinator_.take(exchange); }
+    /// The own clock was set forward by so much, which is known within `error`.
+    void own_was_set(Ticks by, Ticks error) {
+        coordinator_.own_was_set(by, error);
+        own_ += by;
+    }
     /// Whether the coordinator has answered yet; before that nothing else may be asked.
     bool known() const { return coordinator_.known(); }
 

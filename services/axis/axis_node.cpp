@@ -23,14 +23,24 @@ AxisNode::AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver)
       longest_standstill_(setup.machine.slot_ticks() * rules::silence_slots(setup.machine.timing)) {}
 
 AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
+    AxisOutputs out = decide(own, mail, on_step);
+    carry_out(own, out);
+    return out;
+}
+
+AxisOutputs AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_step) {
     if (device_.simulated) { device_.simulated->advance(own); }
     for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
     look(own);
     knows_time_ = time_.look(own, {status_.now, device_.shares_clock}, !controller_.at_rest());
-    AxisOutputs out = knows_time_ ? decide(mail) : AxisOutputs{};
-    if (device_.simulated) { device_.simulated->advance(own); }
+    AxisOutputs out = knows_time_ ? control(mail) : AxisOutputs{};
     drain(on_step, out.device_clock);
     return out;
+}
+
+void AxisNode::carry_out(Tick own, const AxisOutputs& decided) {
+    give(decided.orders);
+    if (device_.simulated) { device_.simulated->advance(own); }
 }
 
 void AxisNode::drain(const OnStep& on_step, const ClockView& machine_time) {
@@ -43,7 +53,7 @@ void AxisNode::drain(const OnStep& on_step, const ClockView& machine_time) {
     if (meter != nullptr) { meter->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
 }
 
-AxisOutputs AxisNode::decide(const AxisMail& mail) {
+AxisOutputs AxisNode::control(const AxisMail& mail) {
     const DeviceStatus status = time_.in_machine_time(status_);
     AxisOutputs out = controller_.step({.now = time_.now(),
                                         .device = status,
@@ -61,7 +71,6 @@ AxisOutputs AxisNode::decide(const AxisMail& mail) {
     for (ExecutedTrack& track : out.tracks) { track = time_.in_device_time(std::move(track)); }
     for (DeviceOrder& order : out.orders) { order = time_.in_device_time(std::move(order)); }
     out.device_clock = time_.device_clock();
-    give(out.orders);
     return out;
 }
 

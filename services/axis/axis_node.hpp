@@ -55,6 +55,10 @@ public:
     /// before the machine time is known.
     AxisOutputs step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
+    /// The two halves of a loop: what is decided, and what the device is told of it.
+    AxisOutputs decide(Tick own, const AxisMail& mail, const OnStep& on_step);
+    void carry_out(Tick own, const AxisOutputs& decided);
+
     /// From the next step on every loop is measured. `meter` outlives the node.
     void measure(HealthMeter& meter) { meter_ = &meter; }
     /// What it is said of the device: orders refused and looks that failed, and steps whose time was not kept.
@@ -73,7 +77,7 @@ public:
 private:
     AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
     void look(Tick own);
-    AxisOutputs decide(const AxisMail& mail);
+    AxisOutputs control(const AxisMail& mail);
     void drain(const OnStep& on_step, const ClockView& machine_time);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);

@@ -21,6 +21,12 @@ struct VirtualClock {
         const Ticks stepped = step_at && truth >= *step_at ? step : Ticks{};
         return truth + offset + stepped + Ticks{static_cast<std::int64_t>(std::floor(gained))};
     }
+
+    /// The true time, in ticks, at which it came to show this, had it never been set.
+    double truth(Tick reading, Tick origin) const {
+        const double since = static_cast<double>((reading - offset - origin).value);
+        return static_cast<double>(origin.value) + since / (1 + ppm * 1e-6);
+    }
 };
 
 /// An axis's process and its device may each have one.

@@ -14,12 +14,15 @@ struct VirtualFault {
         Freeze,  // the process's loop does not run; what is sent to it waits; its device goes on
         Crash,   // the process ends, what is sent to it is lost, its device goes on; at the end another takes its place
         Cut,     // messages between the process and its peers are lost
+        SetClock,  // an axis's process finds its clock set; it lasts until that can have been noticed
     };
     Kind kind = Kind::Freeze;
     std::size_t process = 0;
     Tick at;
     Ticks lasts;
     std::optional<std::size_t> peer;  // Cut: of this link only; none: of the links with all others
+    bool in_loop = false;             // Freeze: between what a loop decides and what it does about it
+    Ticks set_by;                     // SetClock: forward
     bool outgoing = true;             // Cut: what the process says is lost
     bool incoming = true;             // Cut: what is said to it is lost
 

@@ -78,7 +78,7 @@ void VirtualMachine::start(std::size_t process) {
 }
 
 void VirtualMachine::crash(std::size_t process) {
-    processes_[process].alive = false;
+    processes_[process] = {};
     is_coordinator(process) ? coordinator(process).reset() : axes_[process].node.reset();
 }
 
@@ -116,7 +116,12 @@ void VirtualMachine::take_turn(const Turn& turn) {
     Process& victim = processes_[turn.fault.process];
     switch (turn.fault.kind) {
         case VirtualFault::Kind::Freeze:
-            if (turn.begins) { victim.next = std::max(victim.next, turn.fault.end()); }
+            if (turn.begins && turn.fault.in_loop) { victim.stalls_until = turn.fault.end(); }
+            if (turn.begins && !turn.fault.in_loop) { victim.next = std::max(victim.next, turn.fault.end()); }
+            break;
+        case VirtualFault::Kind::SetClock:
+            options_.clocks.resize(axes_.size());
+            if (turn.begins) { options_.clocks.at(turn.fault.process).process.offset += turn.fault.set_by; }
             break;
         case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault.process); break;
         case VirtualFault::Kind::Cut: cut(turn.fault, turn.begins); break;
@@ -186,8 +191,7 @@ void VirtualMachine::advance() {
         take_turn(turn);
     } else {
         now_ = processes_[*process].next;
-        processes_[*process].next += period_;
-        is_coordinator(*process) ? step_coordinator(*process) : step_axis(*process);
+        run_loop(*process);
     }
     listen();
 }
@@ -201,7 +205,26 @@ bool VirtualMachine::advance_until(const std::function<bool()>& done, Ticks limi
     return false;
 }
 
-void VirtualMachine::step_axis(std::size_t i) {
+/// A process that stalls in a loop has decided and has not acted; when it goes on, it does.
+void VirtualMachine::run_loop(std::size_t i) {
+    Process& process = processes_[i];
+    process.next += period_;
+    if (process.decided.index() == 0) {
+        if (is_coordinator(i)) {
+            process.decided = decide_coordinator(i);
+        } else {
+            process.decided = decide_axis(i);
+        }
+        if (process.stalls_until > now_) {
+            process.next = std::max(process.next, process.stalls_until);
+            return;
+        }
+    }
+    const auto decided = std::exchange(process.decided, std::monostate{});
+    std::visit([&](const auto& out) { carry_out(i, out); }, decided);
+}
+
+AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
     const Mail mail = collect(network_, now_, i);
     const auto on_step = [&](StepEdge step) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
@@ -209,17 +232,28 @@ void VirtualMachine::step_axis(std::size_t i) {
     AxisNode& node = *axes_[i].node;
     const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
     device(i).advance(device_time(i));
-    const AxisOutputs out = node.step(
+    AxisOutputs out = node.decide(
         process_time(i), {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands, exchanges}, on_step);
+    for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
+    return out;
+}
+
+void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
+    device(i).advance(device_time(i));
+    axes_[i].node->carry_out(process_time(i), out);
     device(i).advance(device_time(i));  // it acts on its orders
     ask_time(i);
     if (out.state) { multicast(*out.state, i); }
-    for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
 }
 
-void VirtualMachine::step_coordinator(std::size_t here) {
+CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
     const Mail mail = collect(network_, now_, here);
-    const CoordinatorOutputs out = coordinator(here)->step({now_, mail.axes, mail.machine, mail.commands});
+    CoordinatorOutputs out = coordinator(here)->step({now_, mail.axes, mail.machine, mail.commands});
+    for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
+    return out;
+}
+
+void VirtualMachine::carry_out(std::size_t here, const CoordinatorOutputs& out) {
     for (const Frame& frame : out.frames) {
         const auto message = std::make_shared<const VirtualMessage>(frame);
         for (std::size_t i = 0; i < axes_.size(); ++i) { send(here, i, message); }
@@ -231,7 +265,6 @@ void VirtualMachine::step_coordinator(std::size_t here) {
     for (const Reply& reply : out.replies) {
         send(here, client_address(), std::make_shared<const VirtualMessage>(reply));
     }
-    for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
 }
 
 void VirtualMachine::send(std::size_t from, std::size_t to, SharedMessage message) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "core/clock/clock_asker.hpp"
@@ -101,6 +102,8 @@ private:
     struct Process {
         bool alive = false;
         Tick next;
+        Tick stalls_until{};  // in its next loop, if that is to come
+        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided{};  // and not done: it stalls in a loop
     };
     /// A fault begins or ends.
     struct Turn {
@@ -123,8 +126,12 @@ private:
     void take_clock_mail(std::size_t process);
     void ask_time(std::size_t i);
 
-    void step_axis(std::size_t i);
-    void step_coordinator(std::size_t here);
+    void run_loop(std::size_t process);
+    AxisOutputs decide_axis(std::size_t i);
+    CoordinatorOutputs decide_coordinator(std::size_t here);
+    void carry_out(std::size_t process, const AxisOutputs& out);
+    void carry_out(std::size_t process, const CoordinatorOutputs& out);
+    void carry_out(std::size_t /*process*/, std::monostate /*nothing*/) {}
     void listen();
     void send(std::size_t from, std::size_t to, SharedMessage message);
     void multicast(VirtualMessage message, std::size_t from);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/clock/clock_asker.hpp"
 #include "tests/simulation/simtest/explain.hpp"
 
 namespace lockstep::simtest {
@@ -20,7 +21,8 @@ double outage_seconds(const Scenario& scenario) {
     };
     add(scenario.homing_fault);
     for (const Task& task : scenario.tasks) { add(task.fault); }
-    return slots * static_cast<double>(t.slot_us) * 1e-6;
+    const double asking_s = scenario.clocks.empty() ? 0 : 4 * ClockAsker::kPeriod_s;  // for the time, in vain at first
+    return slots * static_cast<double>(t.slot_us) * 1e-6 + asking_s;
 }
 
 }  // namespace
@@ -28,7 +30,11 @@ double outage_seconds(const Scenario& scenario) {
 Bench::Bench(const Scenario& scenario, Played& played)
     : scenario_(scenario),
       played_(played),
-      vm_({.machine = scenario.machine, .seed = scenario.seed, .network = scenario.network}),
+      vm_({.machine = scenario.machine,
+           .seed = scenario.seed,
+           .network = scenario.network,
+           .start = scenario.power_up,
+           .clocks = scenario.clocks}),
       recorder_(played.recording),
       watch_(scenario.machine.axes.size()),
       placer_(vm_),

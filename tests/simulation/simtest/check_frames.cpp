@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "tests/simulation/simtest/checks.hpp"
 #include "tests/simulation/simtest/epoch_runs.hpp"
@@ -47,7 +48,7 @@ private:
             for (; step < steps.size() && steps[step].tick <= end; ++step) { net += steps[step].direction; }
             if (net != track.net_steps && !track.cut) { object(i, track.start, "other steps made than the track has"); }
         }
-        check_between(i, tracks.size(), step, recording_.ended);
+        check_between(i, tracks.size(), step, Tick{std::numeric_limits<std::int64_t>::max()});
     }
 
     /// No step is outside every track, but what a device ran on its own when its process had ended: that is armed
@@ -91,11 +92,11 @@ private:
             return object(i, track.start, "a frame that was never sent");
         }
         const SentFrame& sent = epoch->second.frames.at(track.frame);
-        if (!track.tail && (track.start != sent.start || track.ticks != sent.ticks)) {
+        if (!track.tail && (track.commanded != sent.start || track.commanded_ticks != sent.ticks)) {
             object(i, track.start, "frame " + text(track.frame) + " run at another time than it was sent for");
         }
         const bool asked = std::ranges::any_of(recording_.emergencies, [&](const Emergency& e) {
-            return track.start <= e.rests && track.start + track.ticks >= e.asked;
+            return track.commanded <= e.rests && track.commanded + track.commanded_ticks >= e.asked;
         });
         if (track.cut && !asked) { object(i, track.start, "a frame was cut short"); }
     }

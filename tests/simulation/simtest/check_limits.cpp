@@ -9,6 +9,18 @@ namespace {
 constexpr double kRounding = 1 + 1e-5;  // what integers make of doubles
 constexpr double kJointTicks = 2;       // phases of a motion meet on whole ticks: each may be off by one
 
+/// What a device's own clock makes of machine time.
+struct OwnClock {
+    double stretch = 1;   // of a frame: rates 100 ppm apart, known to 200, slewed by 500; and three ticks
+    double rounding = 1;  // ticks, of the time between two steps; pieces end on whole ticks of it
+};
+
+OwnClock own_clock(const MachineConfig& machine) {
+    if (machine.timing.time_source != TimeSource::Network) { return {}; }
+    const auto frame = static_cast<double>((machine.slot_ticks() * machine.timing.frame_slots).value);
+    return {.stretch = 1 + 800e-6 + 3 / frame, .rounding = 2};
+}
+
 struct Limits {
     double start = 0;  // steps per tick
     double top = 0;
@@ -16,18 +28,20 @@ struct Limits {
     double decel = 0;
 };
 
-Limits in_ticks(const AxisConfig& axis, std::int64_t tick_ns) {
-    const double tick = static_cast<double>(tick_ns) * 1e-9;
-    const double scale = axis.steps_per_mm * tick;
+Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
+    const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
+    const double rate = own_clock(machine).stretch;
+    const double scale = axis.steps_per_mm * tick * rate;
     return {axis.start_velocity_mm_s * scale * kRounding, axis.max_velocity_mm_s * scale * kRounding,
-            axis.max_accel_mm_s2 * scale * tick * kRounding, axis.max_decel_mm_s2 * scale * tick * kRounding};
+            axis.max_accel_mm_s2 * scale * tick * rate * kRounding,
+            axis.max_decel_mm_s2 * scale * tick * rate * kRounding};
 }
 
 /// One job's steps of one axis.
 class LimitCheck {
 public:
     LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, Violations& violations)
-        : limits_(in_ticks(recording.machine.axes[axis], recording.machine.tick_ns)),
+        : limits_(in_ticks(recording.machine.axes[axis], recording.machine)),
           steps_(recording.steps_of(job, axis)),
           course_(job.homing ? nullptr : &job.course.axes[axis]),
           // Between two epochs, and between an axis's own moves, there is a rest of at least so long.
@@ -35,6 +49,8 @@ public:
                       recording.machine.slot_ticks().value),
           axis_(axis),
           first_(job.first_step[axis]),
+          rounding_(own_clock(recording.machine).rounding),
+          stretch_(own_clock(recording.machine).stretch),
           ceases_(job.emergency.has_value()),
           violations_(violations) {
         // Steps beyond the course are another check's matter.
@@ -92,22 +108,26 @@ private:
 
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n + 1, n + m) > 0) { return; }
-        const double most = course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding;
-        const double speed = static_cast<double>(m) / (time(n, n + m) + 1);
+        const double most =
+            course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * stretch_;
+        const double speed = static_cast<double>(m) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
     void check_change(std::size_t n, std::size_t m) {
         const double t1 = time(n - m, n);
         const double t2 = time(n, n + m);
-        const double between = (t1 + t2 + 1) / 2 + kJointTicks;
+        const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
         const std::uint32_t jumps = joints(n - m + 1, n + m);
         if (jumps > 0) { return check_change_with_joints(n, m, between, jumps); }
         const auto steps = static_cast<double>(m);
-        const double rises = steps / (t2 + 1) - steps / std::max(t1 - 1, 1e-3);
-        const double falls = steps / (t1 + 1) - steps / std::max(t2 - 1, 1e-3);
-        if (rises > limits_.accel * between) { object("acceleration", n, rises, limits_.accel * between, m); }
-        if (falls > limits_.decel * between) { object("deceleration", n, falls, limits_.decel * between, m); }
+        const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
+        const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
+        const double rates_differ = (stretch_ - 1) * steps / std::min(t1, t2);  // of one frame from the next
+        const double most_rise = limits_.accel * between + rates_differ;
+        const double most_fall = limits_.decel * between + rates_differ;
+        if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }
+        if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
 
     void check_change_with_joints(std::size_t n, std::size_t m, double between, std::uint32_t jumps) {
@@ -132,7 +152,7 @@ private:
     double speed_beside_rest(std::size_t gap, double rate) const {
         const double joined = joints_beside_rest(gap) * limits_.start;
         const bool between = gap > 0 && gap < steps_.size();
-        const double slow = between ? 1 / (time(gap - 1, gap) - 1) : 0;
+        const double slow = between ? 1 / (time(gap - 1, gap) - rounding_) : 0;
         const double slowest = std::max(limits_.start, slow);
         return std::sqrt(slowest * slowest + 2 * rate) + joined;
     }
@@ -144,7 +164,7 @@ private:
     }
     void check_ramp(const char* rule, std::size_t from, std::size_t at, std::size_t m, double speed, double rate) {
         if (joints(from + 1, from + m) > 0) { return; }
-        const double t = time(from, from + m) + 1;
+        const double t = time(from, from + m) + rounding_;
         const double mean = static_cast<double>(m) / t;
         const double most = speed + rate * (t / 2 + kJointTicks);
         if (mean > most) { object(rule, at, mean, most, m); }
@@ -165,7 +185,9 @@ private:
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
-    bool ceases_;  // the last step may be followed by none, at any speed
+    double rounding_;  // ticks, of the time between two steps
+    double stretch_;   // of time, by a clock of the device's own
+    bool ceases_;      // the last step may be followed by none, at any speed
     Violations& violations_;
 };
 

@@ -26,8 +26,9 @@ void check_emergency(const Recording& recording, const Emergency& emergency, Vio
     if (recording.lossy() || faulty) { return; }
     for (std::size_t i = 0; i < recording.axes.size(); ++i) {
         for (const StepEdge& step : recording.axes[i].steps) {
-            if (step.tick > ceased && step.tick <= emergency.rests) {
-                violations.push_back({"emergency", i, step.tick.value, {}, "a pulse after pulses were told to cease"});
+            const Tick tick = recording.axes[i].truth(step);
+            if (tick > ceased && tick <= emergency.rests) {
+                violations.push_back({"emergency", i, tick.value, {}, "a pulse after pulses were told to cease"});
                 break;
             }
         }

@@ -15,14 +15,15 @@ constexpr double kRoundingSteps = 0.5 + 1e-3;
 /// number of moves.
 class AxisPlace {
 public:
-    explicit AxisPlace(const AxisCourse& course) : course_(course) { made(0); }
-
-    /// steps rises by one from call to call.
-    void made(std::int64_t steps) {
-        const auto n = static_cast<double>(steps);
-        earliest_ = first_place(n - kRoundingSteps);
-        latest_ = last_place(n + kRoundingSteps);
+    explicit AxisPlace(const AxisCourse& course) : course_(course) {
+        made(0);
+        may_have_made(0);
     }
+
+    /// It has certainly made so many. steps rises by one from call to call.
+    void made(std::int64_t steps) { earliest_ = first_place(static_cast<double>(steps) - kRoundingSteps); }
+    /// It may have made so many, by what its clock is known to. Likewise.
+    void may_have_made(std::int64_t steps) { latest_ = last_place(static_cast<double>(steps) + kRoundingSteps); }
     double earliest() const { return earliest_; }
     double latest() const { return latest_; }
 
@@ -50,12 +51,18 @@ private:
     double latest_ = 0;
 };
 
-/// All axes' steps of a job in order of time.
+/// All axes' steps of a job in order of true time. A step is where its axis's clock was to put it within the bound that
+/// the axis has published: it counts as made so much later for what must not be ahead, and so much earlier for what
+/// must not be behind.
 class TogetherCheck {
 public:
     /// until: when an axis is no longer bound to the others.
     TogetherCheck(const Recording& recording, const JobRecord& job, std::vector<Tick> until)
-        : recording_(recording), job_(job), until_(std::move(until)), made_(recording.axes.size(), 0) {
+        : recording_(recording),
+          job_(job),
+          until_(std::move(until)),
+          made_(recording.axes.size(), 0),
+          may_(recording.axes.size(), 0) {
         for (const AxisCourse& course : job.course.axes) { places_.emplace_back(course); }
     }
 
@@ -79,15 +86,34 @@ private:
         std::optional<Tick> next;
         for (std::size_t i = 0; i < made_.size(); ++i) {
             const auto steps = recording_.steps_of(job_, i);
-            if (made_[i] < steps.size() && (!next || steps[made_[i]].tick < *next)) { next = steps[made_[i]].tick; }
+            if (made_[i] == steps.size()) { continue; }
+            const Tick certain = latest(i, steps[made_[i]]);
+            if (!next || certain < *next) { next = certain; }
         }
         return next;
     }
 
+    /// What a step may be off: the bound, what rounding in time leaves, and what it leaves here.
+    Ticks error_at(std::size_t i, Tick truth) const {
+        const bool own_clocks = recording_.machine.timing.time_source == TimeSource::Network;
+        return own_clocks ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
+    }
+    Tick latest(std::size_t i, const StepEdge& step) const {
+        const Tick truth = recording_.axes[i].truth(step);
+        return truth + error_at(i, truth);
+    }
+    Tick earliest(std::size_t i, const StepEdge& step) const {
+        const Tick truth = recording_.axes[i].truth(step);
+        return truth - error_at(i, truth);
+    }
+
     void make_steps_at(Tick tick, std::size_t i) {
         const auto steps = recording_.steps_of(job_, i);
-        while (made_[i] < steps.size() && steps[made_[i]].tick <= tick) {
+        while (made_[i] < steps.size() && latest(i, steps[made_[i]]) <= tick) {
             places_[i].made(static_cast<std::int64_t>(++made_[i]));
+        }
+        while (may_[i] < steps.size() && earliest(i, steps[may_[i]]) <= tick) {
+            places_[i].may_have_made(static_cast<std::int64_t>(++may_[i]));
         }
     }
 
@@ -102,6 +128,7 @@ private:
     const JobRecord& job_;
     std::vector<Tick> until_;
     std::vector<std::size_t> made_;
+    std::vector<std::size_t> may_;
     std::vector<AxisPlace> places_;
 };
 

@@ -29,7 +29,11 @@ constexpr std::array kInjectedNames{"freeze of an axis that must not stop the ma
                                     "axis cut off both ways",
                                     "axis cut off one way",
                                     "coordinator cut off both ways",
-                                    "coordinator cut off one way"};
+                                    "coordinator cut off one way",
+                                    "stall in a loop of an axis",
+                                    "stall in a loop of the coordinator",
+                                    "clock set forward",
+                                    "clock set back"};
 
 std::string row_name(const AxisTransition& row) {
     return std::string(name_of(row.from)) + " on " + std::string(name_of(row.event));
@@ -37,7 +41,9 @@ std::string row_name(const AxisTransition& row) {
 
 std::string_view injected_name(const VirtualFault& fault, const MachineConfig& machine) {
     const std::size_t coordinator = fault.process == machine.axes.size() ? 1 : 0;
+    if (fault.in_loop) { return kInjectedNames[12 + coordinator]; }
     switch (fault.kind) {
+        case VirtualFault::Kind::SetClock: return kInjectedNames[fault.set_by > Ticks{} ? 14 : 15];
         case VirtualFault::Kind::Freeze: return kInjectedNames[coordinator + (is_tolerable(fault, machine) ? 0 : 2)];
         case VirtualFault::Kind::Crash: return kInjectedNames[4 + coordinator];
         case VirtualFault::Kind::Cut: break;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/clock/clock_asker.hpp"
+
 namespace lockstep::simtest {
 namespace {
 
@@ -37,14 +39,28 @@ void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
     fault.incoming = way != 2;
 }
 
+/// By a slot, since what is less than a round trip passes for delay, up to seconds; over when two exchanges have said
+/// so.
+VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
+    VirtualFault fault{.kind = Kind::SetClock, .process = draw.index(machine.axes.size())};
+    const double by_s =
+        (draw.chance(0.5) ? 1 : -1) * draw.magnitude(1e-6 * static_cast<double>(machine.timing.slot_us), 10);
+    fault.set_by = {static_cast<std::int64_t>(by_s * machine.ticks_per_second())};
+    fault.lasts = {static_cast<std::int64_t>(6 * ClockAsker::kPeriod_s * machine.ticks_per_second())};
+    return fault;
+}
+
 std::optional<VirtualFault> draw_event(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
-    std::vector<Kind> kinds;
-    if (faults.freeze) { kinds.push_back(Kind::Freeze); }
-    if (faults.crash) { kinds.push_back(Kind::Crash); }
-    if (faults.partition) { kinds.push_back(Kind::Cut); }
+    std::vector<VirtualFault> kinds;
+    if (faults.freeze) { kinds.push_back({.kind = Kind::Freeze}); }
+    if (faults.crash) { kinds.push_back({.kind = Kind::Crash}); }
+    if (faults.partition) { kinds.push_back({.kind = Kind::Cut}); }
+    if (faults.stall) { kinds.push_back({.kind = Kind::Freeze, .in_loop = true}); }
+    if (faults.clock) { kinds.push_back({.kind = Kind::SetClock}); }
     if (kinds.empty() || draw.chance(0.1)) { return std::nullopt; }
     const std::size_t processes = machine.axes.size() + 1;
-    VirtualFault fault{.kind = kinds[draw.index(kinds.size())]};
+    VirtualFault fault = kinds[draw.index(kinds.size())];
+    if (fault.kind == Kind::SetClock) { return clock_set(draw, machine); }
     fault.process = draw.chance(0.35) ? machine.axes.size() : draw.index(processes);
     const double slots =
         fault.kind == Kind::Freeze ? draw_freeze_slots(draw, machine.timing) : draw_outage_slots(draw, machine.timing);

@@ -16,6 +16,8 @@ NetworkBehaviour draw_network(Draw& draw, const FaultKinds& faults, Ticks slot) 
     NetworkBehaviour network;
     network.delay_min = faults.delay ? part_of_slot(1) : Ticks{1 + slot.value / 50};
     network.delay_max = network.delay_min;
+    if (faults.clock) { slot = {std::max<std::int64_t>(2, slot.value / 8)}; }  // the rest of a hop is the clocks'
+    if (faults.delay && faults.clock) { network.delay_min = network.delay_max = part_of_slot(1); }
     if (faults.reorder) {
         network.delay_max = std::max(network.delay_min, part_of_slot(1));
         if (draw.chance(0.5)) { network.delay_min = Ticks{1}; }
@@ -94,9 +96,34 @@ Task draw_task(Draw& draw, const MachineConfig& machine, const FaultKinds& fault
 /// Each kind is there in half of the runs, so that each is seen alone, and in company.
 FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
     const auto kept = [&draw](bool kind) { return kind && draw.chance(0.5); };
-    return {kept(faults.delay),     kept(faults.reorder), kept(faults.duplicate),
-            kept(faults.loss),      kept(faults.freeze),  kept(faults.crash),
-            kept(faults.partition), kept(faults.corrupt), false};
+    return {kept(faults.delay),
+            kept(faults.reorder),
+            kept(faults.duplicate),
+            kept(faults.loss),
+            kept(faults.freeze),
+            kept(faults.crash),
+            kept(faults.partition),
+            kept(faults.corrupt),
+            kept(faults.stall),
+            kept(faults.clock),
+            false};
+}
+
+/// Set seconds apart, up to 100 ppm fast or slow, processes and devices each for themselves.
+void give_clocks(Draw& draw, Scenario& scenario) {
+    MachineConfig& machine = scenario.machine;
+    scenario.power_up = {100'000'000};  // later than any clock is behind
+    machine.timing.time_source = TimeSource::Network;
+    machine.timing.clock_error_limit_us = machine.timing.most_clock_error_us();
+    const auto draw_clock = [&] {
+        const double offset_s = (draw.chance(0.5) ? 1 : -1) * draw.magnitude(1e-6, 60);
+        const double offset = offset_s * machine.ticks_per_second();
+        return VirtualClock{.offset = {static_cast<std::int64_t>(offset)}, .ppm = draw.real(-100, 100)};
+    };
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const VirtualClock process = draw_clock();
+        scenario.clocks.push_back({process, draw_clock()});
+    }
 }
 
 }  // namespace
@@ -104,10 +131,12 @@ FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
 Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optional<std::size_t> axes) {
     Draw draw(seed);
     Scenario scenario{.seed = seed};
-    const FaultKinds faults = asked.mixed ? half_of(draw, asked) : asked;
+    FaultKinds faults = asked.mixed ? half_of(draw, asked) : asked;
+    if (faults.clock) { faults.corrupt = false; }  // no bound survives a reply that lies
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, axes.value_or(drawn));
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
+    if (faults.clock) { give_clocks(draw, scenario); }
     if (draw.chance(0.3)) {
         scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }

@@ -6,7 +6,17 @@
 namespace lockstep::simtest {
 namespace {
 
-enum class Cause : std::uint8_t { EmergencyStop, Loss, Corruption, Freeze, CrashOfAxis, CrashOfCoordinator, Cut };
+enum class Cause : std::uint8_t {
+    EmergencyStop,
+    Loss,
+    Corruption,
+    Freeze,
+    CrashOfAxis,
+    CrashOfCoordinator,
+    Cut,
+    SetClock,
+    OwnClocks
+};
 
 struct Explanation {
     Cause cause;
@@ -30,6 +40,12 @@ constexpr std::array kExplanations{
     Explanation{Cause::Cut, FaultCode::FrameLate},
     Explanation{Cause::Cut, FaultCode::FramesDiffer},
     Explanation{Cause::Cut, FaultCode::AxisLost},
+    // By a clock that is seconds off an axis says nothing in time, and hears nothing in time.
+    Explanation{Cause::SetClock, FaultCode::FrameLate},
+    Explanation{Cause::SetClock, FaultCode::FramesDiffer},
+    Explanation{Cause::SetClock, FaultCode::AxisLost},
+    // Whoever does not hear the coordinator's clock for long is no longer certain of it.
+    Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
 
 bool is_coordinator(const VirtualFault& fault, const MachineConfig& machine) {
@@ -41,6 +57,7 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
         case VirtualFault::Kind::Freeze: return Cause::Freeze;
         case VirtualFault::Kind::Crash:
             return is_coordinator(fault, machine) ? Cause::CrashOfCoordinator : Cause::CrashOfAxis;
+        case VirtualFault::Kind::SetClock: return Cause::SetClock;
         case VirtualFault::Kind::Cut: break;
     }
     return Cause::Cut;
@@ -52,6 +69,10 @@ std::vector<Cause> causes_in(const Recording& recording) {
     if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
     for (const VirtualFault& fault : recording.faults) { causes.push_back(cause_of(fault, recording.machine)); }
+    const bool disturbed = recording.lossy() || !recording.faults.empty();
+    if (disturbed && recording.machine.timing.time_source == TimeSource::Network) {
+        causes.push_back(Cause::OwnClocks);
+    }
     return causes;
 }
 

@@ -39,7 +39,7 @@ Scenario two_axes() {
 
 class Judges : public testing::Test {
 protected:
-    Judges() : recording(play(two_axes()).recording) {}
+    explicit Judges(const Scenario& scenario = two_axes()) : recording(play(scenario).recording) {}
 
     void SetUp() override {
         ASSERT_EQ(recording.jobs.size(), 2U);
@@ -110,6 +110,36 @@ TEST_F(Judges, SeeAnAxisOneMillisecondBehindTheOther) {
     EXPECT_TRUE(check_counts(recording).empty());
     EXPECT_TRUE(check_limits(recording).empty());
     EXPECT_TRUE(has(check_together(recording), "together"));
+}
+
+/// Boards with clocks of their own, a second apart and 150 ppm.
+class JudgesOfOwnClocks : public Judges {
+protected:
+    JudgesOfOwnClocks() : Judges(scenario()) {}
+
+    static Scenario scenario() {
+        Scenario scenario = two_axes();
+        scenario.machine.timing.time_source = TimeSource::Network;
+        scenario.machine.timing.clock_error_limit_us = scenario.machine.timing.most_clock_error_us();
+        scenario.network.delay_min = scenario.network.delay_max = Ticks{50};
+        scenario.power_up = {10'000'000};
+        scenario.clocks = {{.process = {.offset = {1'000'000}, .ppm = 100}, .device = {.offset = {300}, .ppm = -80}},
+                           {.process = {.offset = {-5'000}, .ppm = -100}, .device = {.offset = {-400}, .ppm = 70}}};
+        return scenario;
+    }
+};
+
+TEST_F(JudgesOfOwnClocks, SeeAnAxisOneMillisecondBehindTheOther) {
+    for (StepEdge& step : job_steps(1)) { step.tick += Ticks{1000}; }
+    EXPECT_TRUE(check_limits(recording).empty());
+    EXPECT_TRUE(has(check_together(recording), "together"));
+}
+
+TEST_F(JudgesOfOwnClocks, SeeAFrameThatRunsAFiftiethFaster) {
+    const auto steps = job_steps(0);
+    const Tick from = steps[400].tick;
+    for (StepEdge& step : steps.subspan(400, 60)) { step.tick = from + Ticks{(step.tick - from).value * 49 / 50}; }
+    EXPECT_FALSE(check_limits(recording).empty());
 }
 
 /// The whole job in 1/sqrt(2) of its time: twice the acceleration, on the path, below the greatest speed.

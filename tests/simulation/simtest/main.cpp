@@ -24,6 +24,12 @@ constexpr const char* kKinds =
   partition  a link is cut, or a process from all others, both ways or one:
                                                      lockstep-simtest --faults partition
   corrupt    messages are altered on their way:      lockstep-simtest --faults corrupt
+  stall      a process stands still between what a loop decides and what it does about it:
+                                                     lockstep-simtest --faults stall
+  clock      boards have clocks of their own, seconds and 100 ppm apart, which may be set:
+                                                     lockstep-simtest --faults clock
+  mixed      a half of the other kinds named, in each run:
+                                                     lockstep-simtest --faults mixed,loss,clock
 
 Everything follows from the seed. A run that fails prints the command that replays it:
   lockstep-simtest --seed 93 --runs 1 --faults freeze --trace)";
@@ -52,8 +58,8 @@ int main(int argc, char** argv) {
     app.add_option("--axes", options.axes, "of every machine; drawn, 1 to 6, if not given")->check(CLI::Range(1, 32));
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
-        ->check(CLI::IsMember(
-            {"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition", "corrupt", "all"}));
+        ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
+                               "corrupt", "stall", "clock", "mixed", "all"}));
     app.footer(kKinds);
     app.add_flag("--json", options.json, "the figures as JSON");
     app.add_flag("--trace", options.trace, "what happens in a run, a line for each event");

@@ -71,7 +71,10 @@ Played play(const Scenario& scenario, VirtualObserver* also) {
     Played played;
     played.recording.machine = scenario.machine;
     played.recording.network = scenario.network;
-    played.recording.axes.resize(scenario.machine.axes.size());
+    played.recording.axes.resize(scenario.machine.axes.size(), {.power_up = scenario.power_up});
+    for (std::size_t i = 0; i < scenario.clocks.size(); ++i) {
+        played.recording.axes[i].clock = scenario.clocks[i].device;
+    }
     {
         Bench bench(scenario, played);
         if (also != nullptr) { bench.vm().observe(*also); }

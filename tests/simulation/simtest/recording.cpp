@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/recording.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/simulation/simtest/explain.hpp"
 
@@ -26,6 +27,9 @@ Track track_of(const ExecutedTrack& executed, FrameNumber armed) {
     track.net_steps = pulses_at(at) - pulses_at(executed.from.raw);
     track.cut = executed.cut;
     track.armed = armed;
+    track.commanded = executed.commanded_start;
+    for (const Ticks ticks : executed.commanded_ticks) { track.commanded_ticks += ticks; }
+    if (executed.commanded_ticks.empty()) { track.commanded_ticks = track.ticks; }
     return track;
 }
 
@@ -50,7 +54,15 @@ std::uint64_t Recording::hash() const {
     return hash;
 }
 
-void Recorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& node) {
+Tick AxisRecord::truth(const StepEdge& step) const { return {std::llround(clock.truth(step.tick, power_up))}; }
+
+Ticks AxisRecord::bound_at(Tick truth) const {
+    const auto later = std::ranges::upper_bound(bounds, truth, {}, &PublishedBound::at);
+    return later == bounds.begin() ? Ticks{} : std::prev(later)->error;
+}
+
+void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
+    if (out.state) { recording_.axes[axis].bounds.push_back({now, out.state->clock_error}); }
     for (const ExecutedTrack& executed : out.tracks) {
         recording_.axes[axis].tracks.push_back(track_of(executed, armed_[axis]));
     }

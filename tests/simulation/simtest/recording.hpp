@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/course.hpp"
 #include "tests/simulation/simtest/violation.hpp"
@@ -23,6 +24,14 @@ struct Track {
     std::int64_t net_steps = 0;  // what its pieces amount to
     bool cut = false;            // ended early: at a switch
     FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
+    Tick commanded;              // machine time of its start; all else here is the device's
+    Ticks commanded_ticks;
+};
+
+/// How far its clock may be off, as an axis has published it.
+struct PublishedBound {
+    Tick at;
+    Ticks error;
 };
 
 /// A process ended in the middle of a run: its device ran on, and nobody says what.
@@ -34,9 +43,18 @@ struct LostRun {
 };
 
 struct AxisRecord {
-    std::vector<StepEdge> steps;  // from power-up on
-    std::vector<Track> tracks;
-    std::vector<LostRun> lost;
+    Tick power_up;
+    VirtualClock clock{};           // the device's: steps and tracks are in its time
+    std::vector<StepEdge> steps{};  // from power-up on
+    std::vector<Track> tracks{};
+    std::vector<LostRun> lost{};
+    std::vector<PublishedBound> bounds{};
+
+    /// In true time, which is machine time.
+    Tick truth(const StepEdge& step) const;
+
+    /// Published last before that instant.
+    Ticks bound_at(Tick truth) const;
 };
 
 /// One axis's share of a frame as sent: where its body begins and ends, and where its tail does.

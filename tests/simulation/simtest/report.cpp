@@ -65,8 +65,8 @@ void print_text(const Tally& t) {
 FaultKinds Options::kinds() const {
     const auto has = [this](const char* name) { return std::ranges::find(faults, name) != faults.end(); };
     if (has("all")) { return FaultKinds::all(); }
-    return {has("delay"), has("reorder"),   has("duplicate"), has("loss"), has("freeze"),
-            has("crash"), has("partition"), has("corrupt"),   false};
+    return {has("delay"),     has("reorder"), has("duplicate"), has("loss"),  has("freeze"), has("crash"),
+            has("partition"), has("corrupt"), has("stall"),     has("clock"), has("mixed")};
 }
 
 void Tally::add(const Verdict& verdict) {

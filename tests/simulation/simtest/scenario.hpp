@@ -10,6 +10,7 @@
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_network.hpp"
 
@@ -25,10 +26,12 @@ struct FaultKinds {
     bool crash = false;
     bool partition = false;
     bool corrupt = false;
+    bool stall = false;
+    bool clock = false;
     bool mixed = false;  // each kind is there in half of the runs only
 
-    bool breaks_processes() const { return freeze || crash || partition; }
-    static constexpr FaultKinds all() { return {true, true, true, true, true, true, true, true, true}; }
+    bool breaks_processes() const { return freeze || crash || partition || stall || clock; }
+    static constexpr FaultKinds all() { return {true, true, true, true, true, true, true, true, true, true, true}; }
 };
 
 /// A command that must be refused, and why; the machine goes on as if it had not been given.
@@ -70,6 +73,8 @@ struct Scenario {
     std::uint64_t seed = 0;
     MachineConfig machine;
     NetworkBehaviour network;
+    Tick power_up{1'000'000};
+    std::vector<AxisClocks> clocks;  // none: one clock for all
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
     std::optional<PlannedFault> homing_fault;

@@ -71,11 +71,13 @@ void Trace::on_coordinator(Tick now, const CoordinatorOutputs& out) {
 }
 
 void Trace::on_fault(Tick now, const VirtualFault& fault, bool begins) {
-    constexpr std::array kKinds{"freeze", "crash", "cut"};
+    constexpr std::array kKinds{"freeze", "crash", "cut", "clock set"};
     const std::string peer = fault.peer ? " from " + process(*fault.peer) : " from all";
     const std::string ways = std::string(fault.outgoing ? ", unheard" : "") + (fault.incoming ? ", deaf" : "");
     line(now, process(fault.process),
          std::string("FAULT ") + kKinds[static_cast<std::size_t>(fault.kind)] + (begins ? " begins" : " ends") +
+             (fault.in_loop ? " in a loop" : "") +
+             (fault.set_by != Ticks{} ? " by " + std::to_string(fault.set_by.value) + " ticks" : "") +
              (fault.kind == VirtualFault::Kind::Cut ? peer + ways : ""));
 }
 

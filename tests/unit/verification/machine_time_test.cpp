@@ -51,7 +51,7 @@ struct LoggedSteps final : LogListener {
 struct TrueSteps final : VirtualObserver {
     explicit TrueSteps(const VirtualOptions& of) : options(of) {}
     void on_step(std::size_t axis, StepEdge step) override {
-        axes[axis].push_back(test::true_time(options.clocks[axis].device, step.tick, options.start));
+        axes[axis].push_back(options.clocks[axis].device.truth(step.tick, options.start));
     }
     VirtualOptions options;
     std::map<std::size_t, std::vector<double>> axes;
@@ -73,7 +73,7 @@ protected:
         test::AlteredLog altered(log);
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const auto ahead = [&](std::int64_t device) {
-                return std::llround(test::true_time(options.clocks[axis].device, {device}, options.start)) - device;
+                return std::llround(options.clocks[axis].device.truth({device}, options.start)) - device;
             };
             altered.change<step_batch_t>("_" + options.machine.axes[axis].name + "_STEPS", [&](step_batch_t& batch) {
                 batch.ahead_first = ahead(batch.first_tick);
