@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
     app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
         ->check(CLI::Range(0, 99));
-    app.add_flag("--no-lcm", no_lcm, "do not publish the record");
+    app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Example: lockstep-coordinator --machine machine.textproto\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");

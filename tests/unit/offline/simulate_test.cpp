@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/simulation/new_log_file.hpp"
+#include "services/record/new_log_file.hpp"
 #include "clients/simulation/simulate.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 

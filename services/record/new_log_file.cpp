@@ -1,4 +1,4 @@
-#include "clients/simulation/new_log_file.hpp"
+#include "services/record/new_log_file.hpp"
 
 #include <unistd.h>
 
