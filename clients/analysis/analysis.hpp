@@ -39,8 +39,9 @@ struct JobLog {
     std::int64_t legs = 0;                   // as many as its program has; where it is more, it was interrupted
     std::optional<std::string> unplannable;  // why what it asked for is not known
     std::int64_t move_count = 0;
-    std::vector<MoveLog> moves;  // the first, as many as are kept
-    std::optional<Ticks> planned;
+    std::vector<MoveLog> moves;    // the first, as many as are kept
+    std::optional<Ticks> planned;  // as programmed
+    bool overridden = false;       // it went by other feeds and rapids than programmed
     std::int64_t asked_steps = 0;  // of all axes, whatever moves are kept
     std::int64_t made_steps = 0;
     std::int64_t unasked_steps = 0;  // that no move asked for

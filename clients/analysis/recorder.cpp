@@ -1,5 +1,7 @@
 #include "clients/analysis/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -59,11 +61,19 @@ void Recorder::on_job(const job_t& message, LogPlace place) {
         begin_job(message, *record, place);
     } else if (message.event == "epoch") {
         ++record->epochs;
+        record->overridden = record->overridden || message.feed_percent != 100 || message.rapid_percent != 100;
+    } else if (message.event == "override") {
+        record->overridden = true;
+        events_.note({.at = analysis_.tick_at(message.utime),
+                      .what = fmt::format("overrides turned to feed {} %, rapid {} %, for all behind frame {}",
+                                          message.feed_percent, message.rapid_percent, message.behind_frame),
+                      .axis = {},
+                      .remedy = {}});
     } else if (message.event == "ended") {
         record->ended_us = message.utime;
         record->outcome = message.outcome;
     } else {
-        on_damage(place, "a job's event is neither begun, epoch nor ended");
+        on_damage(place, "a job's event is neither begun, epoch, override nor ended");
     }
 }
 

@@ -104,6 +104,7 @@ void fill(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& repor
     report.set_outcome(job.outcome);
     report.set_name(job.name);
     if (job.planned) { report.set_planned_s(analysis.seconds(*job.planned)); }
+    report.set_overridden(job.overridden);
     if (job.begun_us) { report.set_begun_s(since_first_step(analysis, analysis.tick_at(*job.begun_us))); }
     if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
     fill_steps(analysis, job, report);

@@ -20,6 +20,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_move(app, action);
     add_run(app, action);
     add_interrupts(app, action);
+    add_override(app, action);
     add_down(app, action);
     add_plan(app, action);
     add_simulate(app, action);

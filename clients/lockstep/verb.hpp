@@ -27,6 +27,7 @@ void add_spy(CLI::App& app, Action& action);
 void add_home(CLI::App& app, Action& action);
 void add_move(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
+void add_override(CLI::App& app, Action& action);
 void add_interrupts(CLI::App& app, Action& action);  // hold, resume, stop, estop, reset
 
 }  // namespace lockstep

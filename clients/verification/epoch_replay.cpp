@@ -12,9 +12,15 @@ EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, Path path, c
     shift_ = start - runner_.start();
 }
 
+bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
+    turns_[behind] = overrides;
+    return made_ <= behind;
+}
+
 /// The runner makes what is due slot by slot, as in a coordinator that never stalls and to which nobody answers.
 void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
+        if (const auto turn = turns_.find(made_); turn != turns_.end()) { runner_.turn(turn->second); }
         for (Frame& frame : runner_.send(slot_++, {})) {
             frame.start += shift_;
             made_ = frame.number;

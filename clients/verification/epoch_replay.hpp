@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,9 @@ public:
     Epoch epoch() const { return runner_.epoch(); }
     const Path& path() const { return runner_.path(); }
 
+    /// The frames behind this one are planned with other overrides. False: they are made already.
+    bool turn(FrameNumber behind, const Overrides& overrides);
+
     /// Null: the epoch has no such frame, or it was forgotten.
     const Frame* frame(FrameNumber number);
     void forget_before(FrameNumber number);
@@ -36,6 +40,7 @@ private:
     void make_up_to(FrameNumber number);
 
     EpochRunner runner_;
+    std::map<FrameNumber, Overrides> turns_;  // by the frame behind which they hold
     Slot slot_ = 0;
     Ticks shift_;               // from the runner's own time to the recorded one
     std::deque<Frame> frames_;  // in recorded time

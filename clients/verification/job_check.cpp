@@ -55,6 +55,7 @@ void JobCheck::take(const job_t& record) {
 }
 
 void JobCheck::handle(const job_t& record) {
+    if (record.event == "override") { return turn(record); }
     close_epoch();
     if (record.event == "begun") { return begin(record); }
     if (record.event == "epoch") { return begin_epoch(record); }
@@ -93,7 +94,8 @@ void JobCheck::begin_epoch(const job_t& record) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
     if (!job_->broken.empty()) { return differ(job_->label + " goes on, though " + job_->broken, job_->broken_axis); }
-    auto start = job_->replay->next();
+    const Overrides overrides{record.feed_percent, record.rapid_percent};
+    auto start = job_->replay->next(overrides);
     if (!start) { return differ(job_->label + " goes on, though its program is done"); }
     const PathPlace place = place_in(record);
     if (place.block != start->place.block || place.along != start->place.along) {
@@ -104,9 +106,25 @@ void JobCheck::begin_epoch(const job_t& record) {
     const auto epoch = static_cast<Epoch>(record.epoch);
     epoch_.emplace(EpochReplay(job_->replay->machine(), epoch, std::move(start->path), start->at, {record.start_tick}),
                    std::move(axes));
-    for (std::size_t i = 0; i < epoch_->axes.size(); ++i) { plan_next(i, job_->replay->machine().axes[i].name); }
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
+}
+
+void JobCheck::turn(const job_t& record) {
+    if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // nobody ran a frame of it
+    if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame),
+                             {record.feed_percent, record.rapid_percent})) {
+        differ(job_->label + ": its overrides were turned behind frame " + std::to_string(record.behind_frame) +
+               ", but frames behind that had been run when it was recorded");
+    }
+}
+
+/// What the coordinator has turned in the epoch in progress; it is recorded before any frame that it changes is run.
+void JobCheck::handle_turns() {
+    while (!records_.empty() && records_.front().event == "override") {
+        handle(records_.front());
+        records_.pop_front();
+    }
 }
 
 void JobCheck::end(const job_t& record) {
@@ -130,6 +148,7 @@ void JobCheck::end(const job_t& record) {
 /// What the epoch leaves of its job.
 void JobCheck::close_epoch() {
     if (!epoch_) { return; }
+    plan_next();
     bool whole = true;
     for (std::size_t i = 0; i < epoch_->axes.size() && whole; ++i) { whole = !breaks_off(i); }
     if (whole) { judge_epoch(); }
@@ -204,6 +223,8 @@ bool JobCheck::place(const std::string& axis, const Run& run) {
         }
         if (!findings_.going()) { return true; }
     }
+    handle_turns();
+    if (!findings_.going()) { return true; }
     const std::size_t i = index_of(job_->replay->machine(), axis);
     if (i < epoch_->axes.size()) {
         compare(i, axis, run);
@@ -229,22 +250,28 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
     progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to(),
                 run.start + run.ticks()};
     ++findings_.runs;
-    plan_next(axis, name);
     epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
 }
 
-void JobCheck::plan_next(std::size_t axis, const std::string& name) {
-    const Progress& progress = epoch_->axes[axis];
-    std::vector<Run>& next = planned_[name];
-    next.clear();
-    if (progress.cut || progress.in_tail) { return; }
-    for (const bool tail : {false, true}) {
-        const Frame* frame = epoch_->replay.frame(progress.ran + (tail ? 0 : 1));
-        if (frame != nullptr) { next.push_back(planned_run(*frame, axis, tail, known_within())); }
+/// What each axis may run behind the newest of its runs.
+void JobCheck::plan_next() {
+    for (std::size_t i = 0; i < epoch_->axes.size(); ++i) {
+        const Progress& progress = epoch_->axes[i];
+        std::vector<Run>& next = planned_[job_->replay->machine().axes[i].name];
+        next.clear();
+        if (progress.cut || progress.in_tail) { continue; }
+        for (const bool tail : {false, true}) {
+            const Frame* frame = epoch_->replay.frame(progress.ran + (tail ? 0 : 1));
+            if (frame != nullptr) { next.push_back(planned_run(*frame, i, tail, known_within())); }
+        }
     }
 }
 
-std::vector<Run> JobCheck::planned(const std::string& axis, Tick tick) const {
+std::vector<Run> JobCheck::planned(const std::string& axis, Tick tick) {
+    if (epoch_) {
+        handle_turns();
+        plan_next();
+    }
     const auto found = planned_.find(axis);
     std::vector<Run> runs = found != planned_.end() ? found->second : std::vector<Run>{};
     std::erase_if(runs, [&](const Run& run) { return tick < run.start || tick >= run.start + run.ticks(); });

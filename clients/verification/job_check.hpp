@@ -36,7 +36,7 @@ public:
 
     /// What the plan has for an axis at a tick behind the newest of its runs: the frame that follows, and the tail.
     /// Empty where it has nothing then.
-    std::vector<Run> planned(const std::string& axis, Tick tick) const;
+    std::vector<Run> planned(const std::string& axis, Tick tick);
 
 private:
     struct Job {
@@ -65,6 +65,8 @@ private:
     void handle(const job_t& record);
     void begin(const job_t& record);
     void begin_epoch(const job_t& record);
+    void turn(const job_t& record);
+    void handle_turns();
     void end(const job_t& record);
     void close_epoch();
     void judge_epoch();
@@ -74,7 +76,7 @@ private:
 
     bool place(const std::string& axis, const Run& run);
     void compare(std::size_t axis, const std::string& name, const Run& run);
-    void plan_next(std::size_t axis, const std::string& name);
+    void plan_next();
     std::string out_of_order(const Progress& axis, const Run& run) const;
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 

@@ -25,12 +25,12 @@ void JobReplay::skip_empty_legs() {
     while (leg_ < legs_.size() && legs_[leg_].moves.empty()) { ++leg_; }
 }
 
-std::optional<EpochStart> JobReplay::next() const {
+std::optional<EpochStart> JobReplay::next(const Overrides& overrides) const {
     if (!remaining_.empty()) {
-        return EpochStart{planner_.path(remaining_, along_), positions_, {remaining_.front().block, along_}};
+        return EpochStart{planner_.path(remaining_, along_, overrides), positions_, {remaining_.front().block, along_}};
     }
     if (leg_ == legs_.size()) { return std::nullopt; }
-    EpochStart start{planner_.path(legs_[leg_].moves, {}), {}, {legs_[leg_].moves.front().block, {}}};
+    EpochStart start{planner_.path(legs_[leg_].moves, {}, overrides), {}, {legs_[leg_].moves.front().block, {}}};
     for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
         start.at.push_back(start_of(start.path, i, start.path.moves.front().from[i]));
     }

@@ -28,8 +28,8 @@ public:
 
     const MachineConfig& machine() const { return machine_; }
 
-    /// The epoch to come; none: the program is done.
-    std::optional<EpochStart> next() const;
+    /// The epoch to come, planned with these overrides; none: the program is done.
+    std::optional<EpochStart> next(const Overrides& overrides = {}) const;
 
     /// How an epoch with this path ended: Complete or Interrupted.
     void ended(const Path& path, const EpochEnd& end);

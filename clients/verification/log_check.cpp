@@ -37,6 +37,9 @@ void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
         !std::ranges::all_of(message.start_count, analysis::is_countable)) {
         return on_damage(place, "a job with numbers that no machine counts to");
     }
+    if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
+        return on_damage(place, "a job with overrides that no coordinator takes");
+    }
     if (Machine* to = machine(message.machine, place)) { to->jobs.take(message); }
 }
 

@@ -34,6 +34,7 @@ struct ClockStretch {
 
     /// Rounded down; beyond the ends as well.
     Tick at(Tick tick) const {
+        if (ticks == other_ticks) { return other_from + (tick - from); }
         const Int128 share = Int128{(tick - from).value} * other_ticks.value;
         const Int128 whole = share / ticks.value - (share % ticks.value < 0 ? 1 : 0);
         return other_from + Ticks{static_cast<std::int64_t>(whole)};

@@ -151,21 +151,25 @@ MachineState Coordinator::state() const {
                    .veto = runner_.veto(),
                    .job = jobs_,
                    .outcome = job_ ? std::nullopt : outcome_,
+                   .overrides = overrides_,
                    .config_hash = config_hash_};
     for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }
     if (in_own_move()) { say_progress_of_own(s); }
-    if (moving_ && job_) {
-        const Path& path = runner_.path();
-        const Subticks into = std::clamp(subticks(now_ - runner_.start()), Subticks{}, path.duration());
-        const double left = static_cast<double>((path.duration() - into).value) / kSubticksPerTick;
-        const double planned = static_cast<double>((job_->planned - job_->planned_behind).value) / kSubticksPerTick;
-        const double later = std::max(0.0, planned - static_cast<double>(path.duration().value) / kSubticksPerTick);
-        const double all = std::max(1.0, static_cast<double>(job_->planned.value) / kSubticksPerTick);
-        s.line = path.moves[path.move_at(into)].line;
-        s.remaining_s = (left + later) / machine_.ticks_per_second();
-        s.progress = std::clamp(1 - (left + later) / all, 0.0, 1.0);
-    }
+    if (moving_ && job_) { say_progress(s); }
     return s;
+}
+
+/// The part of the job's time that is behind it, by what is planned of it now.
+void Coordinator::say_progress(MachineState& state) const {
+    const Path& path = runner_.path();
+    const Subticks into = std::clamp(subticks(now_ - runner_.start()), Subticks{}, path.duration());
+    Subticks left = path.duration() - into;
+    for (std::size_t i = job_->leg + 1; i < job_->legs.size(); ++i) { left = left + job_->legs[i].duration; }
+    const auto done = static_cast<double>((job_->run + into).value);
+    const auto open = static_cast<double>(left.value);
+    state.line = path.moves[path.move_at(into)].line;
+    state.remaining_s = open / kSubticksPerTick / machine_.ticks_per_second();
+    state.progress = std::clamp(done / std::max(1.0, done + open), 0.0, 1.0);
 }
 
 }  // namespace lockstep

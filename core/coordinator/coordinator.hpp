@@ -23,15 +23,17 @@ enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
 
 /// What the record says of a job: enough to do it again.
 struct JobEvent {
-    enum class Kind : std::uint8_t { Begun, EpochBegun, Ended };
+    enum class Kind : std::uint8_t { Begun, EpochBegun, Ended, Overridden };
     Kind kind = Kind::Begun;
     std::uint64_t job = 0;
     JobKind job_kind = JobKind::Run;
     JobOutcome outcome = JobOutcome::Done;   // Ended
     std::shared_ptr<const Program> program;  // Begun; null for homing
-    Epoch epoch = 0;                         // EpochBegun: its frame 1 starts at `start`
+    Epoch epoch = 0;                         // EpochBegun: its frame 1 starts at `start`; Overridden: in it
     Tick start;
     PathPlace place;                         // EpochBegun: where on the program it starts
+    Overrides overrides;                     // EpochBegun, Overridden
+    FrameNumber behind = 0;                  // Overridden: the last frame planned without these overrides
     std::vector<std::int64_t> start_counts;  // Begun
 };
 
@@ -88,11 +90,10 @@ private:
         std::shared_ptr<const Program> program;
         std::vector<Leg> legs;
         std::size_t leg = 0;
-        Subticks planned;         // all legs
-        Subticks planned_behind;  // legs done
-        std::uint32_t axes = 0;   // homing: which
-        int sequence = 0;         // homing: the group in progress
-        PathPlace resume;         // held or interrupted: where it goes on
+        Subticks run;            // epochs done
+        std::uint32_t axes = 0;  // homing: which
+        int sequence = 0;        // homing: the group in progress
+        PathPlace resume;        // held or interrupted: where it goes on
         std::vector<PathMove> remaining;
         std::vector<Position> positions;
         int fruitless = 0;  // epochs in a row that ran no frame
@@ -116,6 +117,7 @@ private:
     Reply resume(const Command& command, CoordinatorOutputs& out);
     Reply reset(const Command& command, CoordinatorOutputs& out);
     Reply emergency(const Command& command, CoordinatorOutputs& out);
+    Reply turn_overrides(const Command& command);
     Reply accepted(const Command& command) const;
     static Reply refused(const Command& command, FaultCode why, std::string text);
     std::optional<Reply> refuse_unless_ready(const Command& command) const;
@@ -131,6 +133,8 @@ private:
     bool in_motion() const { return moving_ || in_own_move(); }
     double planned_seconds(std::size_t axis, std::int64_t steps, Ticks asked) const;
     void say_progress_of_own(MachineState& state) const;
+    void say_progress(MachineState& state) const;
+    void time_legs();
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
                      CoordinatorOutputs& out);
     Epoch next_epoch();
@@ -168,6 +172,7 @@ private:
     MachinePhase phase_ = MachinePhase::Waiting;
     FaultCode fault_ = FaultCode::None;
     std::size_t fault_axis_ = 0;
+    Overrides overrides_;
     Intent intent_ = Intent::GoOn;
     bool moving_ = false;  // an epoch is in progress
     std::optional<Job> job_;

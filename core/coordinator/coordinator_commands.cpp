@@ -28,6 +28,7 @@ Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {
         case CommandKind::Reset: return reset(command, out);
         case CommandKind::EmergencyStop: return emergency(command, out);
         case CommandKind::MoveOwn: return move_own(command, out);
+        case CommandKind::Override: return turn_overrides(command);
     }
     return refused(command, FaultCode::NothingToDo, "unknown command");
 }
@@ -100,9 +101,7 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
                .kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run,
                .program = program->second,
                .legs = std::move(*plan)};
-    for (const Leg& leg : job_->legs) {
-        if (!leg.moves.empty()) { job_->planned = job_->planned + planner_.path(leg.moves, {}).duration(); }
-    }
+    time_legs();
     const AxisCounts start = counts();
     out.jobs.push_back({.kind = JobEvent::Kind::Begun,
                         .job = job_->number,
@@ -112,6 +111,34 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
     const Reply reply = accepted(command);
     begin_leg(out);
     return reply;
+}
+
+/// By how long the legs to come are planned to last.
+void Coordinator::time_legs() {
+    for (std::size_t i = job_->leg; i < job_->legs.size(); ++i) {
+        Leg& leg = job_->legs[i];
+        if (!leg.moves.empty()) { leg.duration = planner_.path(leg.moves, {}, overrides_).duration(); }
+    }
+}
+
+/// At any time: they hold until they are turned again.
+Reply Coordinator::turn_overrides(const Command& command) {
+    if (machine_.coordination == StepMethod::Lai) {
+        return refused(command, FaultCode::NothingToDo,
+                       "coordination LAI gives whole pulses to each period and knows no overrides; set "
+                       "coordination: RANADE for them");
+    }
+    for (const int percent : {command.feed_percent, command.rapid_percent}) {
+        if (percent == 0 || Overrides::allows(percent)) { continue; }
+        return refused(command, FaultCode::BadProgram,
+                       "an override of " + std::to_string(percent) + " % is not within " +
+                           std::to_string(Overrides::kLeast) + " to " + std::to_string(Overrides::kMost) + " %");
+    }
+    if (command.feed_percent != 0) { overrides_.feed_percent = command.feed_percent; }
+    if (command.rapid_percent != 0) { overrides_.rapid_percent = command.rapid_percent; }
+    if (moving_) { runner_.turn(overrides_); }
+    if (job_) { time_legs(); }
+    return accepted(command);
 }
 
 Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorOutputs& out) {

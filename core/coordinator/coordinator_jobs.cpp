@@ -38,6 +38,14 @@ void Coordinator::advance_homing(CoordinatorOutputs& out) {
 void Coordinator::advance(CoordinatorOutputs& out) {
     if (moving_) {
         out.frames = runner_.send(now_slot_, views_);
+        if (const auto turn = runner_.take_turn()) {
+            out.jobs.push_back({.kind = JobEvent::Kind::Overridden,
+                                .job = job_->number,
+                                .job_kind = job_->kind,
+                                .epoch = runner_.epoch(),
+                                .overrides = turn->overrides,
+                                .behind = turn->behind});
+        }
         if (const auto end = runner_.judge(now_slot_, views_)) { settle(*end, out); }
         return;
     }
@@ -77,7 +85,7 @@ Epoch Coordinator::next_epoch() {
 /// `at` empty: from rest on whole steps, where the axes stand.
 void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at,
                               PathPlace place, CoordinatorOutputs& out) {
-    Path path = planner_.path(std::move(moves), along);
+    Path path = planner_.path(std::move(moves), along, overrides_);
     if (at.empty()) {
         for (std::size_t i = 0; i < views_.size(); ++i) {
             at.push_back(start_of(path, i, views_[i].state->position.count()));
@@ -94,13 +102,16 @@ void Coordinator::begin_epoch(std::vector<PathMove> moves, Displacement along, s
                         .job_kind = job_->kind,
                         .epoch = epoch,
                         .start = runner_.start(),
-                        .place = place});
+                        .place = place,
+                        .overrides = overrides_});
 }
 
 /// Everyone is at rest: what now?
 void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
     moving_ = false;
     out.epoch_end = {end.kind, intent_};
+    const std::int64_t ticks = static_cast<std::int64_t>(end.ran) * machine_.frame_ticks().value;
+    job_->run = job_->run + std::min(subticks(Ticks{ticks}), runner_.path().duration());
     if (intent_ == Intent::Abort) {
         end_job(JobOutcome::Failed, out);
         return enter(MachinePhase::Fault, out);
@@ -111,7 +122,6 @@ void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
         case EpochEnd::Kind::Interrupted: return interrupted(end, out);
         case EpochEnd::Kind::Complete: break;
     }
-    job_->planned_behind = job_->planned_behind + runner_.path().duration();
     const bool pause = job_->legs[job_->leg].then_pause;
     ++job_->leg;
     if (intent_ == Intent::Stop) { return end_job(JobOutcome::Stopped, out); }

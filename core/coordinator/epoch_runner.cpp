@@ -22,6 +22,8 @@ void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot n
     ended_ = late_ = false;
     veto_.reset();
     heard_veto_.reset();
+    turned_.reset();
+    taken_.reset();
     in_flight_.clear();
     endings_.assign(1, Ending{0, path_.moves.front().profile.phases[0].from, at_, false});
 }
@@ -53,7 +55,14 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
     return frames;
 }
 
+void EpochRunner::try_turn() {
+    if (!turned_ || !replan_from(path_, made_, limits_, bounds_of(machine_), *turned_)) { return; }
+    taken_ = Turn{sent_, *turned_};
+    turned_.reset();
+}
+
 Frame EpochRunner::make_frame() {
+    try_turn();
     const Ticks whole = path_.duration().ceil();
     const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
     Frame frame{
@@ -75,7 +84,7 @@ Frame EpochRunner::make_frame() {
 EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
     const Path tail = brake_from(path_, subticks(end), limits_);
     const std::size_t move = path_.move_at(subticks(end));
-    Ending ending{move, path_.moves[move].profile.at(subticks(end) - path_.moves[move].start), at_, false};
+    Ending ending{move, path_.moves[move].along_at(subticks(end)), at_, false};
     if (tail.empty()) { return ending; }
     std::vector<Piece> pieces(at_.size());
     PieceSource source(tail, Ticks{0}, tail.duration().ceil(), ending.positions);

@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/machine.hpp"
@@ -59,6 +60,15 @@ public:
     /// lacks.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
+    /// From the next frame that is not made yet, or as soon after it as the path leaves a way.
+    void turn(const Overrides& overrides) { turned_ = overrides; }
+    /// Set by `send` where it has made frames: the overrides that hold behind frame `behind`.
+    struct Turn {
+        FrameNumber behind = 0;
+        Overrides overrides;
+    };
+    std::optional<Turn> take_turn() { return std::exchange(taken_, std::nullopt); }
+
     /// No more frames; the lowest frame that nobody can have decided on yet is vetoed.
     void stop(Slot now);
 
@@ -84,6 +94,7 @@ private:
 
     Frame make_frame();
     Ending fill_tail(Frame& frame, Ticks end) const;
+    void try_turn();
 
     MachineConfig machine_;
     Identity coordinator_;
@@ -95,6 +106,8 @@ private:
     Ticks made_;  // of the path, in frames so far
     std::vector<Position> at_;
     FrameNumber sent_ = 0;
+    std::optional<Overrides> turned_;  // to be planned with yet
+    std::optional<Turn> taken_;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;
     std::optional<FrameNumber> veto_;        // the coordinator's own

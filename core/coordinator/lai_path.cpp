@@ -78,7 +78,7 @@ private:
     /// Of the long axis, so that no axis breaks its limits, rounding to whole pulses included.
     stepgen::LaiSpeeds speeds_of(const PathMove& move) const {
         std::int64_t change = stepgen::kMaxPeriodPulses;
-        double top = std::min(static_cast<double>(stepgen::kMaxPeriodPulses), move.own.max_velocity * period());
+        double top = std::min(static_cast<double>(stepgen::kMaxPeriodPulses), move.asked_velocity({}) * period());
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double share = std::abs(move.share(i));
             if (share == 0) { continue; }
@@ -159,7 +159,7 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
 }
 
 std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
-    const double pulses = move.own.max_velocity * static_cast<double>(kPeriod_ns / tick_ns);
+    const double pulses = move.asked_velocity({}) * static_cast<double>(kPeriod_ns / tick_ns);
     if (move.lead == 0 || pulses >= 1 - stepgen::kPulseHair) { return {}; }
     const double slowest = move.mm_per_lead() / (static_cast<double>(kPeriod_ns) * 1e-9);
     return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +

@@ -106,11 +106,11 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
     return legs;
 }
 
-Path ProgramPlanner::path(std::vector<PathMove> moves, Displacement along) const {
+Path ProgramPlanner::path(std::vector<PathMove> moves, Displacement along, const Overrides& overrides) const {
     if (machine_.coordination == StepMethod::Lai) {
         return plan_lai_path(moves, along, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
     }
-    return plan_path(std::move(moves), along, limits_, bounds_of(machine_));
+    return plan_path(std::move(moves), along, limits_, bounds_of(machine_), overrides);
 }
 
 }  // namespace lockstep

@@ -17,6 +17,7 @@ struct Leg {
     std::vector<PathMove> moves;
     bool then_pause = false;
     std::int32_t pause_line = 0;
+    Subticks duration;  // planned
 };
 
 struct PlanError {
@@ -35,7 +36,7 @@ public:
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const;
 
     /// Profiles for a leg or what remains of it; the first move starts `along` its lead axis.
-    Path path(std::vector<PathMove> moves, Displacement along) const;
+    Path path(std::vector<PathMove> moves, Displacement along, const Overrides& overrides = {}) const;
 
 private:
     std::expected<std::vector<std::size_t>, PlanError> axes_of(const Program& program) const;

@@ -10,6 +10,7 @@
 // pays while it cruises, and keeps all of a.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,10 +22,24 @@ namespace lockstep {
 /// The part of an axis's acceleration that corners may use up: leaves sqrt(1 - 0.8^2) of it along a circle at worst.
 inline constexpr double kCornerShare = 0.8;
 
-/// For two and more moves that follow each other without rest, the first `along` its lead axis already: the highest
-/// speed (mm per tick) at each of the n + 1 joints, the first and last being from and to rest. Lowers the moves' top
-/// speeds and accelerations to what their corners leave.
-std::vector<double> limit_corners(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits);
+/// How moves that follow each other without rest are entered: from rest, or at speed.
+struct Entry {
+    Displacement along;                // the first move's lead axis has gone so far
+    std::optional<double> speed;       // mm per tick; none: from rest
+    const PathMove* behind = nullptr;  // at speed: the move it follows; null where the first move is under way
+    /// At speed: what the speeds at the joints come to when it brakes as hard as it can. Less than this cannot be asked
+    /// for, whatever has become of the feed.
+    std::vector<double> least;
+
+    bool under_way() const { return speed && behind == nullptr; }
+    double least_at(std::size_t joint) const { return joint < least.size() ? least[joint] : 0; }
+};
+
+/// For moves that follow each other without rest: the highest speed (mm per tick) at each of the n + 1 joints, the last
+/// being to rest, and the first from rest or as it is entered. Lowers the moves' top speeds and accelerations to what
+/// their corners leave. A first move that is under way pays for the corner behind it as if every axis had jumped by its
+/// start velocity just now.
+std::vector<double> limit_corners(std::span<PathMove> moves, const Entry& entry, std::span<const AxisLimits> limits);
 
 /// The deceleration (lead steps per tick^2) that its corners leave move `m`, entered at no more than `speed` (mm per
 /// tick) and never faster from there: the slower, the less they cost.

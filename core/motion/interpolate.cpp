@@ -38,7 +38,7 @@ Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) cons
     constexpr Subticks kHalfTick{kSubticksPerTick / 2};
     move = &path_.moves[path_.move_at(subticks(now_))];
     const Subticks middle = subticks(now_) + kHalfTick;
-    Subticks phase_end = move->start;
+    Subticks phase_end = move->start + move->gone;
     for (const Phase& phase : move->profile.phases) {
         phase_end = phase_end + phase.duration;
         acceleration = phase.acceleration();
@@ -57,7 +57,7 @@ bool PieceSource::next(std::span<Piece> pieces) {
     const Ticks ticks = to - now_;
     if (ticks == Ticks{1}) { acceleration = 0; }  // a tick has one speed; where a move ends in it, not its slope
     if (subticks(to) > move->end() && move != &path_.moves.back()) { move = &path_.moves[path_.move_at(subticks(to))]; }
-    const Displacement along = move->profile.at(subticks(to) - move->start);
+    const Displacement along = move->along_at(subticks(to));
     for (std::size_t i = 0; i < at_.size(); ++i) {
         const double share = move->lead == 0 ? 0 : move->share(i);
         pieces[i] = solve_piece(at_[i], move->axis_at(i, along), ticks, share * acceleration);

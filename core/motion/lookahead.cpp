@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/motion/corners.hpp"
 #include "core/protocol/messages.hpp"
@@ -16,56 +17,66 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 double brakes(const PathMove& move, double mm) { return 2 * move.limits.max_deceleration * move.mm_per_lead() * mm; }
 double gains(const PathMove& move, double mm) { return 2 * move.limits.max_acceleration * move.mm_per_lead() * mm; }
 
-/// Speeds (mm per tick) at the joints of moves[first, last): joints[0] before the first, all from rest to rest.
-std::vector<double> joint_speeds(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
-                                 const PathBounds& bounds) {
+/// Speeds (mm per tick) at the joints of moves without rest between them: joints[0] before the first. Nothing where
+/// they are entered so fast that they cannot be gone through.
+std::optional<std::vector<double>> joint_speeds(std::span<PathMove> moves, const Entry& entry,
+                                                std::span<const AxisLimits> limits, const PathBounds& bounds) {
     const std::size_t n = moves.size();
     // One move alone from rest to rest jumps away from rest and back to it: changes that do not add up.
-    std::vector<double> speed = n == 1 ? std::vector<double>(2, kUnbounded) : limit_corners(moves, along, limits);
-    speed[0] = std::min({speed[0], moves[0].start_speed(), moves[0].top_speed()});
+    const bool alone = n == 1 && !entry.speed;
+    std::vector<double> speed = alone ? std::vector<double>(2, kUnbounded) : limit_corners(moves, entry, limits);
+    const double first_mm = moves[0].remaining_mm(entry.along);
+    if (!entry.speed) { speed[0] = std::min({speed[0], moves[0].start_speed(), moves[0].top_speed()}); }
     speed[n] = std::min({speed[n], moves[n - 1].start_speed(), moves[n - 1].top_speed()});
     std::vector<double> brakes_before(n + 1, 0);  // the sum of what moves[0, i) can take away
     for (std::size_t i = 0; i < n; ++i) {
-        brakes_before[i + 1] = brakes_before[i] + brakes(moves[i], moves[i].length_mm);
+        brakes_before[i + 1] = brakes_before[i] + brakes(moves[i], i == 0 ? first_mm : moves[i].length_mm);
     }
     for (std::size_t i = 1; i < n; ++i) {
         const std::size_t horizon = std::min(n, i + bounds.stop_moves - 1);
-        speed[i] = std::min({speed[i], moves[i - 1].top_speed(), moves[i].top_speed(),
-                             std::sqrt(brakes_before[horizon] - brakes_before[i])});
+        speed[i] = std::min(speed[i], std::sqrt(brakes_before[horizon] - brakes_before[i]));
     }
     for (std::size_t i = n - 1; i >= 1; --i) {
         speed[i] = std::min(speed[i], std::sqrt(speed[i + 1] * speed[i + 1] + brakes(moves[i], moves[i].length_mm)));
     }
+    // A first move shorter than its start speed needs to brake: enter it more slowly.
+    const double within_reach = std::sqrt(speed[1] * speed[1] + brakes(moves[0], first_mm));
+    const double within_stop = std::sqrt(brakes_before[std::min(n, bounds.stop_moves)]);
+    speed[0] = std::min(speed[0], within_reach);
+    if (entry.speed) {
+        constexpr double kRounding = 1e-9;
+        if (std::min({speed[0], within_stop}) < *entry.speed * (1 - kRounding)) { return std::nullopt; }
+        speed[0] = *entry.speed;
+    }
     for (std::size_t i = 1; i <= n; ++i) {
-        const double mm = i == 1 ? moves[0].remaining_mm(along) : moves[i - 1].length_mm;
+        const double mm = i == 1 ? first_mm : moves[i - 1].length_mm;
         speed[i] = std::min(speed[i], std::sqrt(speed[i - 1] * speed[i - 1] + gains(moves[i - 1], mm)));
     }
-    // A first move shorter than its start speed needs to brake: enter it more slowly.
-    const double reach = speed[1] * speed[1] + brakes(moves[0], moves[0].remaining_mm(along));
-    speed[0] = std::min(speed[0], std::sqrt(reach));
     return speed;
 }
 
-/// Profiles for moves that are joined at speed, from rest to rest.
-void plan_joined(std::span<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
+/// Profiles for moves that are joined at speed, to rest; false where they are entered too fast.
+bool plan_joined(std::span<PathMove> moves, const Entry& entry, std::span<const AxisLimits> limits,
                  const PathBounds& bounds) {
-    const std::vector<double> speed = joint_speeds(moves, along, limits, bounds);
-    const std::int64_t quantum = moves.size() == 1 ? kSubticksPerTick : 1;
+    const auto speed = joint_speeds(moves, entry, limits, bounds);
+    if (!speed) { return false; }
+    const std::int64_t quantum = moves.size() == 1 && !entry.speed ? kSubticksPerTick : 1;
     for (std::size_t i = 0; i < moves.size(); ++i) {
         PathMove& move = moves[i];
         const double scale = move.mm_per_lead();
-        move.profile = plan_fastest({.from = i == 0 ? along : Displacement{},
+        move.profile = plan_fastest({.from = i == 0 ? entry.along : Displacement{},
                                      .to = Displacement::steps(move.lead),
-                                     .entry = speed[i] / scale,
-                                     .exit = speed[i + 1] / scale,
+                                     .entry = (*speed)[i] / scale,
+                                     .exit = (*speed)[i + 1] / scale,
                                      .limits = move.limits,
                                      .quantum = quantum});
     }
+    return true;
 }
 
-/// What frames can carry of a move, and what a short rest before or behind it allows.
-void limit_by_surroundings(std::vector<PathMove>& moves, std::size_t i, std::span<const AxisLimits> limits,
-                           const PathBounds& bounds) {
+/// What feed and frames leave of a move's limits, and what a short rest before or behind it allows.
+void limit_by_surroundings(std::span<PathMove> moves, std::size_t i, std::span<const AxisLimits> limits,
+                           const PathBounds& bounds, const Overrides& overrides) {
     PathMove& move = moves[i];
     if (move.lead == 0) { return; }
     move.limits = move.own;
@@ -75,8 +86,53 @@ void limit_by_surroundings(std::vector<PathMove>& moves, std::size_t i, std::spa
             std::min(move.limits.start_velocity, move.own.start_velocity * rest_share(moves[i + 1].dwell, limits));
     }
     const double fastest = static_cast<double>(move.lead) / static_cast<double>(bounds.least_move.value);
-    move.limits.max_velocity = std::min(move.limits.max_velocity, fastest);
+    move.limits.max_velocity = std::min(move.asked_velocity(overrides), fastest);
     move.limits.start_velocity = std::min(move.limits.start_velocity, move.limits.max_velocity);
+}
+
+/// Where a stretch without rest ends that begins with moves[first]: a dwell is a stretch of its own.
+std::size_t stretch_end(std::span<const PathMove> moves, std::size_t first) {
+    std::size_t last = first;
+    while (last < moves.size() && moves[last].lead != 0) { ++last; }
+    return std::max(last, first + 1);
+}
+
+/// Times for moves that have profiles, the first of which begins at `clock`; returns the time behind them.
+Subticks set_times(std::span<PathMove> moves, Subticks clock) {
+    for (PathMove& move : moves) {
+        move.start = clock;
+        move.gone = {};
+        clock = move.end();
+    }
+    return subticks(clock.ceil());
+}
+
+/// Plans from moves[first] on, which begins at rest at `clock`.
+void plan_from_rest(std::span<PathMove> moves, std::size_t first, Subticks clock, Displacement along,
+                    std::span<const AxisLimits> limits, const PathBounds& bounds, const Overrides& overrides) {
+    for (std::size_t i = first; i < moves.size(); ++i) { limit_by_surroundings(moves, i, limits, bounds, overrides); }
+    while (first < moves.size()) {
+        const auto stretch = moves.subspan(first, stretch_end(moves, first) - first);
+        if (stretch.front().lead == 0) {
+            stretch.front().profile = plan_dwell({}, stretch.front().dwell);
+        } else {
+            (void)plan_joined(stretch, {.along = along}, limits, bounds);  // from rest there is always a way
+        }
+        clock = set_times(stretch, clock);
+        first += stretch.size();
+        along = {};
+    }
+}
+
+/// The speeds at the joints of moves that are planned already, if they are braked from `speed` on as hard as can be.
+std::vector<double> braked_speeds(std::span<const PathMove> moves, Displacement along, double speed) {
+    std::vector<double> speeds{speed};
+    for (std::size_t i = 0; i < moves.size() && speed > 0; ++i) {
+        const double mm = i == 0 ? moves[0].remaining_mm(along) : moves[i].length_mm;
+        speed = std::sqrt(std::max(0.0, speed * speed - brakes(moves[i], mm)));
+        speeds.push_back(speed);
+    }
+    return speeds;
 }
 
 /// What is left of a profile whose last phase is in progress, its time starting at 0.
@@ -103,7 +159,7 @@ PathBounds bounds_of(const MachineConfig& machine) {
     // Each move is three phases and the tick of its corner, in a tail one phase and that tick; and what the edges cut.
     constexpr std::int64_t kMovesPerFrame = kMaxBodyPieces / 4 - 4;
     constexpr std::size_t kMovesPerTail = kMaxTailPieces / 2 - 2;
-    return {{machine.frame_ticks().value / kMovesPerFrame + 1}, kMovesPerTail};
+    return {{machine.frame_ticks().value / kMovesPerFrame + 1}, kMovesPerTail, machine.frame_ticks()};
 }
 
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,
@@ -117,8 +173,7 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
     }
     if (move.lead == 0) { return move; }
     move.length_mm = std::sqrt(square);
-    const double feed = feed_mm_per_tick > 0 ? feed_mm_per_tick / move.mm_per_lead() : kUnbounded;
-    move.own = {kUnbounded, feed, kUnbounded, kUnbounded};
+    move.own = {kUnbounded, kUnbounded, kUnbounded, kUnbounded};
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const double share = std::abs(move.share(i));
         if (share == 0) { continue; }
@@ -131,27 +186,58 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
 }
 
 Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
-               const PathBounds& bounds) {
+               const PathBounds& bounds, const Overrides& overrides) {
     Path path{std::move(moves)};
-    for (std::size_t i = 0; i < path.moves.size(); ++i) { limit_by_surroundings(path.moves, i, limits, bounds); }
-    Subticks clock;
-    for (std::size_t first = 0; first < path.moves.size();) {
-        std::size_t last = first;
-        while (last < path.moves.size() && path.moves[last].lead != 0) { ++last; }
-        if (last == first) {
-            path.moves[first].profile = plan_dwell({}, path.moves[first].dwell);
-            last = first + 1;
-        } else {
-            plan_joined(std::span(path.moves).subspan(first, last - first), first == 0 ? along : Displacement{}, limits,
-                        bounds);
-        }
-        for (; first < last; ++first) {
-            path.moves[first].start = clock;
-            clock = path.moves[first].end();
-        }
-        clock = subticks(clock.ceil());
-    }
+    plan_from_rest(path.moves, 0, {}, along, limits, bounds, overrides);
     return path;
+}
+
+bool replan_from(Path& path, Ticks t, std::span<const AxisLimits> limits, const PathBounds& bounds,
+                 const Overrides& overrides) {
+    const std::span<PathMove> moves = path.moves;
+    if (t == Ticks{}) {
+        plan_from_rest(moves, 0, {}, moves[0].along_at({}), limits, bounds, overrides);
+        return true;
+    }
+    std::size_t first = path.move_at(subticks(t));
+    Entry entry;
+    Subticks clock = subticks(t);
+    const PathMove& now = moves[first];
+    if (now.lead != 0 && now.end() - clock >= subticks(bounds.worth_splitting)) {
+        entry.along = now.along_at(clock);
+        entry.speed = now.velocity_at(clock) * now.mm_per_lead();
+    } else {
+        clock = now.end();
+        if (++first == moves.size()) { return true; }
+        if (now.lead != 0 && moves[first].lead != 0) {
+            entry.behind = &now;
+            entry.speed = moves[first].profile.velocity_at({}) * moves[first].mm_per_lead();
+        }
+    }
+    if (!entry.speed) {
+        plan_from_rest(moves, first, moves[first].start, {}, limits, bounds, overrides);
+        return true;
+    }
+    const std::size_t last = stretch_end(moves, first);
+    const auto stretch = moves.subspan(first, last - first);
+    entry.least = braked_speeds(stretch, entry.along, *entry.speed);
+    std::vector<PathLimits> before;
+    for (std::size_t i = first; i < last; ++i) {
+        before.push_back(moves[i].limits);
+        limit_by_surroundings(moves, i, limits, bounds, overrides);
+    }
+    if (!plan_joined(stretch, entry, limits, bounds)) {
+        for (std::size_t i = first; i < last; ++i) { moves[i].limits = before[i - first]; }
+        return false;
+    }
+    const Subticks begun = stretch.front().start;
+    const Subticks behind = set_times(stretch, clock);
+    if (entry.under_way()) {
+        stretch.front().start = begun;
+        stretch.front().gone = clock - begun;
+    }
+    plan_from_rest(moves, last, behind, {}, limits, bounds, overrides);
+    return true;
 }
 
 Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits) {
@@ -160,13 +246,13 @@ Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits
     if (t >= path.moves[i].end() || path.moves[i].lead == 0) { return rest; }
     if (is_last_fall(path, i, t)) {
         PathMove move = path.moves[i];
-        move.profile = remainder_of(move.profile, t - move.start);
-        move.start = {};
+        move.profile = remainder_of(move.profile, t - move.start - move.gone);
+        move.start = move.gone = {};
         rest.moves.push_back(move);
         return rest;
     }
-    double speed = path.moves[i].profile.velocity_at(t - path.moves[i].start) * path.moves[i].mm_per_lead();
-    Displacement from = path.moves[i].profile.at(t - path.moves[i].start);
+    double speed = path.moves[i].velocity_at(t) * path.moves[i].mm_per_lead();
+    Displacement from = path.moves[i].along_at(t);
     Subticks clock;
     for (; i < path.moves.size() && path.moves[i].lead != 0; ++i, from = {}) {
         PathMove move = path.moves[i];
@@ -189,6 +275,7 @@ Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits
             move.profile = plan_brake_through(from, whole, entry, exit);
         }
         move.start = clock;
+        move.gone = {};
         clock = move.end();
         speed = exit * scale;
         rest.moves.push_back(move);

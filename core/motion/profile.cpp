@@ -80,6 +80,22 @@ double longest_in(double ticks, double acceleration, const PathLimits& limits) {
     return (limits.start_velocity + limits.max_velocity) * ramp + limits.max_velocity * (ticks - 2 * ramp);
 }
 
+/// A move that is entered too fast: as hard as it may down to max_velocity, or to its exit's speed where that is
+/// above, and on from there as fast as can be.
+Profile plan_slowing(const ProfileRequest& request) {
+    const double top = std::max(request.limits.max_velocity, request.exit);
+    const double d = request.limits.max_deceleration;
+    const double slowing = (request.entry * request.entry - top * top) / (2 * d);
+    const Displacement slowed{request.from.raw + static_cast<Int128>(slowing * 0x1p64)};
+    if (slowed >= request.to) { return plan_brake_through(request.from, request.to, request.entry, request.exit); }
+    Profile profile = plan_brake_through(request.from, slowed, request.entry, top);
+    ProfileRequest rest = request;
+    rest.from = slowed;
+    rest.entry = rest.limits.max_velocity = top;
+    for (const Phase& phase : plan_fastest(rest).phases) { (void)profile.phases.push_back(phase); }
+    return profile;
+}
+
 }  // namespace
 
 Displacement Phase::at(Subticks t) const {
@@ -133,6 +149,7 @@ double Profile::peak_velocity() const {
 }
 
 Profile plan_fastest(const ProfileRequest& request) {
+    if (request.entry > request.limits.max_velocity && request.exit < request.entry) { return plan_slowing(request); }
     const double a = request.limits.max_acceleration;
     const double d = request.limits.max_deceleration;
     const double e = request.entry;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/machine.hpp"
+#include "core/motion/overrides.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"
 
@@ -133,12 +134,14 @@ struct MachineState {
     std::int32_t line = 0;              // of the G-code now in motion
     double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
+    Overrides overrides;             // of what is planned from now on
     std::uint32_t axes_present = 0;  // bit i: axis i is heard
     std::uint64_t config_hash = 0;
     bool operator==(const MachineState&) const = default;
 };
 
-enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset, MoveOwn };
+/// Override: feed and rapid of coordinated moves, from the next frame that is not made yet.
+enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset, MoveOwn, Override };
 
 /// A client to the coordinator. Answered by a Reply with the same client and sequence; never replayed.
 struct Command {
@@ -148,6 +151,8 @@ struct Command {
     std::uint32_t axes = 0;     // Home: bit i for axis i; 0 means all
     std::uint64_t program = 0;  // Move, Run, MoveOwn: the program sent before in chunks
     Ticks ticks;                // MoveOwn: how long each axis's move lasts; 0: as fast as its limits allow
+    int feed_percent = 0;       // Override; 0: as it is
+    int rapid_percent = 0;      // Override; 0: as it is
     bool operator==(const Command&) const = default;
 };
 

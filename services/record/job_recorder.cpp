@@ -27,7 +27,7 @@ JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, Rec
       config_(machine_text(machine)) {}
 
 void JobRecorder::record(Tick now, const JobEvent& event) {
-    constexpr std::array<const char*, 3> kEvents{"begun", "epoch", "ended"};
+    constexpr std::array<const char*, 4> kEvents{"begun", "epoch", "ended", "override"};
     JobRecord record{.machine = machine_.name,
                      .coordinator = coordinator_,
                      .job = event.job,
@@ -37,6 +37,8 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
                      .start = event.start,
                      .resume_block = event.place.block,
                      .resume_along = event.place.along.raw,
+                     .behind_frame = event.behind,
+                     .overrides = event.overrides,
                      .start_count = event.start_counts};
     if (event.kind == JobEvent::Kind::Begun) {
         record.config = config_;

@@ -264,6 +264,16 @@ std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std:
     return command_.sequence;
 }
 
+std::uint64_t VirtualMachine::turn(const Overrides& overrides) {
+    command_ = {.client = kClient,
+                .sequence = command_.sequence + 1,
+                .kind = CommandKind::Override,
+                .feed_percent = overrides.feed_percent,
+                .rapid_percent = overrides.rapid_percent};
+    repeat_command();
+    return command_.sequence;
+}
+
 /// Everyone hears what a client asks of the coordinator.
 void VirtualMachine::repeat_command() {
     const auto message = std::make_shared<const VirtualMessage>(command_);

@@ -26,7 +26,7 @@ inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss8888888884488
 template <>
 inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
 template <>
-inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888ssn8";
+inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888844ssn8";
 template <>
 inline constexpr std::string_view kLcmLayout<record_loss_t> = "8ss88";
 template <>

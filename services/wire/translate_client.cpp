@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-static_assert(lockstep_wire_COMMAND_MOVE_OWN == static_cast<int>(CommandKind::MoveOwn));
+static_assert(lockstep_wire_COMMAND_OVERRIDE == static_cast<int>(CommandKind::Override));
 static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refused));
 
 /// The longest beginning of at most `most` bytes that does not end within a UTF-8 character.
@@ -24,12 +24,14 @@ lockstep_wire_Command to_wire(const Command& command) {
             .kind = static_cast<lockstep_wire_CommandKind>(command.kind),
             .axes = command.axes,
             .program = command.program,
-            .ticks = command.ticks.value};
+            .ticks = command.ticks.value,
+            .feed_percent = static_cast<std::uint16_t>(command.feed_percent),
+            .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent)};
 }
 
 FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     Checks check("command");
-    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::MoveOwn);
+    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Override);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Command{.client = wire.client,
@@ -37,7 +39,9 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
                    .kind = kind,
                    .axes = wire.axes,
                    .program = wire.program,
-                   .ticks = {wire.ticks}};
+                   .ticks = {wire.ticks},
+                   .feed_percent = wire.feed_percent,
+                   .rapid_percent = wire.rapid_percent};
 }
 
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {

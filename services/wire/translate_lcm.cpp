@@ -110,6 +110,9 @@ job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns) {
     out.resume_block = record.resume_block;
     out.resume_high = static_cast<std::int64_t>(record.resume_along >> 64);
     out.resume_low = static_cast<std::int64_t>(record.resume_along);
+    out.behind_frame = bits(record.behind_frame);
+    out.feed_percent = record.overrides.feed_percent;
+    out.rapid_percent = record.overrides.rapid_percent;
     out.config = record.config;
     out.program = record.program;
     out.axes = static_cast<std::int32_t>(record.start_count.size());

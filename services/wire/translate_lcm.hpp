@@ -59,6 +59,8 @@ struct JobRecord {
     Tick start;
     std::int64_t resume_block = 0;
     Int128 resume_along = 0;  // along that block's path
+    FrameNumber behind_frame = 0;
+    Overrides overrides;
     std::string config;
     std::string program;
     std::vector<std::int64_t> start_count;

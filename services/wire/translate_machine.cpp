@@ -23,6 +23,8 @@ lockstep_wire_MachineState to_wire(const MachineState& state) {
             .line = state.line,
             .progress = state.progress,
             .remaining_s = state.remaining_s,
+            .feed_percent = static_cast<std::uint16_t>(state.overrides.feed_percent),
+            .rapid_percent = static_cast<std::uint16_t>(state.overrides.rapid_percent),
             .axes_present = state.axes_present,
             .config_hash = state.config_hash};
 }
@@ -34,6 +36,8 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.within<std::size_t>("fault_axis", wire.fault_axis, 0, kMaxAxes - 1);
     check.within("progress", wire.progress, 0.0, 1.0);
     check.finite("remaining_s", wire.remaining_s);
+    check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
+    check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Fault);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
@@ -51,6 +55,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
                         .line = wire.line,
                         .progress = wire.progress,
                         .remaining_s = wire.remaining_s,
+                        .overrides = {wire.feed_percent, wire.rapid_percent},
                         .axes_present = wire.axes_present,
                         .config_hash = wire.config_hash};
 }

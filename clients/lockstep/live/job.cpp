@@ -77,7 +77,7 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job) {
         if (!sent) { return std::unexpected(sent.error()); }
         program = *sent;
     }
-    return session.command(job.command, job.axes, program, job.ticks);
+    return session.command({.kind = job.command, .axes = job.axes, .program = program, .ticks = job.ticks});
 }
 
 ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {
@@ -127,8 +127,10 @@ std::expected<std::vector<double>, Failure> start_places(Session& session) {
     return start_mm;
 }
 
-std::expected<double, Failure> planned_seconds(const MachineConfig& machine, const Program& program,
+std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
                                                const std::vector<double>& start_mm) {
+    const MachineConfig& machine = session.config();
+    const Overrides overrides = session.state() ? session.state()->state.overrides : Overrides{};
     AxisCounts start;
     for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
     const ProgramPlanner planner(machine);
@@ -140,7 +142,8 @@ std::expected<double, Failure> planned_seconds(const MachineConfig& machine, con
     double ticks = 0;
     for (Leg& leg : *legs) {
         if (leg.moves.empty()) { continue; }
-        ticks += static_cast<double>(planner.path(std::move(leg.moves), {}).duration().value) / kSubticksPerTick;
+        ticks +=
+            static_cast<double>(planner.path(std::move(leg.moves), {}, overrides).duration().value) / kSubticksPerTick;
     }
     return ticks / machine.ticks_per_second();
 }

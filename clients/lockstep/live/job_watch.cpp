@@ -42,7 +42,7 @@ Failure JobWatch::silent() const {
 std::expected<void, Failure> JobWatch::send_stop() {
     stop_sent_ = true;
     voice_.say("stopping on the path ...");
-    const auto reply = session_.command(CommandKind::Stop);
+    const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }
     if (reply->status == ReplyStatus::Accepted) { return {}; }
     return std::unexpected(

@@ -19,6 +19,8 @@ void fill(proto::StatusReport& report, const MachineState& state, const MachineC
     report.set_phase(std::string(name_of(state.phase)));
     if (auto fault = fault_of(state, machine)) { *report.mutable_fault() = *std::move(fault); }
     if (state.job > 0) { report.set_job(state.job); }
+    report.set_feed_override_percent(state.overrides.feed_percent);
+    report.set_rapid_override_percent(state.overrides.rapid_percent);
     if (!is_in_motion(state.phase)) { return; }
     if (state.line > 0) { report.set_line(state.line); }
     report.set_progress(state.progress);

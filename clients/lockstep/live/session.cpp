@@ -128,10 +128,10 @@ Failure Session::silent() const {
                        start);
 }
 
-std::expected<Reply, Failure> Session::command(CommandKind kind, std::uint32_t axes, std::uint64_t program,
-                                               Ticks ticks) {
-    const Command command{client_, ++sequence_, kind, axes, program, ticks};
-    const nanoseconds deadline = monotonic_now() + (program == 0 ? kAnswerPatience : kPlanPatience);
+std::expected<Reply, Failure> Session::command(Command command) {
+    command.client = client_;
+    command.sequence = ++sequence_;
+    const nanoseconds deadline = monotonic_now() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
     nanoseconds repeat_at{};
     while (!replies_.contains(command.sequence)) {
         const nanoseconds now = monotonic_now();

@@ -56,9 +56,8 @@ public:
     bool is_silent() const;
     Failure silent() const;
 
-    /// Asks until the answer comes. Error: none comes.
-    std::expected<Reply, Failure> command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0,
-                                          Ticks ticks = {});
+    /// Asks until the answer comes; who asks is filled in. Error: none comes.
+    std::expected<Reply, Failure> command(Command command);
     /// Calls out to coordinator and axes alike: axes stop by themselves. Nothing: no coordinator answered in the time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
     /// Sends a program; what it is called in a command. Error: it is refused, or no answer comes.

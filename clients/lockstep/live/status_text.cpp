@@ -66,6 +66,7 @@ std::string age_text(const proto::StatusReport& status) {
 std::string status_text(const proto::StatusReport& status) {
     std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
+    if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
     text += clock_line(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
     for (const proto::AxisStatus& axis : status.axes()) {
@@ -74,6 +75,13 @@ std::string status_text(const proto::StatusReport& status) {
         if (axis.has_fault() && !is_said) { text += fault_text(axis.fault()) + "\n"; }
     }
     return text;
+}
+
+std::string overrides_text(const proto::StatusReport& status) {
+    const bool as_programmed = status.feed_override_percent() == 100 && status.rapid_override_percent() == 100;
+    if (!status.has_feed_override_percent() || as_programmed) { return ""; }
+    return "feed " + std::to_string(status.feed_override_percent()) + " %, rapid " +
+           std::to_string(status.rapid_override_percent()) + " %";
 }
 
 std::string progress_bar(const proto::StatusReport& status) {

@@ -12,6 +12,8 @@ std::string status_text(const proto::StatusReport& status);
 
 /// "heard 4 ms ago", of the coordinator.
 std::string age_text(const proto::StatusReport& status);
+/// "feed 60 %, rapid 100 %"; empty where all is as programmed.
+std::string overrides_text(const proto::StatusReport& status);
 /// One line: "[######              ]  30 %  line 12  4.2 s left".
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".

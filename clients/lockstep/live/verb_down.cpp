@@ -25,7 +25,7 @@ void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
     };
     if (!moves()) { return; }
     voice.say("stopping on the path ...");
-    if (!session->command(CommandKind::Stop)) { return; }
+    if (!session->command({.kind = CommandKind::Stop})) { return; }
     const auto deadline = monotonic_now() + kRestPatience;
     while (moves() && monotonic_now() < deadline) { session->listen(50ms); }
 }

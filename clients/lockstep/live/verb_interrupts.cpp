@@ -1,11 +1,12 @@
 // lockstep hold, resume, stop, estop, reset
 #include <array>
 
-#include "clients/lockstep/live/reports.hpp"
+#include "clients/lockstep/live/refusal.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "idl/proto/report.pb.h"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -51,18 +52,10 @@ void settle(Session& session, const Interrupt& interrupt) {
     while (!is_settled() && monotonic_now() - replied < kSettlePatience) { session.listen(50ms); }
 }
 
-ExitCode say_refusal(const Reply& reply, proto::CommandReport& report, Voice& voice) {
-    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
-    report.set_text(reply.text);
-    voice.report(report);
-    if (!voice.json()) { voice.warn("refused: " + reply.text + "\n" + fault_text(report.fault())); }
-    return kExitFailed;
-}
-
 ExitCode say_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Voice& voice) {
     proto::CommandReport report;
     report.set_accepted(reply.status == ReplyStatus::Accepted);
-    if (!report.accepted()) { return say_refusal(reply, report, voice); }
+    if (!report.accepted()) { return say_refusal(reply, voice); }
     settle(session, interrupt);
     report.set_text(session.state() ? "the machine is " + std::string(name_of(session.state()->state.phase))
                                     : "the machine has not said its state yet");
@@ -78,7 +71,7 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     if (!machine) { return voice.fail(machine.error()); }
     auto session = Session::open(*machine);
     if (!session) { return voice.fail(session.error()); }
-    const auto reply = session->command(interrupt.command);
+    const auto reply = session->command({.kind = interrupt.command});
     if (!reply) { return voice.fail(reply.error()); }
     return say_outcome(*session, interrupt, *reply, voice);
 }

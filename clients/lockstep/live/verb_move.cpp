@@ -11,7 +11,7 @@ struct MoveVerbOptions : LiveOptions {
 };
 
 ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, Voice& voice) {
-    const auto planned_s = planned_seconds(session.config(), program, start_mm);
+    const auto planned_s = planned_seconds(session, program, start_mm);
     if (!planned_s) { return voice.fail(planned_s.error()); }
     const Job job{.command = CommandKind::Move,
                   .kind = "move",

@@ -69,7 +69,7 @@ ExitCode run(const RunOptions& options) {
     if (!start_mm) { return voice.fail(start_mm.error()); }
     auto program = read(options, machine->config, *start_mm);
     if (!program) { return voice.fail(program.error()); }
-    const auto planned_s = planned_seconds(machine->config, *program, *start_mm);
+    const auto planned_s = planned_seconds(*session, *program, *start_mm);
     if (!planned_s) { return voice.fail(bad_file(options.file, planned_s.error().errors)); }
     const Job job{.command = CommandKind::Run,
                   .kind = "run",

@@ -100,8 +100,8 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
     const std::string phase = status.phase().empty() ? "unknown" : status.phase();
     const std::string job = status.has_job() ? ", job " + std::to_string(status.job()) : "";
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
-    std::string text =
-        painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n\n" + painted(title_row(), kFaint, ink) + "\n";
+    std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" +
+                       painted(overrides_text(status), kWarning, ink) + "\n" + painted(title_row(), kFaint, ink) + "\n";
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis, scale, ink) + "\n"; }
     const auto alarms = alarms_of(status, scale);
     text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");

@@ -40,6 +40,7 @@ function jobs() {
     ...stepColumns((job) => Number(job.asked_steps), (job) => Number(job.made_steps),
       (job) => (job.outcome === "done" && (Number(job.moves_not_whole) || Number(job.unasked_steps)) ? "bad" : "")),
     { head: "planned, s", of: (job) => job.planned_s, show: fixed(3) },
+    { head: "overridden", of: (job) => (job.overridden ? "yes" : "no"), text: true },
     { head: "took, s", of: (job) => job.real_s, show: fixed(3) },
     { head: "interrupted", of: (job) => Number(job.interruptions), grade: (job) => (Number(job.interruptions) ? "doubtful" : "") },
     { head: "off the path, \u00b5m", of: (job) => job.largest_distance_mm, show: micro },

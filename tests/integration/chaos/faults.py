@@ -108,6 +108,12 @@ class Chaos:
 
     # ---- Commands
 
+    def turn_overrides(self):
+        """No fault, and no reason to stop: in most rounds feed and rapid are turned while the job runs."""
+        if self.rng.random() < 0.7:
+            self.machine.call("override", "--feed", str(self.rng.randint(20, 200)), "--rapid",
+                              str(self.rng.randint(20, 100)))
+
     def _command(self, word, hit=frozenset()):
         injected = Injected(word, f"lockstep {word}", now_us(), hit)
         code, _, said = self.machine.call(word)

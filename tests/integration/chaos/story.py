@@ -46,6 +46,7 @@ class Story:
             return
         job = self.machine.begin_job()
         self._wait_for(lambda status: status.get("phase") != "Idle" or job.poll() is not None)
+        chaos.turn_overrides()
         time.sleep(chaos.rng.uniform(0.2, 2.5))
         chapter = Chapter(chaos.strike())
         self.chapters.append(chapter)

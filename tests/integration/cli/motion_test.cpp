@@ -74,6 +74,20 @@ TEST_F(Motion, IsHeldResumedAndStopped) {
     EXPECT_TRUE(status().axes(0).at_rest());
 }
 
+TEST_F(Motion, GoesAsFastAsItsFeedIsTurned) {
+    EXPECT_EQ(run_lockstep({"run", write("long.gcode", kLong), "--detach"}).code, 0);
+    ASSERT_TRUE(becomes("Running"));
+    const double before_s = status().remaining_s();
+    const Ran turned = run_lockstep({"override", "--feed", "200", "--json"});
+    EXPECT_TRUE(turned.json<proto::CommandReport>().accepted());
+    EXPECT_TRUE(eventually([&] { return status().remaining_s() < before_s * 0.6; }));
+    EXPECT_EQ(status().feed_override_percent(), 200);
+    EXPECT_THAT(run_lockstep({"status"}).out, HasSubstr("overrides: feed 200 %, rapid 100 %"));
+    EXPECT_THAT(run_lockstep({"override"}).out, HasSubstr("feed 200 %, rapid 100 %"));
+    EXPECT_EQ(run_lockstep({"override", "--feed", "300"}).code, 2);
+    EXPECT_EQ(run_lockstep({"stop"}).code, 0);
+}
+
 TEST_F(Motion, ThatAnotherStopsIsNotDone) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));

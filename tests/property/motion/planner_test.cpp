@@ -6,16 +6,10 @@
 
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
-#include "core/motion/strain.hpp"
+#include "tests/property/motion/random_path.hpp"
 
 namespace lockstep {
 namespace {
-
-using Random = std::mt19937_64;
-
-double log_uniform(Random& random, double low, double high) {
-    return low * std::pow(high / low, std::uniform_real_distribution<>(0, 1)(random));
-}
 
 PathLimits random_limits(Random& random) {
     PathLimits l;
@@ -83,93 +77,16 @@ TEST(PlanInTime, AMoveIsFeasibleIfAndOnlyIfTheGivenTimeIsNotBelowTheFastest) {
     }
 }
 
-struct Machine {
-    std::vector<AxisLimits> limits;
-    std::vector<double> steps_per_mm;
-};
-
-Machine random_machine(Random& random, std::size_t axes) {
-    Machine m;
-    for (std::size_t i = 0; i < axes; ++i) {
-        const double scale = log_uniform(random, 20, 800);
-        const double top = log_uniform(random, 20, 200) * scale * 1e-6;
-        m.steps_per_mm.push_back(scale);
-        m.limits.push_back({.start_velocity = log_uniform(random, 2, 15) * scale * 1e-6,
-                            .max_velocity = std::min(top, 0.4),
-                            .max_acceleration = log_uniform(random, 200, 5'000) * scale * 1e-12,
-                            .max_deceleration = log_uniform(random, 200, 5'000) * scale * 1e-12});
-    }
-    return m;
-}
-
-std::vector<PathMove> random_moves(Random& random, const Machine& m, std::size_t count) {
-    std::uniform_real_distribution<> unit(-1, 1);
-    std::vector<PathMove> moves;
-    AxisCounts at;
-    for (std::size_t i = 0; i < m.limits.size(); ++i) { (void)at.push_back(0); }
-    while (moves.size() < count) {
-        const double size_mm = log_uniform(random, 0.05, 20);
-        AxisCounts to = at;
-        for (std::size_t i = 0; i < m.limits.size(); ++i) {
-            if (random() % 4 != 0) { to[i] += std::llround(unit(random) * size_mm * m.steps_per_mm[i]); }
-        }
-        const PathMove move =
-            make_move(at, to, m.limits, m.steps_per_mm, random() % 3 == 0 ? 0 : log_uniform(random, 1e-5, 2e-4));
-        if (move.lead == 0) { continue; }
-        moves.push_back(move);
-        at = to;
-    }
-    return moves;
-}
-
-constexpr PathBounds kBounds{Ticks{400}, 24};
-
-/// Follows the pieces of all axes tick by tick and checks every limit and the distance from the path's own place.
-void expect_within_limits(const Path& path, const Machine& m, std::vector<Position> at, bool ends_on_path) {
-    std::vector<double> last(m.limits.size(), 0);
-    std::vector<Strain> strain(m.limits.size());
-    std::vector<Piece> pieces(m.limits.size());
-    std::vector<Position> cursor = at;
-    PieceSource source(path, Ticks{0}, path.duration().ceil(), cursor);
-    Ticks clock;
-    while (source.next(pieces)) {
-        clock += pieces[0].ticks;
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const AxisLimits& l = m.limits[i];
-            const double a = pieces[i].acceleration.steps_per_tick2();
-            const double n = static_cast<double>(pieces[i].ticks.value);
-            const double v0 = pieces[i].velocity.steps_per_tick() + a / 2;
-            const double v1 = v0 + a * n;
-            const double one_tick = 2 * std::max(l.max_acceleration, l.max_deceleration);
-            strain[i].add(v0 - last[i], 0, 0);
-            ASSERT_LE(strain[i].most(), l.start_velocity * (1 + 1e-6) + one_tick) << "tick " << clock.value;
-            strain[i].add(v1 - v0, n, std::max(l.max_acceleration, l.max_deceleration) * (1 + 1e-6));
-            ASSERT_LE(std::max(std::abs(v0), std::abs(v1)), l.max_velocity * (1 + 1e-6) + one_tick);
-            const bool speeding = std::abs(v1) > std::abs(v0);
-            ASSERT_LE(std::abs(a), (speeding ? l.max_acceleration : l.max_deceleration) * (1 + 1e-6))
-                << "tick " << clock.value << " of " << path.duration().ceil().value << " n " << n << " v0 " << v0
-                << " v1 " << v1;
-            last[i] = v1;
-            at[i] = at[i] + pieces[i].covered();
-        }
-    }
-    for (std::size_t i = 0; i < last.size(); ++i) {
-        strain[i].add(-last[i], 0, 0);
-        ASSERT_LE(strain[i].most(), m.limits[i].start_velocity * (1 + 1e-6) + 2 * m.limits[i].max_deceleration);
-        if (ends_on_path) { ASSERT_EQ(at[i].count(), path.moves.back().to[i]); }
-    }
-}
-
 TEST(JoinedMoves, KeepEveryAxisWithinItsLimitsThroughEveryCorner) {
     Random random(4);
     for (int run = 0; run < 300; ++run) {
         const Machine m = random_machine(random, 1 + random() % 5);
         const Path path = plan_path(random_moves(random, m, 1 + random() % 40), {}, m.limits, kBounds);
-        std::vector<Position> at;
-        for (std::size_t i = 0; i < m.limits.size(); ++i) { at.push_back(start_of(path, i, 0)); }
         SCOPED_TRACE(run);
-        expect_within_limits(path, m, at, true);
-        if (HasFatalFailure()) { return; }
+        LimitWatch watch(m, path);
+        ASSERT_NO_FATAL_FAILURE(watch.follow(path, Ticks{0}, path.duration().ceil()));
+        ASSERT_NO_FATAL_FAILURE(watch.expect_rest());
+        for (std::size_t i = 0; i < m.limits.size(); ++i) { EXPECT_EQ(watch.at()[i].count(), path.moves.back().to[i]); }
     }
 }
 
@@ -187,7 +104,7 @@ TEST(JoinedMoves, EveryStopOnThePathKeepsTheLimitsAndFitsATail) {
             std::vector<Position> at;
             for (std::size_t i = 0; i < m.limits.size(); ++i) {
                 const PathMove& move = path.moves[path.move_at(subticks(when))];
-                at.push_back(move.axis_at(i, move.profile.at(subticks(when) - move.start)));
+                at.push_back(move.axis_at(i, move.along_at(subticks(when))));
             }
             std::vector<Piece> pieces(m.limits.size());
             PieceSource source(tail, Ticks{0}, tail.duration().ceil(), at);

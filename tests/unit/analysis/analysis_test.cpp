@@ -46,6 +46,25 @@ struct AnalysisTest : testing::Test {
     }
 };
 
+TEST_F(AnalysisTest, OverridesAreEventsAndSaidOfTheirJob) {
+    {
+        LogMaker maker(log);
+        const Program program = path_through({{0, 0}, {10, 0}});
+        maker.job("begun", 500, program);
+        maker.job("epoch", 900, program);
+        maker.job("override", 950, program);
+        maker.steps("X", 0, 0, even_steps(1000, 20, 1000));
+        maker.job("ended", 25'000, program, "done");
+    }
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found) << found.error();
+    EXPECT_TRUE(found->damages.empty());
+    ASSERT_EQ(found->jobs.size(), 1U);
+    EXPECT_TRUE(found->jobs[0].overridden);
+    ASSERT_EQ(found->happened.size(), 1U);
+    EXPECT_EQ(found->happened[0].what, "overrides turned to feed 100 %, rapid 100 %, for all behind frame 0");
+}
+
 TEST_F(AnalysisTest, CountsEveryStepOfEveryAxis) {
     {
         LogMaker maker(log);

@@ -76,6 +76,15 @@ no alarms
 )");
 }
 
+TEST(Watch, SaysWhatIsOverridden) {
+    proto::StatusReport status = cutting();
+    status.set_feed_override_percent(60);
+    status.set_rapid_override_percent(100);
+    EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("left\nfeed 60 %, rapid 100 %\naxis "));
+    status.set_feed_override_percent(100);
+    EXPECT_EQ(watch_text(status, kScale, Ink::Plain), watch_text(cutting(), kScale, Ink::Plain));
+}
+
 TEST(Watch, SaysWhatIsWrongAndWhatToDo) {
     proto::StatusReport status = cutting();
     status.set_phase("Fault");

@@ -21,7 +21,9 @@ protected:
         recorded.home();
         recorded.begin(
             test::program_of(recorded.vm().machine(), "G21 G90 F3000\nG1 X70 Y8\nX62 Y90\nX9 Y70\nG0 X5 Y5\n"));
-        recorded.advance_ms(1500);
+        recorded.advance_ms(1000);
+        recorded.turn({.feed_percent = 80});
+        recorded.advance_ms(500);
         recorded.command(CommandKind::Hold);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
         recorded.command(CommandKind::Resume);
@@ -185,6 +187,22 @@ TEST_F(Altered, AnyFieldOfARun) {
                   1);
         SCOPED_TRACE("change " + std::to_string(i));
         EXPECT_FALSE(difference().text.empty());
+    }
+}
+
+TEST_F(Altered, AnOverrideByOnePercentOrAFrameEarlier) {
+    const std::vector<std::function<void(job_t&)>> changes{[](job_t& job) { ++job.feed_percent; },
+                                                           [](job_t& job) { --job.behind_frame; }};
+    for (const auto& change : changes) {
+        log = AlteredLog(original);
+        ASSERT_EQ(log.change<job_t>("_JOB",
+                                    [&](job_t& job) {
+                                        if (job.event != "override") { return false; }
+                                        change(job);
+                                        return true;
+                                    }),
+                  1);
+        EXPECT_NE(difference().text.find("frame"), std::string::npos) << difference().text;
     }
 }
 

@@ -1,6 +1,8 @@
 // What the machine does verifies, through holds, stops, pauses and faults.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "clients/verification/verification.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
@@ -64,6 +66,30 @@ TEST_F(Exact, BoardsWithClocksOfTheirOwn) {
     EXPECT_LE(findings->latest, findings->clock_error);
     ASSERT_FALSE(findings->notes.empty());
     EXPECT_NE(findings->notes.back().find("by its device's clock"), std::string::npos) << findings->notes.back();
+}
+
+TEST_F(Exact, OverridesTurnedAtAnyTimeWithAHoldAmongThem) {
+    std::mt19937_64 random(1);
+    const auto percent = [&] { return 10 + static_cast<int>(random() % 191); };
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        for (int job = 0; job < 5; ++job) {
+            recorded.begin(test::program_of(machine, kSquare));
+            for (int i = 0; i < 6; ++i) {
+                recorded.advance_ms(static_cast<std::int64_t>(random() % 700));
+                if (recorded.vm().state()->phase == MachinePhase::Idle) { break; }
+                recorded.turn({percent(), percent()});
+                if (i != 3) { continue; }
+                recorded.command(CommandKind::Hold);
+                recorded.advance_ms(2000);
+                recorded.turn({percent(), percent()});
+                recorded.command(CommandKind::Resume);
+            }
+            ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        }
+    }
+    expect_exact(5);
 }
 
 TEST_F(Exact, TwoProgramsOneAfterTheOther) {

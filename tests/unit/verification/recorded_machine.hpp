@@ -61,6 +61,10 @@ public:
         }
         ASSERT_TRUE(answered);
     }
+    void turn(const Overrides& overrides) {
+        const std::uint64_t sequence = vm_.turn(overrides);
+        ASSERT_TRUE(vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, Ticks{200'000}));
+    }
     void home() {
         ASSERT_TRUE(reaches(MachinePhase::Idle));
         command(CommandKind::Home);

@@ -163,7 +163,7 @@ TEST(HostileCommands, AreRefused) {
     axis_command.axis = 32;
     expect_refused(axis_command, "axis");
     auto command = to_wire(Command{});
-    overwrite(command.kind, 9);
+    overwrite(command.kind, 10);
     expect_refused(command, "kind");
     command = to_wire(Command{});
     command.ticks = -1;

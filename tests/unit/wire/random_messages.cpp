@@ -88,6 +88,7 @@ MachineState RandomMessages::machine_state() {
             .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
+            .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
             .axes_present = static_cast<std::uint32_t>(bits()),
             .config_hash = bits()};
 }
@@ -95,10 +96,12 @@ MachineState RandomMessages::machine_state() {
 Command RandomMessages::command() {
     return {.client = bits(),
             .sequence = bits(),
-            .kind = static_cast<CommandKind>(index(9)),
+            .kind = static_cast<CommandKind>(index(10)),
             .axes = static_cast<std::uint32_t>(bits()),
             .program = bits(),
-            .ticks = {between(0, INT32_MAX)}};
+            .ticks = {between(0, INT32_MAX)},
+            .feed_percent = static_cast<int>(between(0, UINT16_MAX)),
+            .rapid_percent = static_cast<int>(between(0, UINT16_MAX))};
 }
 
 ProgramChunk RandomMessages::chunk() {
