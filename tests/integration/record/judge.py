@@ -37,7 +37,7 @@ assert code("thin_alone") == 1 and total("thin_alone", "missing_step_messages") 
 assert code("whole") == 0 and whole["complete"], whole
 assert {axis["axis"]: int(axis["steps"]) for axis in whole["axes"]} == made
 assert int(whole.get("differing", 0)) == 0 and int(whole.get("late", 0)) == 0, whole
-assert not any("unread" in log for log in whole["inputs"]), whole
+assert not any(log["unread"] for log in whole["inputs"]), whole
 analysis = report("analysis")
 assert {axis["name"]: int(axis["steps"]) for axis in analysis["axes"]} == made
 assert not any("missing" in note for note in analysis.get("notes", [])), analysis["notes"]
