@@ -2,27 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include "clients/analysis/curves.hpp"
 #include "clients/analysis/words.hpp"
 #include "clients/drawing/motion_figures.hpp"
+#include "services/documents/text_file.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
 std::string title(const Analysis& analysis, const std::string& what) { return analysis.machine + ": " + what; }
-
-std::expected<void, std::string> write_file(const std::filesystem::path& path, const std::string& text) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    out << text;
-    out.close();
-    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
-    return {};
-}
 
 }  // namespace
 
@@ -50,7 +38,7 @@ std::expected<void, std::string> write_figures(const Analysis& analysis, const s
     for (const auto& [name, figure] :
          {std::pair{"speed.svg", speed_figure(analysis)}, std::pair{"position.svg", position_figure(analysis)},
           std::pair{"xy.svg", path_figure(analysis, plane)}}) {
-        if (auto written = write_file(directory / name, drawing::to_svg(figure)); !written) { return written; }
+        if (auto written = write_text_file(directory / name, drawing::to_svg(figure)); !written) { return written; }
     }
     return {};
 }

@@ -68,6 +68,16 @@ std::string name_of(const Run& run) {
     return "run " + std::to_string(run.sequence) + ", " + frame + " of the axis's own move";
 }
 
+bool starts_from_rest(const Run& run) {
+    const std::int64_t count = run.from.count();
+    return run.from == rest_position(count, false) || run.from == rest_position(count, true);
+}
+
+bool is_next(const Run& before, const Run& run) {
+    return before.incarnation == run.incarnation && before.epoch == run.epoch && !before.cut && !before.tail &&
+           before.frame + (run.tail ? 0 : 1) == run.frame;
+}
+
 StepMaker::StepMaker(Run run) : run_(std::move(run)), engine_(run_.start, run_.from), count_(run_.from.count()) {
     commanded_.other_from = run_.commanded_start();
 }

@@ -45,6 +45,12 @@ std::expected<Run, std::string> to_run(const run_t& message);
 /// "frame 12", "tail of frame 12", or "run 3, frame 1 of the axis's own move" outside any epoch.
 std::string name_of(const Run& run);
 
+/// Whether it stands at rest on a whole step as it begins.
+bool starts_from_rest(const Run& run);
+
+/// By their numbers: the next frame of the same motion, or the tail that the frame before fell to.
+bool is_next(const Run& before, const Run& run);
+
 /// The steps of a run, one by one, as the tick-exact engine makes them.
 class StepMaker {
 public:

@@ -1,7 +1,5 @@
 #include "clients/report_page/report_page.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <map>
 
@@ -12,6 +10,7 @@
 #include "clients/report_page/page_charts.hpp"
 #include "clients/report_page/page_template.hpp"
 #include "services/documents/report_json.hpp"
+#include "services/documents/text_file.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -77,12 +76,7 @@ bool may_replace(const std::filesystem::path& path) {
 }
 
 std::expected<void, std::string> write_html(const Analysis& analysis, const std::filesystem::path& path) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    out << to_html(analysis);
-    out.close();
-    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
-    return {};
+    return write_text_file(path, to_html(analysis));
 }
 
 }  // namespace lockstep::analysis

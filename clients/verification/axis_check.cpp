@@ -27,15 +27,9 @@ Ticks allowed(Ticks made, Ticks commanded) {
     return both == Ticks{} ? both : both + kRounding;
 }
 
-bool starts_from_rest(const Run& run) {
-    const std::int64_t count = run.from.count();
-    return run.from == rest_position(count, false) || run.from == rest_position(count, true);
-}
-
 /// Frames of an axis's own move follow each other as those of an epoch do.
 bool goes_on(const Run& before, const Run& run) {
-    return !before.cut && before.epoch == 0 && before.frame + (run.tail ? 0 : 1) == run.frame && !before.tail &&
-           before.to() == run.from && before.start + before.ticks() == run.start;
+    return is_next(before, run) && before.to() == run.from && before.start + before.ticks() == run.start;
 }
 
 }  // namespace
@@ -92,8 +86,7 @@ void AxisCheck::settle(bool log_ended) {
         const SeenStep* seen = waiting_.empty() ? nullptr : &waiting_.front();
         const bool may_be_over = seen != nullptr || log_ended;
         if (maker_->next() == nullptr || (may_be_over && is_cut_here(seen))) {
-            last_run_ = maker_->run();
-            maker_.reset();
+            end_run();
         } else if (seen != nullptr) {
             is_of_run(*seen) ? compare(*seen) : end_process(*seen);
         } else {
@@ -121,7 +114,19 @@ bool AxisCheck::begin_next_run() {
     } else if (run.epoch == 0 && (run.frame > 1 || run.tail) && follows && !goes_on(*last_run_, run)) {
         differ("axis " + name_ + ": " + name_of(run) + " does not go on from the frame before it", {}, run.start);
     }
+    if (findings_.going() && follower_ != nullptr) { follower_->on_run(run); }
     return findings_.going();
+}
+
+void AxisCheck::end_run() {
+    last_run_ = maker_->run();
+    maker_.reset();
+    if (follower_ != nullptr) { follower_->on_run_over(); }
+}
+
+void AxisCheck::pass_step(bool is_recorded) {
+    if (follower_ != nullptr) { follower_->on_step(*maker_->next(), maker_->commanded(), is_recorded); }
+    maker_->pass();
 }
 
 /// A run that was cut is over at its stop count, unless the steps go on as its pieces do.
@@ -150,10 +155,10 @@ void AxisCheck::compare(const SeenStep& seen) {
                       expected.tick, seen.edge.tick);
     }
     compare_time(seen, step);
-    maker_->pass();
+    pass_step(true);
     waiting_.pop_front();
     ++steps_;
-    ++findings_.steps;
+    if (follower_ == nullptr) { ++findings_.steps; }
     last_tick_ = expected.tick;
     if (!findings_.last_tick || *findings_.last_tick < expected.tick) { findings_.last_tick = expected.tick; }
 }
@@ -193,7 +198,7 @@ void AxisCheck::end_process(const SeenStep& seen) {
 void AxisCheck::leave_run() {
     if (!last_run_ || last_run_->incarnation != maker_->run().incarnation) { unsaid_ = 0; }
     std::int64_t steps = 0;
-    for (; maker_->next() != nullptr && !is_cut_here(nullptr); maker_->pass()) { ++steps; }
+    for (; maker_->next() != nullptr && !is_cut_here(nullptr); pass_step(false)) { ++steps; }
     unsaid_ += steps;
     if (unsaid_ > StepBatcher::kMaxSteps) {
         return differ("axis " + name_ + ": " + plural(unsaid_, "step") + " after " +
@@ -205,8 +210,7 @@ void AxisCheck::leave_run() {
                               at_tick(last_tick_, "the log's beginning") +
                               " are not on record, its process ended; by " + name_of(maker_->run()) + " it came to " +
                               std::to_string(maker_->run().stop_count));
-    last_run_ = maker_->run();
-    maker_.reset();
+    end_run();
 }
 
 /// Steps are on record, their run is not.
@@ -254,6 +258,7 @@ void AxisCheck::finish() {
     if (findings_.going()) { stream_.finish(); }
     settle(true);
     if (findings_.going()) { end_of_log(); }
+    if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
 }
 
 void AxisCheck::end_of_log() {

@@ -22,6 +22,18 @@ namespace lockstep::verification {
 using analysis::Run;
 using analysis::StepMaker;
 
+/// Hears what the log is found to agree on with itself, in its order; it counts the steps that it finds good.
+class RunFollower {
+public:
+    virtual ~RunFollower() = default;
+    virtual void on_run(const Run& run) = 0;
+    /// A step of that run. `commanded`: in machine time. Not recorded: the process ended before it said so.
+    virtual void on_step(StepEdge step, Tick commanded, bool is_recorded) = 0;
+    virtual void on_run_over() = 0;
+    /// The end of the log.
+    virtual void on_end() = 0;
+};
+
 class AxisCheck final : public analysis::StepListener {
 public:
     /// What was in motion at a tick of a run, in words.
@@ -32,6 +44,8 @@ public:
     static constexpr std::size_t kMaxWaiting = 1 << 22;
 
     AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned);
+    /// It outlives the check.
+    void tell(RunFollower& follower) { follower_ = &follower; }
     AxisCheck(const AxisCheck&) = delete;  // the stream tells its steps to this object
     AxisCheck& operator=(const AxisCheck&) = delete;
 
@@ -56,6 +70,8 @@ private:
 
     void settle(bool log_ended);
     bool begin_next_run();
+    void end_run();
+    void pass_step(bool is_recorded);
     bool is_cut_here(const SeenStep* seen);
     void compare(const SeenStep& seen);
     void compare_time(const SeenStep& seen, const std::string& step);
@@ -73,6 +89,7 @@ private:
     Findings& findings_;
     Commanded commanded_;
     Planned planned_;
+    RunFollower* follower_ = nullptr;
     analysis::StepStream stream_{{this}};
     std::deque<SeenStep> waiting_;
     std::deque<Run> runs_;

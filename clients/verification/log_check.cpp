@@ -6,14 +6,16 @@
 
 namespace lockstep::verification {
 
-LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck& jobs)
+/// `jobs`: null where there is no plan to hold the runs to.
+LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs)
     : check(
-          name, findings, [&jobs](const Run& run, Tick tick) { return jobs.commanded(run, tick); },
-          [&jobs, name](Tick tick) { return jobs.planned(name, tick); }),
+          name, findings,
+          [jobs](const Run& run, Tick tick) { return jobs != nullptr ? jobs->commanded(run, tick) : name_of(run); },
+          [jobs, name](Tick tick) { return jobs != nullptr ? jobs->planned(name, tick) : std::vector<Run>{}; }),
       runs(
-          [this, name, &findings, &jobs](Run run) {
+          [this, name, &findings, jobs](Run run) {
               if (!findings.going()) { return; }
-              run.epoch == 0 ? void(++findings.local_runs) : jobs.take(name, run);
+              if (jobs != nullptr) { run.epoch == 0 ? void(++findings.local_runs) : jobs->take(name, run); }
               check.take(std::move(run));
           },
           [this](std::int64_t from, std::int64_t end) { check.runs_missing(from, end); }) {}
@@ -40,6 +42,7 @@ void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
         return on_damage(place, "a job with overrides that no coordinator takes");
     }
+    if (make_follower_) { return; }
     if (Machine* to = machine(message.machine, place)) { to->jobs.take(message); }
 }
 
@@ -66,7 +69,12 @@ LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::strin
         return nullptr;
     }
     auto& found = of->axes[name];
-    if (!found) { found = std::make_unique<Axis>(name, findings_, of->jobs); }
+    if (found) { return found.get(); }
+    found = std::make_unique<Axis>(name, findings_, make_follower_ ? nullptr : &of->jobs);
+    if (make_follower_) {
+        found->follower = make_follower_(machine_name, name, findings_);
+        found->check.tell(*found->follower);
+    }
     return found.get();
 }
 

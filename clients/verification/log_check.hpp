@@ -1,6 +1,7 @@
 // Sends a log's messages to where they are compared: steps and runs by axis, jobs by machine.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +16,15 @@ namespace lockstep::verification {
 
 class LogCheck final : public analysis::LogListener {
 public:
+    /// What follows an axis's runs.
+    using MakeFollower =
+        std::function<std::unique_ptr<RunFollower>(const std::string& machine, const std::string& axis, Findings&)>;
+
+    /// Steps against runs, and runs against plans.
+    LogCheck() = default;
+    /// Steps against runs, which are taken as they are; and what follows the runs.
+    explicit LogCheck(MakeFollower make_follower) : make_follower_(std::move(make_follower)) {}
+
     void on_steps(const step_batch_t& message, analysis::LogPlace place) override;
     void on_position(const axis_position_t& /*message*/, analysis::LogPlace /*place*/) override {}
     void on_run(const run_t& message, analysis::LogPlace place) override;
@@ -29,7 +39,8 @@ private:
     static constexpr std::size_t kDamagesNoted = 5;
 
     struct Axis {
-        Axis(const std::string& name, Findings& findings, JobCheck& jobs);
+        Axis(const std::string& name, Findings& findings, JobCheck* jobs);
+        std::unique_ptr<RunFollower> follower;
         AxisCheck check;
         RunStream runs;
     };
@@ -41,6 +52,7 @@ private:
     Machine* machine(const std::string& name, analysis::LogPlace place);
     Axis* axis(const std::string& machine, const std::string& name, analysis::LogPlace place);
 
+    MakeFollower make_follower_;
     Findings findings_;
     std::map<std::string, Machine> machines_;
     std::size_t damages_ = 0;

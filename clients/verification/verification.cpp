@@ -14,14 +14,6 @@ std::string counted(const Findings& findings) {
            plural(findings.jobs, "job");
 }
 
-void fill(const Difference& difference, proto::Difference& out) {
-    out.set_text(difference.text);
-    out.set_axis(difference.axis);
-    out.set_commanded(difference.commanded);
-    if (difference.tick_expected) { out.set_tick_expected(difference.tick_expected->value); }
-    if (difference.tick_seen) { out.set_tick_seen(difference.tick_seen->value); }
-}
-
 }  // namespace
 
 std::expected<Findings, std::string> verify_log(const std::filesystem::path& log,
@@ -35,6 +27,14 @@ std::expected<Findings, std::string> verify_log(const std::filesystem::path& log
         return std::unexpected(log.string() + ": no step, no run and no job is in it that could be verified");
     }
     return findings;
+}
+
+void fill(const Difference& difference, proto::Difference& out) {
+    out.set_text(difference.text);
+    out.set_axis(difference.axis);
+    out.set_commanded(difference.commanded);
+    if (difference.tick_expected) { out.set_tick_expected(difference.tick_expected->value); }
+    if (difference.tick_seen) { out.set_tick_seen(difference.tick_seen->value); }
 }
 
 proto::VerifyReport to_report(const Findings& findings) {

@@ -26,6 +26,8 @@ std::expected<Findings, std::string> verify_log(const std::filesystem::path& log
 
 proto::VerifyReport to_report(const Findings& findings);
 
+void fill(const Difference& difference, proto::Difference& out);
+
 /// For a terminal: one paragraph, ends with a newline.
 std::string to_text(const Findings& findings);
 

@@ -34,4 +34,13 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
     return text;
 }
 
+std::expected<void, std::string> write_text_file(const std::filesystem::path& path, std::string_view text) {
+    errno = 0;
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out << text;
+    out.close();
+    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
+    return {};
+}
+
 }  // namespace lockstep

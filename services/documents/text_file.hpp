@@ -1,9 +1,10 @@
-// Reads a text file whole.
+// Reads and writes a text file whole.
 #pragma once
 
 #include <expected>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "services/documents/diagnostic.hpp"
 
@@ -13,5 +14,8 @@ inline constexpr std::size_t kMaxTextFileBytes = 64U << 20;
 
 /// Refuses what is not a readable, regular, non-empty file of text (no 0 bytes) within the limit, and says why.
 std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::path& path);
+
+/// In place of what was there. Error: the path, and why it cannot be written.
+std::expected<void, std::string> write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace lockstep

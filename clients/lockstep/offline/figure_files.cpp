@@ -1,9 +1,8 @@
 #include "clients/lockstep/offline/figure_files.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <system_error>
+
+#include "services/documents/text_file.hpp"
 
 namespace lockstep {
 
@@ -13,12 +12,7 @@ std::expected<void, std::string> write_figures(const std::filesystem::path& dire
     std::filesystem::create_directories(directory, error);
     if (error) { return std::unexpected(directory.string() + ": cannot be made: " + error.message()); }
     for (const auto& [name, figure] : figures) {
-        const auto path = directory / name;
-        errno = 0;
-        std::ofstream out(path, std::ios::binary | std::ios::trunc);
-        out << drawing::to_svg(figure);
-        out.close();
-        if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
+        if (auto done = write_text_file(directory / name, drawing::to_svg(figure)); !done) { return done; }
     }
     return {};
 }

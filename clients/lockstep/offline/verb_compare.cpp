@@ -1,7 +1,4 @@
 // lockstep compare
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -13,6 +10,7 @@
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "services/documents/text_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -44,13 +42,7 @@ std::expected<std::vector<stepgen::Method>, std::string> chosen(const std::vecto
 }
 
 std::expected<void, std::string> write_file(const std::string& path, const std::string& text) {
-    if (path.empty()) { return {}; }
-    errno = 0;
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    out << text;
-    out.close();
-    if (!out) { return std::unexpected(path + ": cannot be written: " + std::strerror(errno)); }
-    return {};
+    return path.empty() ? std::expected<void, std::string>{} : write_text_file(path, text);
 }
 
 std::expected<void, std::string> write_files(const CompareOptions& options, const comparison::Comparison& result) {

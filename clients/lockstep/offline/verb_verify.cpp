@@ -1,10 +1,10 @@
 // lockstep verify
 #include <memory>
 
-#include "clients/lockstep/colour.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/offline/verdict_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/verification/verification.hpp"
 
@@ -25,11 +25,7 @@ ExitCode verify(const VerifyOptions& options) {
     const auto findings = verification::verify_log(options.log, progress);
     if (!findings) { return voice.fail(bad_input(findings.error())); }
     const bool exact = !findings->difference;
-    std::string text = verification::to_text(*findings);
-    text.pop_back();
-    const std::size_t verdict = text.find(':');
-    if (wants_colour()) { text = painted(text.substr(0, verdict), exact ? kGood : kBad) + text.substr(verdict); }
-    voice.say(text);
+    voice.say(verdict_text(verification::to_text(*findings), exact));
     voice.report(verification::to_report(*findings));
     return exact ? kExitDone : kExitFailed;
 }

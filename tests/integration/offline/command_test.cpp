@@ -93,6 +93,21 @@ TEST_F(Command, ALogThatLacksItsEndDoesNotVerify) {
         << verified.out;
 }
 
+TEST_F(Command, AReplayMakesTheStepsOfTheLogAndALogThatVerifies) {
+    ASSERT_EQ(run("simulate " + plate + " --log " + log).exit, 0);
+    const std::string again = (directory / "again.lcm").string();
+    const auto replayed = run("replay " + log + " --log " + again + " --json");
+    EXPECT_EQ(replayed.exit, 0);
+    const auto made = report_of<proto::ReplayReport>(replayed);
+    EXPECT_TRUE(made.exact());
+    EXPECT_EQ(made.log(), again);
+    const auto verdict = report_of<proto::VerifyReport>(run("verify " + again + " --json"));
+    EXPECT_TRUE(verdict.exact());
+    EXPECT_EQ(verdict.steps_compared(), made.steps_replayed());
+    EXPECT_EQ(run("replay deploy/examples/plate.gcode 2>&1").exit, 2);
+    EXPECT_EQ(run("replay " + log + " --log deploy/examples/plate.gcode 2>&1").exit, 2) << "that is no log";
+}
+
 TEST_F(Command, BadInputIsSaidByPlaceAndExits2) {
     const std::string bad = file("bad.gcode", "G21 G90\nG1 X10 F100\nG1 X900\n");
     const std::string machine = " --machine deploy/examples/three-axis.textproto";

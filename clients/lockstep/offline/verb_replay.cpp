@@ -1,0 +1,67 @@
+// lockstep replay
+#include <memory>
+#include <optional>
+
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/offline/verdict_text.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/replay/replay.hpp"
+#include "clients/simulation/new_log_file.hpp"
+
+namespace lockstep {
+namespace {
+
+struct ReplayOptions {
+    std::string log;
+    std::string made;
+    bool force = false;
+    bool json = false;
+};
+
+ExitCode replay_verb(const ReplayOptions& options) {
+    Voice voice(options.json);
+    std::optional<NewLogFile> made;
+    if (!options.made.empty()) {
+        auto begun = NewLogFile::begin(options.made, options.force);
+        if (!begun) { return voice.fail(bad_input(begun.error())); }
+        made.emplace(std::move(*begun));
+    }
+    std::function<void(double)> progress;
+    if (voice.is_terminal()) {
+        progress = [&](double done) { voice.progress("replaying " + fixed(done * 100, 0) + " %"); };
+    }
+    const auto findings = replay::replay_log(options.log, made ? &made->sink() : nullptr, progress);
+    if (!findings) { return voice.fail(bad_input(findings.error())); }
+    if (made) {
+        if (const auto kept = made->keep(); !kept) { return voice.fail(failed(kept.error())); }
+    }
+    const bool exact = !findings->difference;
+    voice.say(verdict_text(replay::to_text(*findings), exact));
+    voice.report(replay::to_report(*findings, options.made));
+    return exact ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("replay",
+                                        "give what a log says each device was given to simulated devices, and compare "
+                                        "every step they make with the log, tick for tick");
+    const auto options = std::make_shared<ReplayOptions>();
+    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
+    verb->add_option("--log", options->made, "write the replay's own log: as recorded, with the steps made now");
+    verb->add_flag("--force", options->force, "replace the file of --log whatever it is; without it only a log is");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb->footer(
+        "Nothing is planned again: lockstep verify does that. A replay writes the recorded frames into a device's\n"
+        "registers, as the axis did, and so proves that they make those steps. Where pulses ceased early, by a switch\n"
+        "or a stop, the device is stopped at the recorded step.\n"
+        "Exit 0: exact. 1: not exact; the first difference is said. 2: not a log, or no run in it.\n" +
+        footer("  lockstep replay plate.lcm\n"
+               "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n"));
+    verb->callback([&action, options] { action = [options] { return replay_verb(*options); }; });
+}
+
+}  // namespace lockstep

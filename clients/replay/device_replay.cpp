@@ -1,0 +1,187 @@
+#include "clients/replay/device_replay.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/axis/device_driver.hpp"
+#include "sim_fpga/device.hpp"
+
+namespace lockstep::replay {
+namespace {
+
+constexpr std::int64_t kTick_ns = 1000;  // a name that device and driver agree on: all is counted in ticks
+constexpr std::size_t kStepsAtOnce = registers::kCaptureRingEntries / 2;
+
+/// No switch within reach.
+AxisConfig endless_axis() {
+    constexpr double kFar_mm = 1e15;
+    AxisConfig axis;
+    axis.steps_per_mm = 1;
+    axis.position_min_mm = -kFar_mm;
+    axis.position_max_mm = kFar_mm;
+    axis.homing.switch_position_mm = -kFar_mm;
+    return axis;
+}
+
+/// What no frame carries is left out: the device does not come to where the record has it.
+void copy_pieces(const Run& run, auto& pieces) {
+    for (const Piece& piece : run.pieces) { (void)pieces.push_back(piece); }
+}
+
+}  // namespace
+
+struct DeviceReplay::Hardware {
+    explicit Hardware(Tick now)
+        : device(window, Plant(endless_axis(), kTick_ns), kTick_ns, now),
+          driver(DeviceDriver::attach(window, kTick_ns).value()) {}
+
+    RegisterWindow window = RegisterWindow::in_process();
+    SimulatedDevice device;
+    DeviceDriver driver;
+};
+
+DeviceReplay::DeviceReplay(std::string axis, verification::Findings& findings, OnStep on_step)
+    : axis_(std::move(axis)), findings_(findings), on_step_(std::move(on_step)) {}
+
+DeviceReplay::~DeviceReplay() = default;
+
+void DeviceReplay::on_run(const Run& run) {
+    newest_.reset();
+    if (held_ && !is_next(tail_.value_or(*held_), run)) { end_motion(); }
+    if (!findings_.going() || !power_up(run)) { return; }
+    newest_ = run;
+    newest_step_.reset();
+    count_ = run.from.count();
+    if (held_ && run.tail) {
+        tail_ = run;
+        return;
+    }
+    if (held_) {
+        load_frame(false);
+        play(held_->start + held_->ticks() - Ticks{1});  // at its end the next frame must be there
+    } else {
+        begin_motion();
+    }
+    held_ = run;
+}
+
+/// False: the run is passed over, since a device that has just been powered up is at rest on a whole step.
+bool DeviceReplay::power_up(const Run& run) {
+    if (hardware_ && incarnation_ == run.incarnation) { return true; }
+    if (run.tail || !starts_from_rest(run)) {
+        findings_.notes.push_back("axis " + axis_ + ": " + name_of(run) +
+                                  " is passed over: what brought the axis to where it begins is not on record");
+        return false;
+    }
+    hardware_ = std::make_unique<Hardware>(run.start - Ticks{1});
+    incarnation_ = run.incarnation;
+    count_at_power_up_ = run.device_start();
+    motion_ = 0;
+    return true;
+}
+
+void DeviceReplay::begin_motion() {
+    order(device::BeginRun{++motion_});
+    frame_ = 0;
+}
+
+void DeviceReplay::on_step(StepEdge step, Tick commanded, bool is_recorded) {
+    if (!newest_) { return; }
+    count_ += step.direction;
+    newest_step_ = step.tick;
+    expected_.push_back({{step, commanded, newest_->clock_error, count_, newest_->incarnation}, is_recorded});
+}
+
+void DeviceReplay::on_run_over() {
+    if (newest_) { ++findings_.runs; }
+}
+
+void DeviceReplay::on_end() {
+    if (held_) { end_motion(); }
+}
+
+/// The frame held, with the tail it fell to, as the driver writes it. Arms it.
+void DeviceReplay::load_frame(bool is_last) {
+    const std::int64_t to_device = held_->zero_count - count_at_power_up_;
+    device::LoadFrame frame{++frame_, held_->start, is_last, {}};
+    frame.track.from = held_->from + Displacement::steps(to_device);
+    copy_pieces(*held_, frame.track.body);
+    if (tail_) { copy_pieces(*tail_, frame.track.tail); }
+    order(frame);
+    order(device::Arm{frame_});
+}
+
+/// Takes what the device made every so many steps, before its capture ring is full.
+void DeviceReplay::play(Tick until) {
+    const auto advance = [this](Tick to) {
+        hardware_->device.advance(to);
+        const auto drained = hardware_->driver.drain_capture([this](StepEdge made) { take(made); });
+        if (!drained) { differ(drained.error(), {}, {}); }
+    };
+    while (findings_.going() && expected_.size() > kStepsAtOnce && expected_[kStepsAtOnce].step.edge.tick < until) {
+        advance(expected_[kStepsAtOnce].step.edge.tick);
+    }
+    if (findings_.going()) { advance(until); }
+}
+
+void DeviceReplay::take(StepEdge made) {
+    if (!findings_.going()) { return; }
+    if (expected_.empty()) { return differ("the device makes a step that is not on record", {}, made.tick); }
+    const auto [step, is_recorded] = expected_.front();
+    if (made != step.edge) {
+        return differ("the device steps at tick " + std::to_string(made.tick.value) +
+                          (made.direction > 0 ? " forward" : " backward") + "; on record is a step at tick " +
+                          std::to_string(step.edge.tick.value) + (step.edge.direction > 0 ? " forward" : " backward"),
+                      step.edge.tick, made.tick);
+    }
+    expected_.pop_front();
+    if (is_recorded) { ++findings_.steps; }
+    findings_.last_tick = std::max(findings_.last_tick.value_or(made.tick), made.tick);
+    on_step_(step);
+}
+
+/// Nothing follows the frame held, but its tail.
+void DeviceReplay::end_motion() {
+    load_frame(!tail_);
+    const Run& last = tail_ ? *tail_ : *held_;
+    if (last.cut) {
+        play(newest_step_.value_or(last.start));
+        order(device::StopNow{});
+        hardware_->device.advance(hardware_->device.now());
+    } else {
+        play(last.start + last.ticks());
+    }
+    if (findings_.going()) { look_at_end(); }
+    held_.reset();
+    tail_.reset();
+}
+
+void DeviceReplay::look_at_end() {
+    const Run& last = tail_ ? *tail_ : *held_;
+    const auto status = hardware_->driver.read();
+    if (!status) { return differ(status.error(), {}, {}); }
+    if (status->bad_segment) {
+        return differ("the device refuses a frame that does not join the one before it", last.start, {});
+    }
+    if (!expected_.empty()) {
+        return differ("the device does not make a step that is on record", expected_.front().step.edge.tick, {});
+    }
+    const std::int64_t stands = status->position.count() + count_at_power_up_;
+    if (!status->finished || stands != last.device_stop()) {
+        differ("the device comes to count " + std::to_string(stands) + (status->finished ? "" : ", in motion") +
+                   "; on record is " + std::to_string(last.device_stop()),
+               {}, {});
+    }
+}
+
+void DeviceReplay::order(const DeviceOrder& order) {
+    if (!findings_.going()) { return; }
+    if (const auto done = hardware_->driver.apply(order); !done) { differ(done.error(), {}, {}); }
+}
+
+void DeviceReplay::differ(const std::string& text, std::optional<Tick> expected, std::optional<Tick> seen) {
+    const std::string run = tail_ ? name_of(*tail_) : held_ ? name_of(*held_) : "";
+    findings_.differ({"axis " + axis_ + ": " + text, axis_, expected, seen, run});
+}
+
+}  // namespace lockstep::replay

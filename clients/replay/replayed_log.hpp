@@ -1,0 +1,59 @@
+// The log of a replay: the recorded log with the steps that the devices made in place of the recorded ones.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "clients/analysis/log_read.hpp"
+#include "clients/replay/device_replay.hpp"
+#include "services/record/record_sink.hpp"
+#include "services/wire/step_batcher.hpp"
+
+namespace lockstep::replay {
+
+/// The steps of one axis, as its process would have recorded them.
+class ReplayedSteps {
+public:
+    /// `sink` outlives it.
+    ReplayedSteps(const std::string& machine, const std::string& axis, RecordSink& sink);
+
+    void take(const MadeStep& step);
+    /// Microseconds of machine time, as far as the recorded log has come.
+    void set_time(std::int64_t utime) { utime_ = utime; }
+    void finish();
+
+private:
+    void publish(step_batch_t& batch);
+
+    std::string machine_;
+    std::string axis_;
+    std::string channel_;
+    RecordSink& sink_;
+    std::optional<StepBatcher> batcher_;  // of the process on record
+    std::int64_t incarnation_ = 0;
+    std::int64_t utime_ = 0;
+    std::optional<MadeStep> first_;  // of those not published
+    MadeStep last_;
+};
+
+/// Everything recorded but steps goes through it unchanged.
+class ReplayedLog {
+public:
+    explicit ReplayedLog(RecordSink& sink) : sink_(sink) {}
+
+    ReplayedSteps& steps(const std::string& machine, const std::string& axis);
+    void take(const run_t& message);
+    void take(const axis_position_t& message);
+    void take(const axis_health_t& message);
+    void take(const job_t& message);
+    void finish();
+
+private:
+    RecordSink& sink_;
+    std::map<std::pair<std::string, std::string>, ReplayedSteps> axes_;
+};
+
+}  // namespace lockstep::replay
