@@ -8,7 +8,7 @@
 #include "clients/lockstep/offline/verdict_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/replay/replay.hpp"
-#include "clients/simulation/new_log_file.hpp"
+#include "services/record/new_log_file.hpp"
 
 namespace lockstep {
 namespace {
