@@ -63,7 +63,7 @@ void CsvTable::write(const Sample& sample) {
 
 void CsvTable::write_first_row() {
     const auto [utime, row] = *rows_.begin();
-    file_.cell(static_cast<double>(utime - columns_.utime_begin()) * 1e-6);
+    file_.cell(static_cast<double>(utime - columns_.utime_begin()) / 1e6);
     for (std::size_t column = 0; column < columns_.count(); ++column) {
         const auto cell = row.find(column);
         cell != row.end() ? write_cell(file_, cell->second) : void(file_.empty_cell());

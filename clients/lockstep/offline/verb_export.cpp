@@ -55,6 +55,9 @@ ExitCode export_verb(const ExportOptions& options) {
     if (std::filesystem::exists(to, ignored) && !options.force) {
         return voice.fail(bad_input(to.string() + ": is there already; name another with --out, or say --force"));
     }
+    if (std::filesystem::equivalent(options.log, to, ignored)) {
+        return voice.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
+    }
     std::function<void(double)> progress;
     if (voice.is_terminal()) {
         progress = [&](double done) { voice.progress("exporting " + fixed(done * 100, 0) + " %"); };
