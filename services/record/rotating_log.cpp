@@ -1,6 +1,7 @@
 #include "services/record/rotating_log.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <vector>
@@ -47,6 +48,21 @@ std::string file_name(const std::string& name, std::uint64_t number) {
     return name + "." + digits + ".lcm";
 }
 
+/// The first free name from `number` on: two coordinators, one of them standing by, keep theirs side by side. Where no
+/// file can be made, the next attempt to says why.
+fs::path claim_file(const RotatingLog::Place& place, std::uint64_t number) {
+    constexpr std::uint64_t kMostRivals = 100;
+    fs::path path;
+    for (const std::uint64_t last = number + kMostRivals; number < last; ++number) {
+        path = place.directory / file_name(place.name, number);
+        std::FILE* const claimed = std::fopen(path.c_str(), "wx");
+        const bool is_taken = claimed == nullptr && errno == EEXIST;
+        if (claimed != nullptr) { std::fclose(claimed); }
+        if (!is_taken) { break; }
+    }
+    return path;
+}
+
 }  // namespace
 
 std::expected<RotatingLog, std::string> RotatingLog::open(Place place) {
@@ -63,8 +79,7 @@ std::expected<void, std::string> RotatingLog::begin_file() {
     written_ = 0;
     remove_oldest();
     const auto files = files_of(place_);
-    const std::uint64_t number = files.empty() ? 1 : files.back().number + 1;
-    auto writer = LogWriter::open(place_.directory / file_name(place_.name, number));
+    auto writer = LogWriter::open(claim_file(place_, files.empty() ? 1 : files.back().number + 1));
     if (!writer) { return std::unexpected(writer.error()); }
     writer_.emplace(std::move(*writer));
     return {};
