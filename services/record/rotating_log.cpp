@@ -49,7 +49,7 @@ std::string file_name(const std::string& name, std::uint64_t number) {
 }
 
 /// The first free name from `number` on: two coordinators, one of them standing by, keep theirs side by side. Where no
-/// file can be made, the next attempt to says why.
+/// file can be made it is left to who opens it to say why.
 fs::path claim_file(const RotatingLog::Place& place, std::uint64_t number) {
     constexpr std::uint64_t kMostRivals = 100;
     fs::path path;

@@ -74,6 +74,16 @@ TEST_F(OwnLog, ANewProcessGoesOnBehindTheOneBefore) {
     EXPECT_EQ(times().size(), 20U);
 }
 
+TEST_F(OwnLog, TwoThatRunSideBySideKeepBoth) {
+    {
+        auto one = begin(1'000'000);
+        auto other = begin(1'000'000);
+        write(one, 0, 10);
+        write(other, 10, 20);
+    }
+    EXPECT_EQ(times().size(), 20U);
+}
+
 TEST_F(OwnLog, FilesOfOthersAreLeftAlone) {
     fs::create_directories(folder);
     for (const char* name : {"axis-XY.000001.lcm", "axis-X.notes.lcm", "axis-X..lcm"}) {
