@@ -50,7 +50,10 @@ namespace lockstep {
       "check the network; lockstep reset, lockstep home")                                                            \
     X(ClockUncertain, 125, "clock-uncertain", "an axis's clock may be further off than timing.clock_error_limit_us", \
       "check the network to that axis, or give the slots more time; lockstep status shows each clock's error; "      \
-      "lockstep reset")
+      "lockstep reset")                                                                                              \
+    X(CoordinatorChanged, 126, "coordinator-changed",                                                                \
+      "another coordinator has taken the machine over since this was asked; it was perhaps begun",                   \
+      "see: lockstep status; then ask again")
 
 enum class FaultCode : std::uint16_t {
     None = 0,

@@ -22,7 +22,11 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
 }
 
 void MachineRecorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {
-    if (!jobs_ && out.state) { jobs_ = std::make_unique<JobRecorder>(machine_, out.state->coordinator, sink_); }
+    const bool owns = out.state && out.state->phase != MachinePhase::Standby;
+    if (owns && out.state->term.coordinator != owner_) {
+        owner_ = out.state->term.coordinator;
+        jobs_ = std::make_unique<JobRecorder>(machine_, owner_, sink_);
+    }
     for (const JobEvent& event : out.jobs) {
         if (jobs_) { jobs_->record(now, event); }
     }

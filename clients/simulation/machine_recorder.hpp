@@ -28,6 +28,7 @@ private:
     MachineConfig machine_;
     RecordSink& sink_;
     std::vector<std::unique_ptr<AxisRecorder>> axes_;  // made when the axis first says who it is
+    Identity owner_ = 0;                               // whose jobs are recorded
     std::unique_ptr<JobRecorder> jobs_;                // likewise
     std::int64_t steps_ = 0;
 };

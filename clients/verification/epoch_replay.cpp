@@ -7,7 +7,7 @@ namespace lockstep::verification {
 
 EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, Path path, const std::vector<Position>& at,
                          Tick start)
-    : runner_(machine, 0) {
+    : runner_(machine) {
     runner_.begin(epoch, std::move(path), at, slot_);
     shift_ = start - runner_.start();
 }

@@ -18,8 +18,8 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     now_ = inputs.now;
     clock_error_ = inputs.clock_error;
     const Slot slot = rules::slot_of(now_, slot_);
-    // A coordinator that it has not heard because it did not run is not silent.
-    if (state_slot_) { coordinator_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
+    // An owner that it has not heard because it did not run is not silent.
+    if (state_slot_) { owner_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
     observe(inputs.device, out);
     if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
         homed_ = false;
@@ -49,13 +49,13 @@ void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
         if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
     }
     for (const MachineState& state : inputs.coordinator) {
-        if (!adopts(state.coordinator, now, out)) { continue; }
-        coordinator_heard_ = now;
+        if (!follows(state, now, out)) { continue; }
+        owner_heard_ = now;
         follower_.hear(state);
     }
     for (const AxisCommand& command : inputs.commands) {
         const bool mine = command.axis == axis_ && command.sequence > command_taken_;
-        if (mine && adopts(command.coordinator, now, out)) { carry_out(command, inputs.device, out); }
+        if (mine && is_from_owner(command.term)) { carry_out(command, inputs.device, out); }
     }
     for (const Command& request : inputs.requests) {
         if (request.kind == CommandKind::EmergencyStop && is_news(request)) { stop_now(out); }
@@ -79,15 +79,29 @@ void AxisController::stop_now(AxisOutputs& out) {
     follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
 }
 
-/// One coordinator at a time: another is listened to only when the last one has been silent for long, at rest.
-bool AxisController::adopts(Identity coordinator, Slot now, AxisOutputs& out) {
-    if (coordinator_ == coordinator) { return true; }
-    const bool silent = now - coordinator_heard_ > rules::silence_slots(machine_.timing);
-    if (coordinator_ && (!silent || mode_ != Mode::Rest)) { return false; }
-    coordinator_ = coordinator;
-    coordinator_heard_ = now;
-    out.notices.push_back({AxisNotice::Kind::CoordinatorAdopted, FaultCode::None, coordinator});
+/// One owner at a time, and never a lower term than before: another is followed only when the last one has been silent
+/// for long, at rest.
+bool AxisController::follows(const MachineState& state, Slot now, AxisOutputs& out) {
+    if (state.phase == MachinePhase::Standby) { return false; }
+    if (is_from_owner(state.term)) { return true; }
+    const bool believed = claimant_.again(state.term, state.stamp);
+    if (!believed || !rules::may_follow(state.term, owner_, hears_owner(now), at_rest())) { return false; }
+    adopt(state.term, now, out);
     return true;
+}
+
+/// Commands are counted anew: what the last owner asked for is over.
+void AxisController::adopt(const Term& term, Slot now, AxisOutputs& out) {
+    owner_ = term;
+    owner_heard_ = now;
+    command_taken_ = command_done_ = 0;
+    command_fault_ = FaultCode::None;
+    command_open_ = false;
+    out.notices.push_back({AxisNotice::Kind::OwnerAdopted, FaultCode::None, term.number});
+}
+
+bool AxisController::hears_owner(Slot now) const {
+    return owner_ != Term{} && now - owner_heard_ <= rules::silence_slots(machine_.timing);
 }
 
 void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
@@ -134,9 +148,8 @@ void AxisController::done(FaultCode fault) {
 }
 
 void AxisController::take_frames(const AxisInputs& inputs, AxisOutputs& out) {
-    const Slot now = rules::slot_of(now_, slot_);
     for (const Frame& frame : inputs.frames) {
-        if (!adopts(frame.coordinator, now, out)) { continue; }
+        if (!is_from_owner(frame.term)) { continue; }
         const bool was_open = follower_.open();
         const FrameNumber held = was_open ? follower_.held() : 0;
         const std::optional<Position> rest =
@@ -204,7 +217,9 @@ AxisState AxisController::state(Slot slot) const {
             .command_fault = static_cast<std::uint16_t>(command_fault_),
             .config_hash = config_hash_,
             .refused_frames = refused_frames_,
-            .clock_error = clock_error_};
+            .clock_error = clock_error_,
+            .term = owner_,
+            .hears_owner = hears_owner(slot)};
 }
 
 }  // namespace lockstep

@@ -16,6 +16,7 @@
 #include "core/axis/own_move.hpp"
 #include "core/axis/setpoint_follower.hpp"
 #include "core/clock/clock_view.hpp"
+#include "core/protocol/second_hearing.hpp"
 
 namespace lockstep {
 
@@ -52,7 +53,7 @@ struct ExecutedTrack {
 /// What happened, for the log.
 struct AxisNotice {
     enum class Kind : std::uint8_t {
-        CoordinatorAdopted,
+        OwnerAdopted,
         EpochBegun,
         EpochEnded,
         FrameRefused,
@@ -65,7 +66,7 @@ struct AxisNotice {
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // an epoch, a frame, a stage: as the kind says
+    std::uint64_t number = 0;  // a term, an epoch, a frame, a stage: as the kind says
 };
 
 struct AxisOutputs {
@@ -117,7 +118,10 @@ private:
     void end_following(AxisOutputs& out);
 
     void hear(const AxisInputs& inputs, AxisOutputs& out);
-    bool adopts(Identity coordinator, Slot now, AxisOutputs& out);
+    bool follows(const MachineState& state, Slot now, AxisOutputs& out);
+    void adopt(const Term& term, Slot now, AxisOutputs& out);
+    bool hears_owner(Slot now) const;
+    bool is_from_owner(const Term& term) const { return owner_ != Term{} && rules::is_from_owner(term, owner_); }
     bool is_news(const Command& request);
     void stop_now(AxisOutputs& out);
     void carry_out(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out);
@@ -184,8 +188,9 @@ private:
     Tick now_;
     Ticks clock_error_;
     std::optional<Slot> state_slot_;
-    std::optional<Identity> coordinator_;
-    Slot coordinator_heard_ = 0;
+    Term owner_;  // the highest ever followed
+    Slot owner_heard_ = 0;
+    SecondHearing<Term> claimant_;
     std::map<Identity, std::uint64_t> stops_taken_;  // the newest emergency stop of each client
     std::uint64_t command_taken_ = 0;
     std::uint64_t command_done_ = 0;

@@ -35,7 +35,7 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     const bool first = !open_ && rest && frame.epoch > epoch_ && frame.number == 1;
     const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_;
     if ((!first && !next) || frames_.size() == kMaxFrames) { return FaultCode::None; }
-    const bool follows = first ? is_epoch_of(frame.epoch, frame.coordinator) : frame.start == end_tick_;
+    const bool follows = first ? is_epoch_of(frame.epoch, frame.term) : frame.start == end_tick_;
     if (!follows) { return FaultCode::FrameDiscontinuous; }
     if (frame.start.value % slot_.value != 0 || frame.ticks.value <= 0) { return FaultCode::BadProgram; }
     MotionPoint end = first ? MotionPoint{start_from(track.from, *rest), 0, {}} : end_;

@@ -7,16 +7,16 @@
 
 namespace lockstep {
 
-Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash)
+Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, bool to_stand_by)
     : machine_(machine),
-      identity_(identity),
       config_hash_(config_hash),
+      to_stand_by_(to_stand_by),
       slot_(machine.slot_ticks()),
+      ownership_(identity, machine.timing),
       planner_(machine),
-      runner_(machine, identity),
+      runner_(machine),
       views_(machine.axes.size()),
-      orders_(machine.axes.size()),
-      order_sequence_(identity << 8) {}
+      orders_(machine.axes.size()) {}
 
 void Coordinator::accept_program(std::uint64_t id, Program program) {
     if (!programs_.contains(id)) { program_order_.push_back(id); }
@@ -31,14 +31,19 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     CoordinatorOutputs out;
     now_ = inputs.now;
     now_slot_ = rules::slot_of(now_, slot_);
-    if (!first_slot_) { first_slot_ = now_slot_; }
     forgive_own_stall();
     hear(inputs, out);
+    change_owner(out);
+    if (!ownership_.owns()) {
+        stand_by(inputs, out);
+        return out;
+    }
+    if (must_listen()) { return out; }
     watch_axes(out);
     for (const Command& command : inputs.commands) { take_command(command, out); }
-    if (state_slot_ && now_slot_ <= *state_slot_) { return out; }
-    state_slot_ = now_slot_;
+    if (!begins_slot()) { return out; }
     advance(out);
+    for (Frame& frame : out.frames) { frame.term = ownership_.term(); }
     for (std::size_t i = 0; i < orders_.size(); ++i) {
         if (orders_[i] && !order_done(i)) { out.axis_commands.push_back(*orders_[i]); }
     }
@@ -46,10 +51,17 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     return out;
 }
 
+bool Coordinator::begins_slot() {
+    if (state_slot_ && now_slot_ <= *state_slot_) { return false; }
+    state_slot_ = now_slot_;
+    return true;
+}
+
 /// Whom it has not heard because it did not run is not silent.
 void Coordinator::forgive_own_stall() {
     const Slot missed = state_slot_ ? std::max<Slot>(0, now_slot_ - *state_slot_ - 1) : 0;
     for (AxisView& view : views_) { view.heard += missed; }
+    if (missed > rules::silence_slots(machine_.timing)) { woken_ = now_slot_; }
 }
 
 void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out) {
@@ -58,16 +70,14 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         AxisView& view = views_[state.axis];
         const bool same = view.state && view.state->identity == state.identity;
         if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
-        if (view.state && !same && !view.believes(state)) { continue; }
+        if (view.state && !same && !view.stranger.again(state.identity, state.stamp)) { continue; }
+        ownership_.hear(state);
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
         if (view.state && !same && job_) { fail(FaultCode::AxisLost, state.axis, out); }  // held or not
         if (!same) { orders_[state.axis].reset(); }
-        view = {state, now_slot_};
+        view = {state, now_slot_, {}};
     }
-    // Who came later gives way; both hear each other within a slot or two.
-    out.must_quit = std::any_of(inputs.others.begin(), inputs.others.end(), [&](const MachineState& other) {
-        return other.coordinator != identity_ && other.coordinator < identity_;
-    });
+    for (const MachineState& other : inputs.others) { ownership_.hear(other, now_slot_); }
 }
 
 std::optional<std::size_t> Coordinator::missing_axis() const {
@@ -105,7 +115,7 @@ void Coordinator::watch_axes(CoordinatorOutputs& out) {
 }
 
 void Coordinator::order(std::size_t axis, AxisCommandKind kind) {
-    orders_[axis] = AxisCommand{identity_, ++order_sequence_, static_cast<std::uint32_t>(axis), kind};
+    orders_[axis] = AxisCommand{ownership_.term(), ++order_sequence_, static_cast<std::uint32_t>(axis), kind};
 }
 
 bool Coordinator::order_done(std::size_t axis) const {
@@ -140,7 +150,7 @@ AxisCounts Coordinator::counts() const {
 }
 
 MachineState Coordinator::state() const {
-    MachineState s{.coordinator = identity_,
+    MachineState s{.term = ownership_.term(),
                    .stamp = now_slot_,
                    .tick = now_,
                    .phase = phase_,
@@ -151,6 +161,7 @@ MachineState Coordinator::state() const {
                    .veto = runner_.veto(),
                    .job = jobs_,
                    .outcome = job_ ? std::nullopt : outcome_,
+                   .line = jobs_ == cut_job_ ? cut_line_ : 0,
                    .overrides = overrides_,
                    .config_hash = config_hash_};
     for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/coordinator/epoch_runner.hpp"
+#include "core/coordinator/ownership.hpp"
 #include "core/coordinator/program_plan.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
@@ -46,10 +47,20 @@ struct EpochOutcome {
 };
 
 struct CoordinatorNotice {
-    enum class Kind : std::uint8_t { Phase, Fault, AxisSeen, AxisGone, Interrupted, EpochBegun };
+    enum class Kind : std::uint8_t {
+        Phase,
+        Fault,
+        AxisSeen,
+        AxisGone,
+        Interrupted,
+        EpochBegun,
+        Claimed,     // it owns the machine now
+        StoodDown,   // another does
+        JobCutShort  // by the takeover: where
+    };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // an axis, an epoch, a phase: as the kind says
+    std::uint64_t number = 0;  // an axis, an epoch, a phase, a term, a line: as the kind says
 };
 
 struct CoordinatorInputs {
@@ -67,14 +78,14 @@ struct CoordinatorOutputs {
     std::vector<JobEvent> jobs;
     std::vector<CoordinatorNotice> notices;
     std::optional<EpochOutcome> epoch_end;  // in the step that judged it
-    bool must_quit = false;                 // an older coordinator runs this machine
+    bool must_quit = false;                 // another coordinator owns this machine, and this one was not to stand by
 };
 
 class Coordinator {
 public:
-    /// `identity` is the machine time of its start in ticks: later coordinators have larger ones, and epochs are
-    /// numbered upwards from it, so that none is used twice.
-    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash);
+    /// `identity` is the machine time of its start in ticks, and so new at every start. It listens before it claims the
+    /// machine; where another owns it, it stands by if it is `to_stand_by`.
+    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, bool to_stand_by = false);
 
     /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
     void accept_program(std::uint64_t id, Program program);
@@ -82,6 +93,9 @@ public:
     CoordinatorOutputs step(const CoordinatorInputs& inputs);
 
     MachinePhase phase() const { return phase_; }
+    bool owns_machine() const { return ownership_.owns(); }
+    /// Its own where it owns the machine; else the highest that is known.
+    Term term() const { return ownership_.term(); }
 
 private:
     struct Job {
@@ -105,6 +119,14 @@ private:
     };
 
     void forgive_own_stall();
+    void stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
+    void change_owner(CoordinatorOutputs& out);
+    void take_over(CoordinatorOutputs& out);
+    void stand_down(CoordinatorOutputs& out);
+    bool begins_slot();
+    bool must_listen();
+    void note_command(const Command& command, Reply reply);
+    bool is_old(const Command& command) const;
     void hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
     void take_command(const Command& command, CoordinatorOutputs& out);
     Reply answer(const Command& command, CoordinatorOutputs& out);
@@ -160,16 +182,17 @@ private:
     static constexpr int kMaxFruitless = 3;
 
     MachineConfig machine_;
-    Identity identity_;
     std::uint64_t config_hash_;
+    bool to_stand_by_;
     Ticks slot_;
+    Ownership ownership_;
     ProgramPlanner planner_;
     EpochRunner runner_;
     std::vector<AxisView> views_;
     std::vector<std::optional<AxisCommand>> orders_;  // the newest to each axis, until done
-    std::uint64_t order_sequence_;                    // like epochs: above all that earlier coordinators used
+    std::uint64_t order_sequence_ = 0;                // within its term
 
-    MachinePhase phase_ = MachinePhase::Waiting;
+    MachinePhase phase_ = MachinePhase::Standby;
     FaultCode fault_ = FaultCode::None;
     std::size_t fault_axis_ = 0;
     Overrides overrides_;
@@ -178,15 +201,17 @@ private:
     std::optional<Job> job_;
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t jobs_ = 0;
-    Epoch epoch_ = 0;  // the newest
+    Epoch epoch_ = 0;            // the newest
+    std::uint64_t cut_job_ = 0;  // the job that the takeover ended
+    std::int32_t cut_line_ = 0;  // and where
     std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;
     std::vector<std::uint64_t> program_order_;
     std::map<Identity, Reply> replies_;  // the last one to each client, for commands that come again
 
     Tick now_;
     Slot now_slot_ = 0;
-    std::optional<Slot> first_slot_;
     std::optional<Slot> state_slot_;
+    std::optional<Slot> woken_;  // from a stall in which another may have taken over
 };
 
 }  // namespace lockstep

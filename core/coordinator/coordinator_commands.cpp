@@ -6,15 +6,24 @@
 namespace lockstep {
 
 void Coordinator::take_command(const Command& command, CoordinatorOutputs& out) {
-    const auto last = replies_.find(command.client);
-    if (last != replies_.end() && command.sequence <= last->second.sequence) {
-        if (command.sequence == last->second.sequence) { out.replies.push_back(last->second); }
+    if (is_old(command)) {
+        const Reply& last = replies_.at(command.client);
+        if (command.sequence == last.sequence) { out.replies.push_back(last); }
         return;
     }
     const Reply reply = answer(command, out);
-    if (replies_.size() >= kClientsRemembered) { replies_.erase(replies_.begin()); }
-    replies_[command.client] = reply;
+    note_command(command, reply);
     out.replies.push_back(reply);
+}
+
+bool Coordinator::is_old(const Command& command) const {
+    const auto last = replies_.find(command.client);
+    return last != replies_.end() && command.sequence <= last->second.sequence;
+}
+
+void Coordinator::note_command(const Command& command, Reply reply) {
+    if (replies_.size() >= kClientsRemembered) { replies_.erase(replies_.begin()); }
+    replies_[command.client] = std::move(reply);
 }
 
 Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {

@@ -51,11 +51,12 @@ void Coordinator::advance(CoordinatorOutputs& out) {
     }
     if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
     if (in_own_move()) { return advance_own(out); }
-    const bool listened = now_slot_ - *first_slot_ > rules::silence_slots(machine_.timing);
+    const bool acknowledged = ownership_.acknowledged(views_);
+    if (phase_ == MachinePhase::Idle && ownership_.lacks_axes(now_slot_)) { enter(MachinePhase::Waiting, out); }
     bool orders_open = false;
     for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
     const bool all_rest = std::ranges::all_of(views_, [](const AxisView& v) { return v.state && v.state->at_rest; });
-    if (phase_ == MachinePhase::Waiting && listened && !missing_axis() && !orders_open && all_rest) {
+    if (phase_ == MachinePhase::Waiting && acknowledged && !missing_axis() && !orders_open && all_rest) {
         enter(MachinePhase::Idle, out);
     }
 }
@@ -75,9 +76,10 @@ void Coordinator::begin_leg(CoordinatorOutputs& out) {
 
 /// Above all that any axis has taken frames of, whoever sent them.
 Epoch Coordinator::next_epoch() {
-    epoch_ = std::max(epoch_, first_epoch(identity_));
+    const Term term = ownership_.term();
+    epoch_ = std::max(epoch_, first_epoch(term));
     for (const AxisView& view : views_) {
-        if (view.state && is_epoch_of(view.state->epoch, identity_)) { epoch_ = std::max(epoch_, view.state->epoch); }
+        if (view.state && is_epoch_of(view.state->epoch, term)) { epoch_ = std::max(epoch_, view.state->epoch); }
     }
     return ++epoch_;
 }

@@ -6,8 +6,7 @@
 
 namespace lockstep {
 
-EpochRunner::EpochRunner(const MachineConfig& machine, Identity coordinator)
-    : machine_(machine), coordinator_(coordinator), slot_(machine.slot_ticks()) {
+EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot_(machine.slot_ticks()) {
     for (const AxisConfig& axis : machine.axes) { limits_.push_back(limits_of(axis, machine.tick_ns)); }
 }
 
@@ -65,8 +64,7 @@ Frame EpochRunner::make_frame() {
     try_turn();
     const Ticks whole = path_.duration().ceil();
     const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
-    Frame frame{
-        .coordinator = coordinator_, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
+    Frame frame{.term = {}, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
     frame.axes.resize(at_.size());
     for (std::size_t i = 0; i < at_.size(); ++i) { frame.axes[i].from = at_[i]; }
     std::vector<Piece> pieces(at_.size());

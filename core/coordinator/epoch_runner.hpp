@@ -8,30 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/coordinator/axis_view.hpp"
 #include "core/machine.hpp"
 #include "core/motion/lookahead.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {
-
-/// The newest state heard of an axis.
-struct AxisView {
-    std::optional<AxisState> state;
-    Slot heard = 0;
-    Identity stranger = 0;  // another process that has spoken for the axis
-    Slot stranger_stamp = 0;
-    /// Another process is believed when it speaks in a second slot: one message may be damaged.
-    bool believes(const AxisState& other) {
-        const bool again = other.identity == stranger && other.stamp > stranger_stamp;
-        stranger = other.identity;
-        stranger_stamp = other.stamp;
-        return again;
-    }
-    bool present(Slot now, const ProtocolTiming& timing) const {
-        return state && now - heard <= rules::silence_slots(timing);
-    }
-};
 
 /// Where an epoch came to rest.
 struct EpochEnd {
@@ -51,13 +34,13 @@ struct EpochEnd {
 
 class EpochRunner {
 public:
-    EpochRunner(const MachineConfig& machine, Identity coordinator);
+    explicit EpochRunner(const MachineConfig& machine);
 
     /// Starts as soon as the send-ahead allows. `at` is where each axis rests, exactly.
     void begin(Epoch epoch, Path path, std::vector<Position> at, Slot now);
 
     /// What is to be sent in this slot: new frames that are due, until an axis vetoes, and old ones that somebody
-    /// lacks.
+    /// lacks. Their term is the sender's to fill in.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
     /// From the next frame that is not made yet, or as soon after it as the path leaves a way.
@@ -97,7 +80,6 @@ private:
     void try_turn();
 
     MachineConfig machine_;
-    Identity coordinator_;
     std::vector<AxisLimits> limits_;
     Ticks slot_;
     Epoch epoch_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,7 +15,7 @@
 
 namespace lockstep {
 
-/// A sequence of frames that starts from rest. Never reused: it is the coordinator's start time and a counter.
+/// A sequence of frames that starts from rest. Never reused: it is its owner's term and a counter.
 using Epoch = std::uint64_t;
 /// Frames of an epoch are numbered from 1 without gaps.
 using FrameNumber = std::uint64_t;
@@ -23,13 +24,19 @@ using Slot = std::int64_t;
 /// Who speaks: made anew at every start of a process.
 using Identity = std::uint64_t;
 
-/// The epochs of a coordinator are numbered upwards from here.
-constexpr Epoch first_epoch(Identity coordinator) { return coordinator << 8; }
-/// Whether a coordinator can have come to an epoch: no other number is believed, lest it put an axis beyond all
+/// Whose turn it is to move the machine. All that an owner says carries it. Terms only rise: who takes a machine over
+/// claims one above all that it has heard of; of two that claim the same number the later process counts as higher.
+struct Term {
+    std::uint64_t number = 0;  // machine time of the claim in ticks, or one more than the highest heard; 0: nobody's
+    Identity coordinator = 0;
+    auto operator<=>(const Term&) const = default;
+};
+
+/// The epochs of a term are numbered upwards from here.
+constexpr Epoch first_epoch(const Term& term) { return term.number << 8; }
+/// Whether an owner can have come to an epoch in its term: no other number is believed, lest it put an axis beyond all
 /// epochs to come.
-constexpr bool is_epoch_of(Epoch epoch, Identity coordinator) {
-    return epoch - first_epoch(coordinator) < Epoch{1} << 24;
-}
+constexpr bool is_epoch_of(Epoch epoch, const Term& term) { return epoch - first_epoch(term) < Epoch{1} << 24; }
 
 inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the planner keeps moves long enough
 inline constexpr std::size_t kMaxTailPieces = 60;   // the planner keeps stops short enough
@@ -45,7 +52,7 @@ struct AxisTrack {
 
 /// Frame k: every axis's motion in [start, start + ticks), and the tail that brings it to rest from there.
 struct Frame {
-    Identity coordinator = 0;
+    Term term;
     Epoch epoch = 0;
     FrameNumber number = 0;
     Tick start;
@@ -80,6 +87,8 @@ struct AxisState {
     std::uint64_t config_hash = 0;           // of the configuration it runs with
     std::uint64_t refused_frames = 0;        // since start
     Ticks clock_error;                       // its machine time is at most so far off
+    Term term;                               // of the owner it follows: the highest it ever has
+    bool hears_owner = false;                // within silence_slots
     bool operator==(const AxisState&) const = default;
 };
 
@@ -105,8 +114,8 @@ enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt 
 
 /// Coordinator to one axis. Repeated each slot until the axis's state says it is done.
 struct AxisCommand {
-    Identity coordinator = 0;
-    std::uint64_t sequence = 0;  // rises; an axis carries out each once
+    Term term;
+    std::uint64_t sequence = 0;  // rises within a term; an axis carries out each once
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
     std::int64_t target_steps = 0;  // MoveOwn: machine coordinates
@@ -114,13 +123,14 @@ struct AxisCommand {
     bool operator==(const AxisCommand&) const = default;
 };
 
-enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding, Paused, Stopping, Fault };
+/// Standby: who says so does not own the machine; the owner's word counts.
+enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding, Paused, Stopping, Fault, Standby };
 
 enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
 /// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
 struct MachineState {
-    Identity coordinator = 0;
+    Term term;  // Standby: the highest number known, and who stands by
     Slot stamp = 0;
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
@@ -131,7 +141,7 @@ struct MachineState {
     std::optional<FrameNumber> veto;    // the coordinator's own, of this epoch
     std::uint64_t job = 0;              // counts the jobs done or begun since start
     std::optional<JobOutcome> outcome;  // of that job; nothing while it is in progress
-    std::int32_t line = 0;              // of the G-code now in motion
+    std::int32_t line = 0;              // of the G-code now in motion, or where a takeover has ended the job
     double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
     Overrides overrides;             // of what is planned from now on

@@ -97,6 +97,12 @@ constexpr bool may_send(Slot now, Slot start, const ProtocolTiming& t) {
     return RULE_MAY_SEND(now, start, t.check_slots(), t.freshness_slots);
 }
 
+/// Whether an axis changes to the owner of this term, and whether what is said in it moves the axis.
+constexpr bool may_follow(const Term& term, const Term& followed, bool hears_owner, bool at_rest) {
+    return RULE_MAY_FOLLOW(term, followed, hears_owner, at_rest);
+}
+constexpr bool is_from_owner(const Term& term, const Term& followed) { return RULE_IS_FROM_OWNER(term, followed); }
+
 /// How long an axis or a coordinator may be unheard before it counts as gone for a machine at rest. A machine in
 /// motion never judges by this.
 constexpr Slot silence_slots(const ProtocolTiming& t) { return 3 * Slot{t.freshness_slots} + 10; }

@@ -24,7 +24,7 @@ void log_notice(const AxisNotice& notice) {
     using Kind = AxisNotice::Kind;
     const std::string number = std::to_string(notice.number);
     switch (notice.kind) {
-        case Kind::CoordinatorAdopted: return log_info("follows coordinator " + number);
+        case Kind::OwnerAdopted: return log_info("follows the owner of term " + number);
         case Kind::EpochBegun: return log_info("epoch " + number + " begun");
         case Kind::EpochEnded: return log_info("epoch " + number + " ended, at rest");
         case Kind::FrameRefused:

@@ -87,7 +87,8 @@ private:
         doubled_ = std::any_of(states_.begin(), states_.end(), [&](const AxisState& s) {
             return s.axis == setup_.axis && s.identity < setup_.identity;  // who came first stays
         });
-        if (!machine_.empty()) { machine_heard_ = clock_.now(); }
+        const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
+        if (std::ranges::any_of(machine_, owns)) { machine_heard_ = clock_.now(); }
     }
 
     void say_health(std::uint64_t skipped_loops) {

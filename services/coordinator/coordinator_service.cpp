@@ -22,18 +22,18 @@ namespace {
 using std::chrono::nanoseconds;
 
 std::string_view phase_name(std::uint64_t phase) {
-    constexpr std::array<std::string_view, 8> kNames{"Waiting", "Idle",   "Homing",   "Running",
-                                                     "Holding", "Paused", "Stopping", "Fault"};
+    constexpr std::array<std::string_view, 9> kNames{"Waiting", "Idle",     "Homing", "Running", "Holding",
+                                                     "Paused",  "Stopping", "Fault",  "Standby"};
     return phase < kNames.size() ? kNames[phase] : "unknown";
 }
 
 class CoordinatorService {
 public:
     CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorBus bus,
-                       std::unique_ptr<RecordSink> sink)
+                       std::unique_ptr<RecordSink> sink, bool to_stand_by)
         : machine_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
-          coordinator_(machine, identity, config_hash(machine)),
+          coordinator_(machine, identity, config_hash(machine), to_stand_by),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
           recorder_(machine, identity, *sink_) {
@@ -41,7 +41,7 @@ public:
         clock_server_ = std::make_unique<ClockServer>(bus_.participant, [clock = clock_] { return clock.now(); });
     }
 
-    /// False: an older coordinator runs this machine.
+    /// False: another coordinator owns this machine.
     bool loop() {
         hear();
         const Tick now = clock_.now();
@@ -64,7 +64,7 @@ private:
         bus_.chunks.take([&](ProgramChunk&& chunk) {
             ProgramInbox::Taken taken = inbox_.take(chunk);
             if (taken.program) { coordinator_.accept_program(chunk.program, std::move(*taken.program)); }
-            (void)bus_.replies.write(taken.reply);
+            if (coordinator_.owns_machine()) { (void)bus_.replies.write(taken.reply); }
         });
         bus_.states.take([&](AxisState&& m) {
             if (m.axis < machine_.axes.size()) { heard_ |= std::uint32_t{1} << m.axis; }
@@ -86,6 +86,14 @@ private:
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,
                                  "axis " + axis_name(notice.number) + " fell silent");
+            case Kind::Claimed: return log_info("owns the machine, term " + std::to_string(notice.number));
+            case Kind::StoodDown:
+                return log_warning("stands down: another coordinator owns the machine, term " +
+                                   std::to_string(notice.number));
+            case Kind::JobCutShort:
+                return log_warning(
+                    "the job of the coordinator before was cut short near line " + std::to_string(notice.number) +
+                    "; the axes rest; go on: lockstep run FILE --from-line " + std::to_string(notice.number));
             case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -140,13 +148,14 @@ int fail(const std::string& why) {
     return kServiceFailed;
 }
 
-int run(const ServiceOptions& options, const MachineConfig& machine) {
+int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
     StopSignal stop;
     if (options.priority > 0) { log_info(try_real_time(options.priority)); }
     auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
-    CoordinatorService service(machine, identity, std::move(*bus), open_record(machine.network, options.record));
+    CoordinatorService service(machine, identity, std::move(*bus), open_record(machine.network, options.record),
+                               options.standby);
     log_info("coordinator of machine " + machine.name + " is up");
 
     PeriodicLoop periodic(loop_period(machine));
@@ -165,10 +174,16 @@ int run(const ServiceOptions& options, const MachineConfig& machine) {
 
 }  // namespace
 
-int serve_coordinator(const ServiceOptions& options) {
+int serve_coordinator(const CoordinatorServiceOptions& options) {
     const auto machine = load_machine_file(options.machine_file);
     if (!machine) {
         std::cerr << to_text(options.machine_file.string(), machine.error());
+        return kServiceBadInput;
+    }
+    if (options.standby && machine->timing.time_source == TimeSource::Network) {
+        std::cerr
+            << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, which "
+               "another host's cannot carry on; use SHARED (one host) or PTP\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"coordinator", "", options.log_file}); !log) {

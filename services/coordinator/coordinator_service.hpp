@@ -5,8 +5,12 @@
 
 namespace lockstep {
 
+struct CoordinatorServiceOptions : ServiceOptions {
+    bool standby = false;  // stands by while another coordinator owns the machine; false: ends then
+};
+
 /// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause
 /// on standard error.
-int serve_coordinator(const ServiceOptions& options);
+int serve_coordinator(const CoordinatorServiceOptions& options);
 
 }  // namespace lockstep

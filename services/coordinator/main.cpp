@@ -6,16 +6,20 @@
 int main(int argc, char** argv) {
     CLI::App app{
         "Runs a machine's coordinator: takes commands and programs from clients, plans them, and sends frames to "
-        "the axes, until SIGTERM or SIGINT. One per machine."};
-    lockstep::ServiceOptions options;
+        "the axes, until SIGTERM or SIGINT. One owns the machine; a second one ends, or stands by."};
+    lockstep::CoordinatorServiceOptions options;
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
     app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
         ->check(CLI::Range(0, 99));
+    app.add_flag("--standby", options.standby,
+                 "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
+                 "give it to both of two");
     app.add_flag("--no-lcm", no_lcm, "do not publish the record");
     app.footer(
-        "Example: lockstep-coordinator --machine machine.textproto\n"
+        "Examples:\n  lockstep-coordinator --machine machine.textproto\n"
+        "  lockstep-coordinator --machine machine.textproto --standby\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

@@ -8,10 +8,10 @@ public:
     explicit Alterer(std::mt19937_64& random) : random_(random) {}
 
     Alteration operator()(Frame& frame) {
-        constexpr std::array kWays{Alteration::FrameEpoch,      Alteration::FrameSequence, Alteration::FrameStart,
-                                   Alteration::FrameTicks,      Alteration::FrameFrom,     Alteration::FrameSpeed,
-                                   Alteration::FrameAbsurd,     Alteration::FrameTravel,   Alteration::FrameAxes,
-                                   Alteration::FrameCoordinator};
+        constexpr std::array kWays{Alteration::FrameEpoch,  Alteration::FrameSequence, Alteration::FrameStart,
+                                   Alteration::FrameTicks,  Alteration::FrameFrom,     Alteration::FrameSpeed,
+                                   Alteration::FrameAbsurd, Alteration::FrameTravel,   Alteration::FrameAxes,
+                                   Alteration::FrameTerm};
         const Alteration way = kWays[index(kWays.size())];
         AxisTrack& track = frame.axes[index(frame.axes.size())];
         Piece& piece = track.body.begin()[index(track.body.size())];
@@ -25,14 +25,14 @@ public:
             case Alteration::FrameAbsurd: piece = {{word()}, {word()}, {word()}}; break;
             case Alteration::FrameTravel: track.from = track.from + Displacement::steps(std::int64_t{1} << 40); break;
             case Alteration::FrameAxes: coin() ? frame.axes.pop_back() : frame.axes.push_back(track); break;
-            default: frame.coordinator = random_(); break;
+            default: frame.term = {random_(), random_()}; break;
         }
         return way;
     }
 
     Alteration operator()(AxisState& state) {
         constexpr std::array kWays{Alteration::StateAxis, Alteration::StateStamp, Alteration::StateIdentity,
-                                   Alteration::StatePosition};
+                                   Alteration::StatePosition, Alteration::StateTerm};
         const Alteration way = kWays[index(kWays.size())];
         switch (way) {
             case Alteration::StateAxis:
@@ -42,18 +42,19 @@ public:
                 state.stamp += coin() ? -static_cast<Slot>(1 + index(1000)) : word() / 4;
                 break;
             case Alteration::StateIdentity: state.identity = random_(); break;
+            case Alteration::StateTerm: state.term = {random_(), random_()}; break;
             default: state.position = state.position + Displacement::steps(1 + static_cast<std::int64_t>(index(1000)));
         }
         return way;
     }
 
     Alteration operator()(MachineState& state) {
-        state.coordinator = random_();
+        state.term = {random_(), random_()};
         return Alteration::MachineStranger;
     }
 
     Alteration operator()(AxisCommand& command) {
-        command.coordinator = random_();
+        command.term = {random_(), random_()};
         command.sequence += index(1000);
         command.kind = static_cast<AxisCommandKind>(index(3));
         return Alteration::CommandStranger;
@@ -76,9 +77,9 @@ private:
 
 std::string_view name_of(Alteration alteration) {
     constexpr std::array<std::string_view, kAlterations> kNames{
-        "none",        "frame epoch",    "frame number",   "frame start",      "frame ticks",     "frame from",
-        "frame speed", "frame absurd",   "frame travel",   "frame axes",       "frame stranger",  "state axis",
-        "state stamp", "state identity", "state position", "machine stranger", "command stranger"};
+        "none",        "frame epoch",    "frame number",   "frame start", "frame ticks",      "frame from",
+        "frame speed", "frame absurd",   "frame travel",   "frame axes",  "frame stranger",   "state axis",
+        "state stamp", "state identity", "state position", "state term",  "machine stranger", "command stranger"};
     return kNames[static_cast<std::size_t>(alteration)];
 }
 

@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// Processes are numbered: the axes as configured, then the coordinator.
+/// Processes are numbered: the axes as configured, then the coordinators.
 struct VirtualFault {
     enum class Kind : std::uint8_t {
         Freeze,  // the process's loop does not run; what is sent to it waits; its device goes on

@@ -53,7 +53,8 @@ void VirtualMachine::power_up() {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         axes_.push_back({simulated_device(machine.axes[i], machine.tick_ns, device_time(i)), {}, {}, {}});
     }
-    processes_.resize(axes_.size() + 1);
+    coordinators_.resize(options_.coordinators);
+    processes_.resize(axes_.size() + coordinators_.size());
     std::mt19937_64 random(options_.seed ^ 0x9e3779b97f4a7c15U);
     for (std::size_t i = 0; i < processes_.size(); ++i) {
         start(i);
@@ -64,8 +65,9 @@ void VirtualMachine::power_up() {
 
 /// A new process, with an identity of its own; an axis's finds its device as it is.
 void VirtualMachine::start(std::size_t process) {
-    if (process == coordinator_address()) {
-        coordinator_.emplace(options_.machine, static_cast<Identity>(now_.value), options_.config_hash);
+    if (is_coordinator(process)) {
+        const Identity identity = static_cast<Identity>(now_.value) + process;
+        coordinator(process).emplace(options_.machine, identity, options_.config_hash, coordinators_.size() > 1);
     } else {
         const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash};
         axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
@@ -77,12 +79,12 @@ void VirtualMachine::start(std::size_t process) {
 
 void VirtualMachine::crash(std::size_t process) {
     processes_[process].alive = false;
-    process == coordinator_address() ? coordinator_.reset() : axes_[process].node.reset();
+    is_coordinator(process) ? coordinator(process).reset() : axes_[process].node.reset();
 }
 
 void VirtualMachine::restart(std::size_t process) {
     (void)collect(network_, now_, process);  // nobody was there to receive it
-    if (process != coordinator_address()) { device(process).advance(device_time(process)); }
+    if (!is_coordinator(process)) { device(process).advance(device_time(process)); }
     start(process);
 }
 
@@ -185,7 +187,7 @@ void VirtualMachine::advance() {
     } else {
         now_ = processes_[*process].next;
         processes_[*process].next += period_;
-        *process == coordinator_address() ? step_coordinator() : step_axis(*process);
+        is_coordinator(*process) ? step_coordinator(*process) : step_axis(*process);
     }
     listen();
 }
@@ -215,10 +217,9 @@ void VirtualMachine::step_axis(std::size_t i) {
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
 }
 
-void VirtualMachine::step_coordinator() {
-    const std::size_t here = coordinator_address();
+void VirtualMachine::step_coordinator(std::size_t here) {
     const Mail mail = collect(network_, now_, here);
-    const CoordinatorOutputs out = coordinator_->step({now_, mail.axes, mail.machine, mail.commands});
+    const CoordinatorOutputs out = coordinator(here)->step({now_, mail.axes, mail.machine, mail.commands});
     for (const Frame& frame : out.frames) {
         const auto message = std::make_shared<const VirtualMessage>(frame);
         for (std::size_t i = 0; i < axes_.size(); ++i) { send(here, i, message); }
@@ -253,7 +254,12 @@ void VirtualMachine::listen() {
         if (!newest || state.stamp >= newest->stamp) { newest = state; }
     }
     for (const MachineState& state : mail.machine) {
-        if (!machine_state_ || state.stamp >= machine_state_->stamp) { machine_state_ = state; }
+        if (state.phase == MachinePhase::Standby) { continue; }
+        // Of two that speak the higher term counts, unless it has fallen silent.
+        const bool first = !machine_state_.has_value();
+        const Slot since = first ? 0 : state.stamp - machine_state_->stamp;
+        const Slot silence = rules::silence_slots(options_.machine.timing);
+        if (first || (state.term >= machine_state_->term ? since >= 0 : since > silence)) { machine_state_ = state; }
     }
     for (Reply& reply : mail.replies) { replies_.push_back(std::move(reply)); }
 }
@@ -277,7 +283,23 @@ std::uint64_t VirtualMachine::turn(const Overrides& overrides) {
 /// Everyone hears what a client asks of the coordinator.
 void VirtualMachine::repeat_command() {
     const auto message = std::make_shared<const VirtualMessage>(command_);
-    for (std::size_t to = 0; to <= coordinator_address(); ++to) { send(client_address(), to, message); }
+    for (std::size_t to = 0; to < client_address(); ++to) { send(client_address(), to, message); }
+}
+
+std::optional<std::size_t> VirtualMachine::owner() const {
+    std::optional<std::size_t> owner;
+    for (std::size_t i = 0; i < coordinators_.size(); ++i) {
+        if (!coordinators_[i] || !coordinators_[i]->owns_machine()) { continue; }
+        const bool higher = !owner || coordinators_[*owner]->term() < coordinators_[i]->term();
+        if (higher) { owner = i; }
+    }
+    return owner ? std::optional(axes_.size() + *owner) : std::nullopt;
+}
+
+void VirtualMachine::give_program(std::uint64_t id, const Program& program) {
+    for (auto& one : coordinators_) {
+        if (one) { one->accept_program(id, program); }
+    }
 }
 
 const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {

@@ -37,7 +37,8 @@ struct VirtualOptions {
     std::uint64_t seed = 1;
     NetworkBehaviour network;
     Tick start{1'000'000};
-    int loops_per_slot = 2;  // each process's loop, at a phase of its own
+    int loops_per_slot = 2;        // each process's loop, at a phase of its own
+    std::size_t coordinators = 1;  // the first to claim owns the machine, the others stand by
     /// By axis; those not here read the machine's time. The coordinator's is the machine's, and the true one. More than
     /// one time asks for a machine whose time_source is Network.
     std::vector<AxisClocks> clocks;
@@ -68,13 +69,14 @@ public:
     std::uint64_t turn(const Overrides& overrides);
     /// The last command once more, with its sequence number: for a client whose reply does not come.
     void repeat_command();
-    /// A program that has arrived whole at the coordinator.
-    void give_program(std::uint64_t id, Program program) {
-        if (coordinator_) { coordinator_->accept_program(id, std::move(program)); }
-    }
+    /// A program that has arrived whole at every coordinator.
+    void give_program(std::uint64_t id, const Program& program);
     const std::vector<Reply>& replies() const { return replies_; }
     /// The reply to a command, once it has come.
     const Reply* reply_to(std::uint64_t sequence) const;
+
+    /// The coordinator that owns the machine, as a process; of several that think so the one of the highest term.
+    std::optional<std::size_t> owner() const;
 
     Tick now() const { return now_; }
     const MachineConfig& machine() const { return options_.machine; }
@@ -122,14 +124,16 @@ private:
     void ask_time(std::size_t i);
 
     void step_axis(std::size_t i);
-    void step_coordinator();
+    void step_coordinator(std::size_t here);
     void listen();
     void send(std::size_t from, std::size_t to, SharedMessage message);
     void multicast(VirtualMessage message, std::size_t from);
-    std::size_t coordinator_address() const { return axes_.size(); }
-    std::size_t client_address() const { return axes_.size() + 1; }
+    std::size_t coordinator_address() const { return axes_.size(); }  // the first; whom axes ask for the time
+    bool is_coordinator(std::size_t process) const { return process >= axes_.size(); }
+    std::optional<Coordinator>& coordinator(std::size_t process) { return coordinators_[process - axes_.size()]; }
+    std::size_t client_address() const { return axes_.size() + coordinators_.size(); }
     /// Clock messages are answered when they come, not in the loop.
-    std::size_t clock_address(std::size_t process) const { return axes_.size() + 2 + process; }
+    std::size_t clock_address(std::size_t process) const { return client_address() + 1 + process; }
 
     static constexpr Identity kClient = 1;
 
@@ -138,8 +142,8 @@ private:
     Tick now_;
     Ticks period_;
     std::vector<Axis> axes_;
-    std::optional<Coordinator> coordinator_;
-    std::vector<Process> processes_;  // the axes, then the coordinator
+    std::vector<std::optional<Coordinator>> coordinators_;
+    std::vector<Process> processes_;  // the axes, then the coordinators
     Identity axis_identities_ = 100;  // given so far
     std::multimap<Tick, Turn> turns_;
     std::vector<VirtualObserver*> observers_;

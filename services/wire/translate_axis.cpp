@@ -31,7 +31,10 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .command_fault = state.command_fault,
             .config_hash = state.config_hash,
             .refused_frames = state.refused_frames,
-            .clock_error_ticks = state.clock_error.value};
+            .clock_error_ticks = state.clock_error.value,
+            .term = state.term.number,
+            .coordinator = state.term.coordinator,
+            .hears_owner = state.hears_owner};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -64,11 +67,14 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .command_fault = wire.command_fault,
                      .config_hash = wire.config_hash,
                      .refused_frames = wire.refused_frames,
-                     .clock_error = {wire.clock_error_ticks}};
+                     .clock_error = {wire.clock_error_ticks},
+                     .term = {wire.term, wire.coordinator},
+                     .hears_owner = wire.hears_owner};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
-    return {.coordinator = command.coordinator,
+    return {.term = command.term.number,
+            .coordinator = command.term.coordinator,
             .sequence_number = command.sequence,
             .axis = command.axis,
             .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind),
@@ -83,7 +89,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     check.far("target_steps", wire.target_steps);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return AxisCommand{.coordinator = wire.coordinator,
+    return AxisCommand{.term = {wire.term, wire.coordinator},
                        .sequence = wire.sequence_number,
                        .axis = wire.axis,
                        .kind = kind,

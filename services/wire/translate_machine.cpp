@@ -3,11 +3,12 @@
 
 namespace lockstep {
 
-static_assert(lockstep_wire_MACHINE_FAULT == static_cast<int>(MachinePhase::Fault));
+static_assert(lockstep_wire_MACHINE_STANDBY == static_cast<int>(MachinePhase::Standby));
 static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
 
 lockstep_wire_MachineState to_wire(const MachineState& state) {
-    return {.coordinator = state.coordinator,
+    return {.term = state.term.number,
+            .coordinator = state.term.coordinator,
             .stamp = state.stamp,
             .tick = state.tick.value,
             .phase = static_cast<lockstep_wire_MachinePhase>(state.phase),
@@ -38,10 +39,10 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.finite("remaining_s", wire.remaining_s);
     check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
     check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
-    const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Fault);
+    const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Standby);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return MachineState{.coordinator = wire.coordinator,
+    return MachineState{.term = {wire.term, wire.coordinator},
                         .stamp = wire.stamp,
                         .tick = {wire.tick},
                         .phase = phase,

@@ -91,7 +91,8 @@ void read_pieces(const lockstep_wire_Setpoint& wire, std::size_t& at, std::size_
 
 SetpointMessage to_wire(const Frame& frame) {
     SetpointMessage message;
-    message.coordinator = frame.coordinator;
+    message.term = frame.term.number;
+    message.coordinator = frame.term.coordinator;
     message.epoch = frame.epoch;
     message.number = frame.number;
     message.start_tick = frame.start.value;
@@ -121,7 +122,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, F
     check_shape(wire, check);
     if (check.passed()) { check_values(wire, check); }
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    into.coordinator = wire.coordinator;
+    into.term = {wire.term, wire.coordinator};
     into.epoch = wire.epoch;
     into.number = wire.number;
     into.start = {wire.start_tick};

@@ -95,7 +95,7 @@ std::optional<std::string> trouble(const Session& session, const StateDirectory&
         return who + " of machine '" + machine.name + "' runs already, started by other means; end it first";
     };
     const auto tick_ns = static_cast<Identity>(machine.tick_ns);
-    if (session.state() && is_older((session.state()->state.coordinator + 1) * tick_ns)) {
+    if (session.state() && is_older((session.state()->state.term.coordinator + 1) * tick_ns)) {
         return foreign("a coordinator");
     }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
@@ -128,9 +128,9 @@ Failure missing(const Session& session, const StateDirectory& state) {
 
 }  // namespace
 
-std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, FpgaKind fpga,
+std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
                                                          const StateDirectory& state, Voice& voice) {
-    const auto lines = service_lines(machine.config, fpga, program_folder(), state);
+    const auto lines = service_lines(machine.config, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
     if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
     route_multicast(machine.config.network, voice);

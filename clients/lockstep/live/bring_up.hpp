@@ -15,7 +15,7 @@ namespace lockstep {
 
 /// Routes multicast and claims the state directory, with a copy of the configuration in it; warns where the record
 /// cannot be published. Error: the machine is up already, or a program or the directory is missing.
-std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, FpgaKind fpga,
+std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
                                                          const StateDirectory& state, Voice& voice);
 
 /// Supervises in this process until SIGTERM or SIGINT.

@@ -21,6 +21,7 @@ std::string outcome_name(JobVerdict verdict) {
         case JobVerdict::Done: return "done";
         case JobVerdict::Stopped: return "stopped";
         case JobVerdict::Failed: return "failed";
+        case JobVerdict::CutShort: return "cut-short";
         case JobVerdict::InProgress: return "begun";
         case JobVerdict::Lost: break;
     }
@@ -44,11 +45,19 @@ std::string title(const Job& job) {
     return job.name.empty() || job.name == job.kind ? job.kind : job.kind + " " + job.name;
 }
 
+std::string cut_short_text(const proto::RunReport& report) {
+    const std::string text = "the coordinator fell silent and another has taken over; the axes rest on the path";
+    if (!report.has_line()) { return text; }
+    const std::string line = std::to_string(report.line());
+    return text + " near line " + line + "; the rest of the job: lockstep run FILE --from-line " + line;
+}
+
 void say_end(const Job& job, const proto::RunReport& report, Voice& voice) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
     voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; at " + places_text(report), 80, "  "));
     if (report.has_fault()) { voice.say(fault_text(report.fault())); }
     if (report.outcome() == "stopped") { voice.say("stopped on the path; the rest of the job is dropped"); }
+    if (report.outcome() == "cut-short") { voice.say(wrapped(cut_short_text(report), 80, "  ")); }
     if (report.outcome() == "lost") {
         voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status");
     }
@@ -87,6 +96,8 @@ ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunRep
             *report.mutable_fault() = *std::move(fault);
         }
     }
+    const std::int32_t line = session.state()->state.line;
+    if (verdict == JobVerdict::CutShort && line > 0) { report.set_line(line); }
     if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
     voice.report(report);
     if (verdict == JobVerdict::InProgress) {

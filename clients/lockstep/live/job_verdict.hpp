@@ -10,16 +10,18 @@ enum class JobVerdict {
     Done,
     Stopped,
     Failed,
-    Lost,  // the coordinator was started anew, or went on to another job: how this one ended is not known
+    CutShort,  // the coordinator fell silent in the middle, and another has taken over: the axes rest
+    Lost,      // the coordinator was started anew, or went on to another job: how this one ended is not known
 };
 
-/// `job`: as the reply named it, by the coordinator `asked`.
-constexpr JobVerdict judge(const MachineState& state, std::uint64_t job, Identity asked) {
-    if (state.coordinator != asked || state.job > job) { return JobVerdict::Lost; }
+/// `job`: as the reply named it, by the owner whose term was `asked`.
+constexpr JobVerdict judge(const MachineState& state, std::uint64_t job, const Term& asked) {
+    const bool changed = state.term != asked;
+    if (state.job > job || (changed && (state.job < job || !state.outcome))) { return JobVerdict::Lost; }
     if (state.job < job || !state.outcome) { return JobVerdict::InProgress; }  // fewer jobs: said before the reply
     switch (*state.outcome) {
         case JobOutcome::Done: return JobVerdict::Done;
-        case JobOutcome::Stopped: return JobVerdict::Stopped;
+        case JobOutcome::Stopped: return changed ? JobVerdict::CutShort : JobVerdict::Stopped;
         case JobOutcome::Failed: break;
     }
     return JobVerdict::Failed;

@@ -16,7 +16,7 @@ JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, 
       command_(command),
       voice_(voice),
       stop_(stop),
-      asked_(session.state()->state.coordinator) {}
+      asked_(session.state()->state.term) {}
 
 std::expected<JobVerdict, Failure> JobWatch::wait() {
     for (;;) {

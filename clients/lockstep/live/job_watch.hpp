@@ -32,7 +32,7 @@ private:
     CommandKind command_;
     Voice& voice_;
     const StopSignal& stop_;
-    Identity asked_;
+    Term asked_;
     bool stop_sent_ = false;
     std::int32_t line_ = 0;  // the last in motion
     std::optional<MachinePhase> told_;

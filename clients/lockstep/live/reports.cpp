@@ -81,6 +81,7 @@ proto::StatusReport status_report(const Session& session) {
         fill(report, heard->state, machine);
         report.set_age_ms(static_cast<double>((monotonic_now() - heard->time).count()) * 1e-6);
     }
+    report.set_standby(session.has_standby());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const auto& axis = session.axis(i);
         *report.add_axes() =

@@ -2,7 +2,7 @@
 
 namespace lockstep {
 
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga,
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state) {
     const auto begin = [&](const char* program) {
         return std::vector<std::string>{(programs / program).string(), "--machine", state.machine_file().string()};
@@ -15,16 +15,20 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fp
     const auto shared_name = [&](const AxisConfig& axis) { return "lockstep-" + machine.name + "-" + axis.name; };
     std::vector<ServiceLine> lines;
     for (const AxisConfig& axis : machine.axes) {
-        if (fpga == FpgaKind::Sim) { break; }
+        if (layout.fpga == FpgaKind::Sim) { break; }
         lines.push_back(
             line("fpga-" + axis.name, begin("lockstep-fpga"), {"--axis", axis.name, "--name", shared_name(axis)}));
     }
-    lines.push_back(
-        line("coordinator", begin("lockstep-coordinator"), {"--log", state.log_file("coordinator").string()}));
+    for (const char* name : {"coordinator", "coordinator-2"}) {
+        std::vector<std::string> more{"--log", state.log_file(name).string()};
+        if (layout.standby) { more.emplace_back("--standby"); }  // both: who ends and is started again stands by
+        lines.push_back(line(name, begin("lockstep-coordinator"), more));
+        if (!layout.standby) { break; }
+    }
     for (const AxisConfig& axis : machine.axes) {
         const std::string name = "axis-" + axis.name;
         std::vector<std::string> more{"--axis", axis.name, "--log", state.log_file(name).string()};
-        if (fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", "shm:" + shared_name(axis)}); }
+        if (layout.fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", "shm:" + shared_name(axis)}); }
         lines.push_back(line(name, begin("lockstep-axis"), more));
     }
     return lines;

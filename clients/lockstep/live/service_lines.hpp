@@ -12,13 +12,19 @@ namespace lockstep {
 
 enum class FpgaKind { Sim, Shared };  // in the axis's process; in a process of its own, on shared memory
 
+/// What of it there is a choice about.
+struct Layout {
+    FpgaKind fpga = FpgaKind::Sim;
+    bool standby = false;  // a second coordinator stands by
+};
+
 struct ServiceLine {
     std::string name;                // as in the record of processes
     std::vector<std::string> words;  // the program's path and its arguments
 };
 
 /// Devices first: an axis attaches to its own. `programs`: the directory of the services' executables.
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, FpgaKind fpga,
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state);
 
 }  // namespace lockstep

@@ -85,9 +85,13 @@ void Session::listen(nanoseconds at_most) {
 void Session::take() {
     const nanoseconds now = monotonic_now();
     bus_.machine.take([&](MachineState&& state) {
-        // Where two speak, the later one gives way; one that has fallen silent was replaced.
-        const bool is_other = state_ && state.coordinator > state_->state.coordinator;
-        if (!is_other || now - state_->time > 1s) { state_ = {state, now}; }
+        if (state.phase == MachinePhase::Standby) {
+            standby_heard_ = now;
+            return;
+        }
+        // Where two speak, the lower term gives way; one that has fallen silent was replaced.
+        const bool is_lower = state_ && state.term < state_->state.term;
+        if (!is_lower || now - state_->time > 1s) { state_ = {state, now}; }
     });
     bus_.states.take([&](AxisState&& state) {
         if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
@@ -108,6 +112,8 @@ nanoseconds Session::longest_silence() const {
 bool Session::axis_present(std::size_t i) const {
     return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
 }
+
+bool Session::has_standby() const { return standby_heard_ && monotonic_now() - *standby_heard_ <= longest_silence(); }
 
 bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
 

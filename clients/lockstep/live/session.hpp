@@ -52,6 +52,8 @@ public:
     const std::optional<AxisHealth>& health(std::size_t i) const { return healths_[i]; }
     /// Whether it was heard within the time after which the machine counts it as gone.
     bool axis_present(std::size_t i) const;
+    /// Whether a coordinator that stands by is heard.
+    bool has_standby() const;
     /// No state of the coordinator for longer than any stall that the machine's timing allows.
     bool is_silent() const;
     Failure silent() const;
@@ -74,7 +76,8 @@ private:
     ClientBus bus_;
     Identity client_;
     std::uint64_t sequence_ = 0;
-    std::optional<Heard<MachineState>> state_;
+    std::optional<Heard<MachineState>> state_;  // the owner's
+    std::optional<std::chrono::nanoseconds> standby_heard_;
     std::vector<std::optional<Heard<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at

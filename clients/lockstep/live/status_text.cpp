@@ -60,7 +60,8 @@ std::string clock_line(const proto::StatusReport& status) {
 std::string age_text(const proto::StatusReport& status) {
     if (!status.has_age_ms()) { return "no coordinator heard"; }
     const double age_ms = status.age_ms();
-    return "heard " + (age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000)) + " ago";
+    const std::string age = age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000);
+    return "heard " + age + " ago" + (status.standby() ? ", a standby is ready" : "");
 }
 
 std::string status_text(const proto::StatusReport& status) {

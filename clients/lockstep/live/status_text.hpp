@@ -10,7 +10,7 @@ namespace lockstep {
 /// A block of lines: the machine, a table of the axes, the faults with what to do.
 std::string status_text(const proto::StatusReport& status);
 
-/// "heard 4 ms ago", of the coordinator.
+/// "heard 4 ms ago", of the coordinator, and whether a standby is.
 std::string age_text(const proto::StatusReport& status);
 /// "feed 60 %, rapid 100 %"; empty where all is as programmed.
 std::string overrides_text(const proto::StatusReport& status);

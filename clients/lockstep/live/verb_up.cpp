@@ -11,6 +11,7 @@ namespace {
 
 struct UpOptions : LiveOptions {
     std::string fpga = "sim";
+    bool standby = false;
     bool foreground = false;
 };
 
@@ -27,7 +28,8 @@ ExitCode up(const UpOptions& options) {
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
-    const auto lines = prepare(*machine, options.fpga == "shm" ? FpgaKind::Shared : FpgaKind::Sim, state, voice);
+    const Layout layout{options.fpga == "shm" ? FpgaKind::Shared : FpgaKind::Sim, options.standby};
+    const auto lines = prepare(*machine, layout, state, voice);
     if (!lines) { return voice.fail(lines.error()); }
     if (options.foreground) {
         supervise(state, *lines);
@@ -55,13 +57,16 @@ void add_up(CLI::App& app, Action& action) {
                      "the devices: sim, in the axes' processes; shm, in processes of their own")
         ->check(CLI::IsMember({"sim", "shm"}))
         ->capture_default_str();
+    verb->add_flag("--standby", options->standby,
+                   "start a second coordinator that takes over, at rest, when the first one fails");
     verb->add_flag("--foreground", options->foreground,
                    "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_live_options(*verb, *options);
     verb->footer(
         "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; where that is not set, in\n"
         "/run/lockstep/MACHINE (root) or $XDG_RUNTIME_DIR/lockstep/MACHINE.\n" +
-        footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"));
+        footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"
+               "  lockstep up --machine mill.textproto --standby\n"));
     verb->callback([&action, options] { action = [options] { return up(*options); }; });
 }
 

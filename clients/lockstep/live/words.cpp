@@ -23,8 +23,8 @@ std::string two_parts(long whole, const char* unit, long part, const char* part_
 }  // namespace
 
 std::string_view name_of(MachinePhase phase) {
-    return pick(std::array<std::string_view, 8>{"Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping",
-                                                "Fault"},
+    return pick(std::array<std::string_view, 9>{"Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping",
+                                                "Fault", "Standby"},
                 phase);
 }
 

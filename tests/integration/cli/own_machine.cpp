@@ -40,8 +40,10 @@ void OwnMachine::SetUp() {
     name_ = "cli-" + std::to_string(getpid());
     folder_ = std::filesystem::path(testing::TempDir()) / ("lockstep-" + name_);
     std::filesystem::create_directories(folder_);
+    const NetworkConfig network = own_network();
+    lcm_url_ = network.lcm_url;
     MachineConfig machine{
-        .name = name_, .network = own_network(), .axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)}};
+        .name = name_, .network = network, .axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)}};
     machine.axes[0].method = StepMethod::Spielauer;  // X homes and moves on its own by it
     file_ = write("machine.textproto", machine_text(machine));
     setenv("LOCKSTEP_STATE", (folder_ / "state").c_str(), 1);
@@ -69,7 +71,7 @@ void OwnMachine::start_guard() {
 
 void OwnMachine::TearDown() {
     if (HasFailure()) {
-        for (const char* log : {"supervisor", "coordinator", "axis-X", "axis-Y"}) {
+        for (const char* log : {"supervisor", "coordinator", "coordinator-2", "axis-X", "axis-Y"}) {
             std::cerr << log << ":\n" << tail_of(state().log_file(log), 20);
         }
     }
@@ -87,8 +89,10 @@ std::string OwnMachine::write(const std::string& name, const std::string& text) 
     return path.string();
 }
 
-void OwnMachine::bring_up() const {
-    const Ran up = run_lockstep({"up"});
+void OwnMachine::bring_up(const Words& more) const {
+    Words words{"up"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran up = run_lockstep(words);
     ASSERT_EQ(up.code, 0) << up.out << up.err;
 }
 

@@ -23,7 +23,7 @@ protected:
     /// Writes a file beside the machine's; its path.
     std::string write(const std::string& name, const std::string& text) const;
 
-    void bring_up() const;
+    void bring_up(const Words& more = {}) const;
     void bring_up_and_home() const;
     proto::StatusReport status() const;
     /// Until the machine is in this phase; false if it is not within the bound.
@@ -32,6 +32,7 @@ protected:
 
     StateDirectory state() const { return StateDirectory(name_); }
     const std::string& file() const { return file_; }
+    const std::string& lcm_url() const { return lcm_url_; }
 
 private:
     void start_guard();
@@ -39,6 +40,7 @@ private:
     std::string name_;
     std::filesystem::path folder_;
     std::string file_;
+    std::string lcm_url_;
     pid_t guard_ = 0;
     int guard_pipe_ = -1;
 };

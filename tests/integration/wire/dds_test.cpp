@@ -23,7 +23,7 @@ Bus open_or_throw(const NetworkConfig& network, const std::string& machine = "mi
 }
 
 Frame frame_of(FrameNumber number, std::size_t axes, std::size_t pieces) {
-    Frame frame{.coordinator = 1,
+    Frame frame{.term = {1, 1},
                 .epoch = 2,
                 .number = number,
                 .start = {1000},

@@ -8,8 +8,8 @@
 
 namespace lockstep::simtest {
 
-inline constexpr std::array<std::string_view, 8> kMachinePhaseNames{"Waiting", "Idle",   "Homing",   "Running",
-                                                                    "Holding", "Paused", "Stopping", "Fault"};
+inline constexpr std::array<std::string_view, 9> kMachinePhaseNames{
+    "Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping", "Fault", "Standby"};
 inline constexpr std::array<std::string_view, 4> kEpochEndNames{"Complete", "Interrupted", "FramesDiffer", "Misplaced"};
 inline constexpr std::array<std::string_view, 4> kIntentNames{"GoOn", "Hold", "Stop", "Abort"};
 

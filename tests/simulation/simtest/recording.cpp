@@ -104,8 +104,8 @@ void Recorder::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
 }
 
 void Recorder::keep(const Frame& frame) {
-    SentEpoch& epoch = recording_.epochs.try_emplace(frame.epoch, SentEpoch{frame.coordinator, {}}).first->second;
-    if (epoch.writer != frame.coordinator) {
+    SentEpoch& epoch = recording_.epochs.try_emplace(frame.epoch, SentEpoch{frame.term, {}}).first->second;
+    if (epoch.writer != frame.term) {
         recording_.troubles.push_back("epoch " + std::to_string(frame.epoch) + " has two writers");
     }
     SentFrame sent{frame.start, frame.ticks, frame.last, {}};

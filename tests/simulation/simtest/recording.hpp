@@ -58,7 +58,7 @@ struct SentFrame {
 
 /// All frames of an epoch, and who sent them.
 struct SentEpoch {
-    Identity writer = 0;
+    Term writer;
     std::map<FrameNumber, SentFrame> frames;
 };
 

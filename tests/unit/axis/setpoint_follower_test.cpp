@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::int64_t kSlot = 1000;  // ticks
 constexpr Slot kStart = 100;
-constexpr Epoch kEpoch = first_epoch(1) + 7;
+constexpr Term kTerm{1, 1};
+constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
 
 MachineConfig machine() {
     MachineConfig m{
@@ -32,7 +33,7 @@ constexpr Velocity kTooFast{static_cast<std::int64_t>(0x1p64 * 2e-2)};  // 20,00
 
 /// Frame k at constant speed from `from`, ending its axis's motion by stopping dead, as the start velocity allows.
 Frame frame(FrameNumber k, Position from, Velocity v = kSlow, bool last = false) {
-    Frame f{.coordinator = 1,
+    Frame f{.term = kTerm,
             .epoch = kEpoch,
             .number = k,
             .start = {(kStart + 5 * static_cast<Slot>(k - 1)) * kSlot},

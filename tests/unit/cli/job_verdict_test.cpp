@@ -5,10 +5,11 @@
 namespace lockstep {
 namespace {
 
-constexpr Identity kAsked = 1000;
+constexpr Term kAsked{1000, 900};
+constexpr Term kLater{2000, 950};
 
-JobVerdict verdict(std::uint64_t job, std::optional<JobOutcome> outcome, Identity coordinator = kAsked) {
-    return judge({.coordinator = coordinator, .job = job, .outcome = outcome}, 5, kAsked);
+JobVerdict verdict(std::uint64_t job, std::optional<JobOutcome> outcome, const Term& term = kAsked) {
+    return judge({.term = term, .job = job, .outcome = outcome}, 5, kAsked);
 }
 
 TEST(JobVerdict, IsWhatTheCoordinatorSaysOfThatJob) {
@@ -24,7 +25,12 @@ TEST(JobVerdict, IsNotThatOfTheJobBefore) {  // said before the reply, heard aft
 
 TEST(JobVerdict, IsUnknownAfterAnotherJobOrCoordinator) {
     EXPECT_EQ(verdict(6, JobOutcome::Done), JobVerdict::Lost);
-    EXPECT_EQ(verdict(5, JobOutcome::Done, kAsked + 1), JobVerdict::Lost);
+    EXPECT_EQ(verdict(0, std::nullopt, kLater), JobVerdict::Lost) << "started anew";
+}
+
+TEST(JobVerdict, IsCutShortWhereAStandbyTookOver) {
+    EXPECT_EQ(verdict(5, JobOutcome::Stopped, kLater), JobVerdict::CutShort);
+    EXPECT_EQ(verdict(5, JobOutcome::Done, kLater), JobVerdict::Done) << "the last owner had said so";
 }
 
 }  // namespace

@@ -66,14 +66,20 @@ std::vector<std::string> names_of(const std::vector<ServiceLine>& lines) {
 }
 
 TEST(ServiceLines, AreACoordinatorAndAnAxisEach) {
-    const auto lines = service_lines(two_axes(), FpgaKind::Sim, "/opt/bin", StateDirectory("mill"));
+    const auto lines = service_lines(two_axes(), {}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "axis-X", "axis-Y"));
     EXPECT_EQ(lines[1].words[0], "/opt/bin/lockstep-axis");
     EXPECT_THAT(lines[1].words, Contains(StateDirectory("mill").machine_file().string()));
 }
 
+TEST(ServiceLines, WithAStandbyHaveTwoCoordinatorsOfEqualRank) {
+    const auto lines = service_lines(two_axes(), {.standby = true}, "/opt/bin", StateDirectory("mill"));
+    EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "coordinator-2", "axis-X", "axis-Y"));
+    for (const std::size_t i : {0, 1}) { EXPECT_THAT(lines[i].words, Contains("--standby")); }
+}
+
 TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
-    const auto lines = service_lines(two_axes(), FpgaKind::Shared, "/opt/bin", StateDirectory("mill"));
+    const auto lines = service_lines(two_axes(), {.fpga = FpgaKind::Shared}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("fpga-X", "fpga-Y", "coordinator", "axis-X", "axis-Y"));
     EXPECT_EQ(lines[0].words.back(), "lockstep-mill-X");
     EXPECT_THAT(lines[3].words, Contains("shm:lockstep-mill-X"));

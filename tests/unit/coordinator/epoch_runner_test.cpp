@@ -36,7 +36,7 @@ EpochRunner on_a_long_move() {
     const ProgramPlanner planner(machine);
     const Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
     const auto legs = planner.plan(program, {0}).value();
-    EpochRunner runner(machine, 1);
+    EpochRunner runner(machine);
     runner.begin(1, planner.path(legs[0].moves, {}), {Position::steps(0)}, 100);
     return runner;
 }

@@ -213,29 +213,39 @@ TEST_F(Rig, ALegalProgramLosesNoStep) {
     for (const auto& state : vm.axis_states()) { EXPECT_EQ(state->following_error_steps, 0); }
 }
 
-TEST(Coordinators, TheYoungerOneGivesWay) {
-    const MachineConfig machine = small_machine();
-    Coordinator younger(machine, 2'000, 1);
-    const MachineState older{.coordinator = 1'000};
-    EXPECT_TRUE(younger.step({.now = {3'000'000}, .others = {&older, 1}}).must_quit);
-    Coordinator first(machine, 500, 1);
-    EXPECT_FALSE(first.step({.now = {3'000'000}, .others = {&older, 1}}).must_quit);
+/// Alone for long enough to own the machine. Returns the time.
+Tick listen_until_owner(Coordinator& coordinator, const MachineConfig& machine) {
+    Tick now{10'000};
+    for (; !coordinator.owns_machine(); now += machine.slot_ticks()) { (void)coordinator.step({.now = now}); }
+    return now;
+}
+
+TEST(Coordinators, WhoHearsAnOwnerBeforeItOwnsAnythingEnds) {
+    Coordinator second(small_machine(), 2'000, 1);
+    const std::vector<MachineState> owner{{.term = {900, 800}, .stamp = 3'000}, {.term = {900, 800}, .stamp = 3'001}};
+    EXPECT_TRUE(second.step({.now = {3'001'000}, .others = owner}).must_quit);
+    Coordinator to_stand_by(small_machine(), 2'000, 1, true);
+    const auto out = to_stand_by.step({.now = {3'001'000}, .others = owner});
+    EXPECT_FALSE(out.must_quit);
+    EXPECT_EQ(out.state->phase, MachinePhase::Standby);
 }
 
 TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {
     const MachineConfig machine = small_machine();
     Coordinator coordinator(machine, 2'000, 1);
+    const Tick now = listen_until_owner(coordinator, machine);
     const AxisState other{.identity = 5, .axis = 1, .stamp = 10, .config_hash = 2};
-    (void)coordinator.step({.now = {10'000}, .axes = {&other, 1}});
+    (void)coordinator.step({.now = now, .axes = {&other, 1}});
     EXPECT_EQ(coordinator.phase(), MachinePhase::Fault);
 }
 
 TEST(Coordinators, ACommandThatComesTwiceIsDoneOnceAndAnsweredTwice) {
     const MachineConfig machine = small_machine();
     Coordinator coordinator(machine, 2'000, 1);
+    const Tick now = listen_until_owner(coordinator, machine);
     const Command stop{.client = 9, .sequence = 1, .kind = CommandKind::Stop};
     const std::vector<Command> twice{stop, stop};
-    const auto out = coordinator.step({.now = {10'000}, .commands = twice});
+    const auto out = coordinator.step({.now = now, .commands = twice});
     ASSERT_EQ(out.replies.size(), 2u);
     EXPECT_EQ(out.replies[0].text, out.replies[1].text);
 }

@@ -66,7 +66,8 @@ protected:
     }
     Reply ask(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0, Ticks ticks = {}) {
         const auto sequence = vm.command(kind, axes, program, ticks);
-        (void)vm.advance_until([&] { return vm.reply_to(sequence) != nullptr; }, Ticks{1'000'000});
+        const auto answered = [&] { return vm.reply_to(sequence) != nullptr; };
+        for (int tries = 0; tries < 4 && !vm.advance_until(answered, Ticks{250'000}); ++tries) { vm.repeat_command(); }
         const Reply* reply = vm.reply_to(sequence);
         if (reply != nullptr) { job_ = std::max(job_, reply->job); }
         return reply == nullptr ? Reply{.status = ReplyStatus::Refused, .text = "no reply"} : *reply;

@@ -143,7 +143,7 @@ TEST(HostileMachineState, IsRefused) {
         lie(wire);
         expect_refused(wire, field);
     };
-    refused("phase", [](auto& w) { overwrite(w.phase, 8); });
+    refused("phase", [](auto& w) { overwrite(w.phase, 9); });
     refused("outcome", [](auto& w) { overwrite(w.outcome, 3); });
     refused("fault_axis", [](auto& w) { w.fault_axis = 32; });
     refused("progress", [](auto& w) { w.progress = 1.01; });

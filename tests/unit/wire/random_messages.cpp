@@ -3,7 +3,7 @@
 namespace lockstep {
 
 Frame RandomMessages::frame() {
-    Frame frame{.coordinator = bits(),
+    Frame frame{.term = term(),
                 .epoch = bits(),
                 .number = bits(),
                 .start = {far()},
@@ -38,7 +38,9 @@ AxisState RandomMessages::axis_state() {
             .command_fault = fault(),
             .config_hash = bits(),
             .refused_frames = bits(),
-            .clock_error = {between(0, std::int64_t{1} << 62)}};
+            .clock_error = {between(0, std::int64_t{1} << 62)},
+            .term = term(),
+            .hears_owner = coin()};
 }
 
 AxisHealth RandomMessages::axis_health() {
@@ -57,7 +59,7 @@ AxisHealth RandomMessages::axis_health() {
 }
 
 AxisCommand RandomMessages::axis_command() {
-    return {.coordinator = bits(),
+    return {.term = term(),
             .sequence = bits(),
             .axis = index(kMaxAxes),
             .kind = static_cast<AxisCommandKind>(index(5)),
@@ -74,10 +76,10 @@ ClockReply RandomMessages::clock_reply() {
 }
 
 MachineState RandomMessages::machine_state() {
-    return {.coordinator = bits(),
+    return {.term = term(),
             .stamp = far(),
             .tick = {far()},
-            .phase = static_cast<MachinePhase>(index(8)),
+            .phase = static_cast<MachinePhase>(index(9)),
             .fault = fault(),
             .fault_axis = index(kMaxAxes),
             .epoch = bits(),

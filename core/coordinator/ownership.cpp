@@ -1,0 +1,72 @@
+#include "core/coordinator/ownership.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+
+void Ownership::hear(const AxisState& axis) {
+    known_.hear(axis.term, axis.stamp);
+    followed_.hear(axis.term, axis.stamp);
+}
+
+void Ownership::hear(const MachineState& other, Slot now) {
+    if (other.phase == MachinePhase::Standby) {
+        known_.hear({other.term.number, 0}, other.stamp);
+        if (other.term.coordinator < self_) { elder_heard_ = now; }
+        return;
+    }
+    known_.hear(other.term, other.stamp);
+    const bool known = other_owner_ && other_owner_->term == other.term;
+    if (!known && !stranger_.again(other.term, other.stamp)) { return; }
+    other_owner_ = other;
+    heard_ = now;
+}
+
+Ownership::Change Ownership::judge(Tick now, Slot slot, std::span<const AxisView> axes) {
+    forgive_own_stall(slot);
+    if (acknowledged(axes)) {
+        lacking_.reset();
+    } else if (!lacking_) {
+        lacking_ = slot;
+    }
+    if (own_ && must_stand_down(slot, axes)) {
+        own_.reset();
+        heard_ = slot;
+        return Change::StoodDown;
+    }
+    if (own_ || !may_claim(slot, axes)) { return Change::None; }
+    own_ = Term{std::max(static_cast<std::uint64_t>(now.value), known_.value().number + 1), self_};
+    lacking_ = slot;
+    return Change::Claimed;
+}
+
+/// Whom it has not heard because it did not run is not silent.
+void Ownership::forgive_own_stall(Slot slot) {
+    const Slot missed = judged_ ? std::max<Slot>(0, slot - *judged_ - 1) : 0;
+    heard_ = std::min(slot, heard_.value_or(slot) + missed);
+    judged_ = slot;
+}
+
+bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) const {
+    return silent(slot, hears_elder(slot) ? kHeadStart : 0) && std::ranges::all_of(axes, [&](const AxisView& axis) {
+               return !axis.present(slot, timing_) || (axis.state->at_rest && !axis.state->hears_owner);
+           });
+}
+
+bool Ownership::must_stand_down(Slot slot, std::span<const AxisView> axes) const {
+    if (followed_.value() > *own_) { return true; }
+    if (acknowledged(axes)) { return false; }
+    if (known_.value() > *own_) { return true; }
+    const auto is_here = [&](const AxisView& axis) { return axis.present(slot, timing_); };
+    const bool in_vain = std::ranges::any_of(axes, is_here) && std::ranges::all_of(axes, [&](const AxisView& axis) {
+                             return !is_here(axis) || (axis.state->hears_owner && axis.state->term != *own_);
+                         });
+    return in_vain && slot - lacking_.value_or(slot) > 2 * rules::silence_slots(timing_);
+}
+
+bool Ownership::acknowledged(std::span<const AxisView> axes) const {
+    return own_ &&
+           std::ranges::all_of(axes, [&](const AxisView& axis) { return axis.state && axis.state->term == *own_; });
+}
+
+}  // namespace lockstep

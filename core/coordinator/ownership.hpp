@@ -1,0 +1,68 @@
+// Who owns the machine, as one coordinator sees it: when it may claim the machine, and when it must stand down.
+//
+// Ownership is a term (core/protocol/messages.hpp). The axes decide: each follows one owner, changes to a higher term
+// only at rest and when its owner has been silent to it, and says in every state whom it follows and whether it hears
+// him. What moves needs all axes, so of two that think they own the machine at most one can move it; nobody has to
+// know that the other is dead.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/coordinator/axis_view.hpp"
+#include "core/protocol/second_hearing.hpp"
+
+namespace lockstep {
+
+class Ownership {
+public:
+    enum class Change : std::uint8_t { None, Claimed, StoodDown };
+
+    /// `self`: new at every start of the process. It owns nothing yet.
+    Ownership(Identity self, const ProtocolTiming& timing) : self_(self), timing_(timing) {}
+
+    void hear(const AxisState& axis);
+    void hear(const MachineState& other, Slot now);
+
+    /// Once a slot, after all that was heard. Claims a term above all others where no owner was heard for
+    /// silence_slots, at least since the start, and every axis that is heard is at rest and hears none either; of two
+    /// that wait the elder goes first. Stands down where an axis follows a higher term; and, while not all axes follow
+    /// it, before another's higher claim, or when all that are heard have long had another owner.
+    Change judge(Tick now, Slot slot, std::span<const AxisView> axes);
+
+    bool owns() const { return own_.has_value(); }
+    /// Its own where it owns the machine; else the highest number known, and itself.
+    Term term() const { return own_.value_or(Term{known_.value().number, self_}); }
+    /// Every axis says that it follows this owner. Nothing may be moved before.
+    bool acknowledged(std::span<const AxisView> axes) const;
+    /// Some axis has not followed it for longer than one damaged state may make it seem so.
+    bool lacks_axes(Slot now) const { return lacking_ && now - *lacking_ > rules::kHopSlots; }
+    /// The owner that is heard, or was heard last: what he said of the machine.
+    const std::optional<MachineState>& other_owner() const { return other_owner_; }
+    bool hears_other_owner(Slot now) const { return other_owner_ && !silent(now); }
+
+private:
+    bool silent(Slot now, Slot longer = 0) const {
+        return now - heard_.value_or(now) > rules::silence_slots(timing_) + longer;
+    }
+    bool hears_elder(Slot now) const { return elder_heard_ && now - *elder_heard_ <= rules::silence_slots(timing_); }
+    void forgive_own_stall(Slot slot);
+    static constexpr Slot kHeadStart = 4 * rules::kHopSlots;  // of the elder: its claim is heard before the other's
+
+    bool may_claim(Slot slot, std::span<const AxisView> axes) const;
+    bool must_stand_down(Slot slot, std::span<const AxisView> axes) const;
+
+    Identity self_;
+    ProtocolTiming timing_;
+    std::optional<Term> own_;
+    std::optional<Slot> lacking_;  // since when not all axes follow it
+    HighestTerm known_;            // of all that speak
+    HighestTerm followed_;         // by an axis
+    std::optional<MachineState> other_owner_;
+    SecondHearing<Term> stranger_;     // who speaks as an owner and is not believed yet
+    std::optional<Slot> heard_;        // an owner; or when it began to listen
+    std::optional<Slot> elder_heard_;  // who stands by for longer than this one
+    std::optional<Slot> judged_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,155 @@
+// Who may claim a machine, who must stand down: from what is heard alone.
+#include "core/coordinator/ownership.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+constexpr ProtocolTiming kTiming{
+    .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+const Slot kSilence = rules::silence_slots(kTiming);
+constexpr Term kOther{500, 4};
+
+/// Two axes and a coordinator that is process 7, slot by slot.
+struct Scene {
+    Ownership ownership{7, kTiming};
+    std::vector<AxisView> axes = std::vector<AxisView>(2);
+    Slot now = 1000;
+
+    void say(std::size_t axis, const AxisState& state) {
+        axes[axis] = {state, now, {}};
+        axes[axis].state->stamp = now;
+        ownership.hear(*axes[axis].state);
+    }
+    /// Both axes follow `term`, and hear its owner.
+    void axes_follow(const Term& term, bool hear_owner = true, bool at_rest = true) {
+        for (std::size_t i = 0; i < 2; ++i) { say(i, {.at_rest = at_rest, .term = term, .hears_owner = hear_owner}); }
+    }
+    void owner_says(const Term& term) {
+        ownership.hear({.term = term, .stamp = now, .phase = MachinePhase::Idle}, now);
+    }
+    Ownership::Change look() {
+        const auto change = ownership.judge({now * 1000}, now, axes);
+        ++now;
+        return change;
+    }
+    /// Until something changes, `tell` being said each slot; no longer than `slots`.
+    template <typename Tell>
+    Ownership::Change look_for(Slot slots, Tell tell) {
+        for (Slot i = 0; i < slots; ++i) {
+            tell();
+            if (const auto change = look(); change != Ownership::Change::None) { return change; }
+        }
+        return Ownership::Change::None;
+    }
+    void own() {
+        (void)look_for(2 * kSilence, [] {});
+        for (int i = 0; i < 3; ++i) {
+            axes_follow(ownership.term());
+            (void)look();
+        }
+    }
+};
+
+using Change = Ownership::Change;
+
+TEST(Ownership, IsClaimedAfterASilenceAboveEveryTermThatIsKnown) {
+    Scene scene;
+    const Term high{Term{9'000'000'000, 1}};
+    const auto silent = [&] { scene.axes_follow(high, false); };
+    EXPECT_EQ(scene.look_for(kSilence + 1, silent), Change::None);
+    EXPECT_EQ(scene.look_for(1, silent), Change::Claimed);
+    EXPECT_EQ(scene.ownership.term(), (Term{9'000'000'001, 7}));
+}
+
+TEST(Ownership, IsNotClaimedWhileAnOwnerIsHeard) {
+    Scene scene;
+    EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.owner_says(kOther); }), Change::None);
+    EXPECT_TRUE(scene.ownership.hears_other_owner(scene.now));
+}
+
+TEST(Ownership, IsNotClaimedWhileAnAxisHearsAnOwnerThatThisOneDoesNot) {
+    Scene scene;
+    EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.axes_follow(kOther); }), Change::None);
+}
+
+TEST(Ownership, IsNotClaimedWhileAnAxisMoves) {
+    Scene scene;
+    EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.axes_follow(kOther, false, false); }), Change::None);
+    EXPECT_EQ(scene.look_for(1, [&] { scene.axes_follow(kOther, false); }), Change::Claimed);
+}
+
+TEST(Ownership, IsNotClaimedForAnOwnStall) {
+    Scene scene;
+    (void)scene.look_for(3, [&] { scene.owner_says(kOther); });
+    scene.now += 100 * kSilence;
+    EXPECT_EQ(scene.look_for(kSilence / 2, [] {}), Change::None);
+}
+
+TEST(Ownership, OfTwoThatWaitTheElderGoesFirst) {
+    Scene younger;
+    const auto elder_waits = [&] {
+        younger.ownership.hear({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);
+    };
+    EXPECT_EQ(younger.look_for(kSilence + 5, elder_waits), Change::None);
+    EXPECT_EQ(younger.look_for(10, elder_waits), Change::Claimed) << "but the elder may be unable to";
+}
+
+TEST(Ownership, MovesNothingBeforeEveryAxisSaysThatItFollows) {
+    Scene scene;
+    (void)scene.look_for(2 * kSilence, [] {});
+    ASSERT_TRUE(scene.ownership.owns());
+    EXPECT_FALSE(scene.ownership.acknowledged(scene.axes)) << "no axis is heard";
+    scene.say(0, {.term = scene.ownership.term(), .hears_owner = true});
+    scene.say(1, {.term = kOther});
+    EXPECT_FALSE(scene.ownership.acknowledged(scene.axes));
+    scene.say(1, {.term = scene.ownership.term(), .hears_owner = true});
+    EXPECT_TRUE(scene.ownership.acknowledged(scene.axes));
+}
+
+TEST(Ownership, EndsWhereAnAxisFollowsAHigherTerm) {
+    Scene scene;
+    scene.own();
+    const Term higher{scene.ownership.term().number + 1, 9};
+    const auto told = [&] { scene.say(1, {.term = higher, .hears_owner = true}); };
+    EXPECT_EQ(scene.look_for(1, told), Change::None) << "one message may be damaged";
+    EXPECT_EQ(scene.look_for(1, told), Change::StoodDown);
+    EXPECT_EQ(scene.ownership.term().number, higher.number);
+}
+
+TEST(Ownership, OnceAcknowledgedDoesNotEndForAClaimThatNoAxisFollows) {
+    Scene scene;
+    scene.own();
+    const Term higher{scene.ownership.term().number + 1, 9};
+    EXPECT_EQ(scene.look_for(5 * kSilence,
+                             [&] {
+                                 scene.axes_follow(scene.ownership.term());
+                                 scene.owner_says(higher);
+                             }),
+              Change::None);
+}
+
+TEST(Ownership, OfTwoClaimsTheLowerGivesWay) {
+    Scene scene;
+    (void)scene.look_for(2 * kSilence, [] {});
+    const Term own = scene.ownership.term();
+    EXPECT_EQ(scene.look_for(kSilence, [&] { scene.owner_says({own.number - 1, 9}); }), Change::None);
+    EXPECT_EQ(scene.look_for(2,
+                             [&] {
+                                 scene.owner_says({own.number, own.coordinator + 1});
+                             }),
+              Change::StoodDown)
+        << "the same number, of a later process";
+}
+
+TEST(Ownership, ClaimedInVainIsGivenUp) {
+    Scene scene;
+    (void)scene.look_for(2 * kSilence, [] {});
+    EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.axes_follow(kOther); }), Change::StoodDown);
+}
+
+}  // namespace
+}  // namespace lockstep
