@@ -76,11 +76,20 @@ struct NetworkConfig {
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 };
 
+/// The logs that the axes and the coordinator keep by themselves, each on the board it runs on.
+struct RecordConfig {
+    bool own_logs = true;
+    std::string directory;  // empty: where the host keeps such files
+    std::int64_t size_limit_mb = 256;
+    bool operator==(const RecordConfig&) const = default;
+};
+
 struct MachineConfig {
     std::string name;
     std::int64_t tick_ns = 1000;
     ProtocolTiming timing;
     NetworkConfig network;
+    RecordConfig record;
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
     std::vector<AxisConfig> axes;
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
+#include "clients/analysis/damage.hpp"
 #include "clients/analysis/event_log.hpp"
 #include "clients/analysis/job_moves.hpp"
 #include "clients/analysis/skew.hpp"
@@ -52,17 +53,7 @@ struct JobLog {
     bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };
 
-/// Places in the file that cannot be read, or not understood, for one reason. Bytes from the file's beginning.
-struct Damage {
-    std::uint64_t first_byte = 0;  // of the first place
-    std::uint64_t last_byte = 0;   // of the last place
-    std::uint64_t places = 0;
-    std::uint64_t bytes = 0;  // of all of them
-    std::string what;
-};
-
 struct Analysis {
-    static constexpr std::size_t kDamagesKept = 100;  // reasons
     static constexpr std::size_t kJobsKept = 10'000;
     static constexpr std::size_t kMovesKept = 5000;           // of all jobs
     static constexpr std::size_t kAskedPointsKept = 200'000;  // of all jobs' paths

@@ -12,6 +12,13 @@ constexpr std::size_t kBuffer = std::size_t{1} << 20;
 
 }  // namespace
 
+std::string csv_text(std::string_view text) {
+    if (text.find_first_of(",\"\r\n") == text.npos) { return std::string(text); }
+    std::string quoted = "\"";
+    for (const char c : text) { quoted += c == '"' ? std::string("\"\"") : std::string(1, c); }
+    return quoted + '"';
+}
+
 std::expected<CsvFile, std::string> CsvFile::create(const std::filesystem::path& path, std::string_view header) {
     errno = 0;
     std::ofstream out(path, std::ios::binary | std::ios::trunc);
@@ -33,6 +40,16 @@ CsvFile& CsvFile::append(Number value) {
 
 CsvFile& CsvFile::cell(std::int64_t value) { return append(value); }
 CsvFile& CsvFile::cell(double value) { return append(value); }
+
+CsvFile& CsvFile::cell(std::string_view text) {
+    buffer_.append(csv_text(text)).push_back(',');
+    return *this;
+}
+
+CsvFile& CsvFile::empty_cell() {
+    buffer_.push_back(',');
+    return *this;
+}
 
 void CsvFile::end_line() {
     buffer_.back() = '\n';

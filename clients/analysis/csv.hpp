@@ -12,6 +12,9 @@
 
 namespace lockstep::analysis {
 
+/// As a cell: in quotes where it has a comma, a quote or a line's end in it (RFC 4180).
+std::string csv_text(std::string_view text);
+
 /// A CSV file. Numbers are written exactly, decimals in their shortest form that reads back the same.
 class CsvFile {
 public:
@@ -20,6 +23,8 @@ public:
 
     CsvFile& cell(std::int64_t value);
     CsvFile& cell(double value);
+    CsvFile& cell(std::string_view text);
+    CsvFile& empty_cell();
     void end_line();
     /// Writes what is left. The error names the file and the reason.
     std::expected<void, std::string> close();

@@ -1,18 +1,15 @@
 #include "clients/analysis/log_read.hpp"
 
 #include <system_error>
+#include <utility>
 
+#include "services/wire/lcm_channels.hpp"
 #include "services/wire/lcm_decode.hpp"
-#include "services/wire/lcm_log.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
 constexpr std::uint64_t kEventsPerProgress = 4096;
-
-bool is_of(std::string_view channel, std::string_view suffix) {
-    return channel.starts_with("LOCKSTEP_") && channel.ends_with(suffix);
-}
 
 template <typename Message>
 void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told)(const Message&, LogPlace)) {
@@ -25,33 +22,15 @@ void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told
 }
 
 void tell(const LogEvent& event, LogListener& listener) {
-    if (is_of(event.channel, "_STEPS")) { return tell<step_batch_t>(event, listener, &LogListener::on_steps); }
-    if (is_of(event.channel, "_POSITION")) { return tell<axis_position_t>(event, listener, &LogListener::on_position); }
-    if (is_of(event.channel, "_HEALTH")) { return tell<axis_health_t>(event, listener, &LogListener::on_health); }
-    if (is_of(event.channel, "_RUN")) { return tell<run_t>(event, listener, &LogListener::on_run); }
-    if (is_of(event.channel, "_JOB")) { return tell<job_t>(event, listener, &LogListener::on_job); }
-    listener.on_foreign(event.channel);
-}
-
-std::string reason_of(LogDamage::Kind kind) {
-    switch (kind) {
-        case LogDamage::Kind::CutOff: return "the log ends within an event";
-        case LogDamage::Kind::NoEvent: return "bytes that are no event";
-        case LogDamage::Kind::WrongLength: return "an event whose length is wrong";
+    switch (kind_of(event.channel)) {
+        case RecordKind::Steps: return tell<step_batch_t>(event, listener, &LogListener::on_steps);
+        case RecordKind::Position: return tell<axis_position_t>(event, listener, &LogListener::on_position);
+        case RecordKind::Health: return tell<axis_health_t>(event, listener, &LogListener::on_health);
+        case RecordKind::Run: return tell<run_t>(event, listener, &LogListener::on_run);
+        case RecordKind::Job: return tell<job_t>(event, listener, &LogListener::on_job);
+        case RecordKind::Loss: return;  // of one log; sequence numbers say what is missing of the record
+        case RecordKind::Foreign: return listener.on_foreign(event.channel);
     }
-    return "";
-}
-
-void tell_damages(const LogReader& reader, LogListener& listener) {
-    std::uint64_t bytes = 0;
-    for (const LogDamage& damage : reader.damages()) {
-        listener.on_damage({damage.offset, damage.bytes}, reason_of(damage.kind));
-        bytes += damage.bytes;
-    }
-    if (reader.damaged_stretches() == reader.damages().size()) { return; }
-    const std::uint64_t more = reader.damaged_stretches() - reader.damages().size();
-    listener.on_damage({reader.damages().back().offset, reader.damaged_bytes() - bytes},
-                       std::to_string(more) + " more damaged stretches, further on");
 }
 
 /// Events read. Progress is the share of the file behind us.
@@ -78,7 +57,7 @@ std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& 
     const auto bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
     const auto events = read_events(*reader, listener, bytes, progress);
     if (!events) { return events; }
-    tell_damages(*reader, listener);
+    tell_damages(*reader, [&](LogPlace place, std::string what) { listener.on_damage(place, std::move(what)); });
     if (bytes == 0) { return std::unexpected(path.string() + ": the file is empty"); }
     if (*events == 0) { return std::unexpected(path.string() + ": not an LCM log: no event in it"); }
     if (progress) { progress(1); }

@@ -16,13 +16,9 @@
 #include <string>
 #include <string_view>
 
-namespace lockstep::analysis {
+#include "clients/analysis/damage.hpp"
 
-/// A stretch of the file, in bytes.
-struct LogPlace {
-    std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;
-};
+namespace lockstep::analysis {
 
 /// `place` is that of the event in the file.
 class LogListener {

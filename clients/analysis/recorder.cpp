@@ -79,20 +79,7 @@ void Recorder::on_job(const job_t& message, LogPlace place) {
 
 void Recorder::on_foreign(std::string_view channel) { ++analysis_.foreign[std::string(channel)]; }
 
-void Recorder::on_damage(LogPlace place, std::string what) {
-    auto& all = analysis_.damages;
-    auto known = std::ranges::find(all, what, &Damage::what);
-    if (known == all.end() && all.size() == Analysis::kDamagesKept) { known = all.end() - 1; }
-    if (known == all.end()) {
-        if (all.size() + 1 == Analysis::kDamagesKept) { what = "further reasons"; }
-        all.push_back({.first_byte = place.offset, .what = std::move(what)});
-        known = all.end() - 1;
-    }
-    known->first_byte = std::min(known->first_byte, place.offset);
-    known->last_byte = std::max(known->last_byte, place.offset + std::max<std::uint64_t>(1, place.bytes) - 1);
-    known->bytes += place.bytes;
-    ++known->places;
-}
+void Recorder::on_damage(LogPlace place, std::string what) { note_damage(analysis_.damages, place, std::move(what)); }
 
 /// Whether the message is of the machine analysed; the first message says which that is where nobody asked for one.
 bool Recorder::is_ours(const std::string& machine) {

@@ -127,14 +127,6 @@ void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report)
     }
 }
 
-void fill(const Damage& damage, proto::UnreadStretch& report) {
-    report.set_first_byte(damage.first_byte);
-    report.set_last_byte(damage.last_byte);
-    report.set_places(damage.places);
-    report.set_bytes(damage.bytes);
-    report.set_reason(damage.what);
-}
-
 void fill_findings(const Analysis& analysis, proto::AnalysisReport& report) {
     const auto found = findings(analysis);
     report.set_verdict(std::string(name_of(verdict(found))));
@@ -157,6 +149,14 @@ void fill(const Analysis& analysis, const PairSkew& skew, proto::StepSkew& repor
 
 }  // namespace
 
+void fill_unread(const Damage& damage, proto::UnreadStretch& report) {
+    report.set_first_byte(damage.first_byte);
+    report.set_last_byte(damage.last_byte);
+    report.set_places(damage.places);
+    report.set_bytes(damage.bytes);
+    report.set_reason(damage.what);
+}
+
 proto::AnalysisReport to_report(const Analysis& analysis) {
     proto::AnalysisReport report;
     report.set_log(analysis.log.string());
@@ -171,7 +171,7 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     fill_findings(analysis, report);
     report.set_jobs_not_listed(analysis.jobs_not_kept);
     for (const Event& event : analysis.happened) { fill(analysis, event, *report.add_events()); }
-    for (const Damage& damage : analysis.damages) { fill(damage, *report.add_unread()); }
+    for (const Damage& damage : analysis.damages) { fill_unread(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;
 }

@@ -7,5 +7,6 @@
 namespace lockstep::analysis {
 
 proto::AnalysisReport to_report(const Analysis& analysis);
+void fill_unread(const Damage& damage, proto::UnreadStretch& report);
 
 }  // namespace lockstep::analysis

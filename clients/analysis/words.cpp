@@ -159,13 +159,6 @@ std::string axis_notes(const AxisLog& axis) {
     return text;
 }
 
-std::string damage_sentence(const Damage& damage) {
-    const auto bytes = plural(static_cast<std::int64_t>(damage.bytes), "byte");
-    if (damage.places == 1) { return fmt::format("damaged at byte {}: {}, {}", damage.first_byte, damage.what, bytes); }
-    return fmt::format("damaged in {} places from byte {} to {}: {}, {}", damage.places, damage.first_byte,
-                       damage.last_byte, damage.what, bytes);
-}
-
 std::string log_notes(const Analysis& analysis) {
     std::string text;
     for (const auto& [channel, events] : analysis.foreign) {

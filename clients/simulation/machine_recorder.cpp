@@ -18,7 +18,7 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
     if (!recorder && out.state) {
         recorder = std::make_unique<AxisRecorder>(machine_, axis, out.state->identity, sink_);
     }
-    if (recorder) { recorder->loop(out, node.controller().zero_count()); }
+    if (recorder) { recorder->loop(out, node.controller().zero_count(), node.lost_captures()); }
 }
 
 void MachineRecorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {

@@ -61,7 +61,7 @@ public:
         const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
-        recorder_.loop(out, node_.controller().zero_count());
+        recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
@@ -164,7 +164,8 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     if (!node) { return fail(node.error()); }
     auto bus = open_bus<AxisBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
-    AxisService service(setup, clock, std::move(*node), std::move(*bus), open_record(machine.network, options.record));
+    AxisService service(setup, clock, std::move(*node), std::move(*bus),
+                        open_record(machine, machine.axes[axis].name, options.record));
     log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + options.fpga);
 
     PeriodicLoop periodic(loop_period(machine));

@@ -154,7 +154,7 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
     auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
-    CoordinatorService service(machine, identity, std::move(*bus), open_record(machine.network, options.record),
+    CoordinatorService service(machine, identity, std::move(*bus), open_record(machine, "", options.record),
                                options.standby);
     log_info("coordinator of machine " + machine.name + " is up");
 

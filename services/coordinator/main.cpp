@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     app.add_flag("--standby", options.standby,
                  "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
                  "give it to both of two");
-    app.add_flag("--no-lcm", no_lcm, "do not publish the record");
+    app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"
         "  lockstep-coordinator --machine machine.textproto --standby\n"

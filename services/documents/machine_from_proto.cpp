@@ -62,6 +62,15 @@ NetworkConfig read_network(const proto::Network& message) {
     };
 }
 
+RecordConfig read_record(const proto::Record& message) {
+    const RecordConfig preset;
+    return {
+        .own_logs = message.has_own_logs() ? message.own_logs() : preset.own_logs,
+        .directory = message.directory(),
+        .size_limit_mb = message.has_size_limit_mb() ? message.size_limit_mb() : preset.size_limit_mb,
+    };
+}
+
 /// Written without std::clamp, whose order of limits a file may break.
 double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
@@ -146,6 +155,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
                                               "; it is one of SHARED, NETWORK and PTP");
     }
     draft.machine.network = read_network(message.network());
+    draft.machine.record = read_record(message.record());
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {

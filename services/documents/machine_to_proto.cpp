@@ -23,6 +23,12 @@ void write_network(const NetworkConfig& network, proto::Network& message) {
     message.set_lcm_url(network.lcm_url);
 }
 
+void write_record(const RecordConfig& record, proto::Record& message) {
+    message.set_own_logs(record.own_logs);
+    if (!record.directory.empty()) { message.set_directory(record.directory); }
+    message.set_size_limit_mb(record.size_limit_mb);
+}
+
 void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_sequence(homing.sequence);
     message.set_toward_min(homing.toward_min);
@@ -67,6 +73,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     message.set_tick_ns(machine.tick_ns);
     write_timing(machine.timing, *message.mutable_timing());
     write_network(machine.network, *message.mutable_network());
+    if (machine.record != RecordConfig{}) { write_record(machine.record, *message.mutable_record()); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     return message;

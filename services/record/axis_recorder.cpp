@@ -54,7 +54,7 @@ void AxisRecorder::publish(step_batch_t& batch) {
     sink_.publish(channels_.steps, batch);
 }
 
-void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count) {
+void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
     if (!placed_ && out.state) { place(*out.state); }
     batch_steps();
@@ -79,6 +79,10 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count) {
     if (zero_count != zero_count_) {
         batcher_.set_position(batcher_.position_steps() - (zero_count - zero_count_));
         zero_count_ = zero_count;
+    }
+    if (lost_captures != lost_captures_) {  // the next state says where the steps kept from now on begin
+        lost_captures_ = lost_captures;
+        placed_ = false;
     }
     batcher_.poll(clock_.own);
     if (out.state) { sink_.publish(channels_.position, to_lcm(machine_, *out.state)); }

@@ -23,9 +23,10 @@ public:
 
     /// Every step, in order, before the loop's outputs.
     void step(StepEdge step) { steps_.push_back(step); }
-    /// After each loop: its outputs, and what the axis's zero then is. Steps and runs are recorded in the device's
-    /// time, with what that is in machine time.
-    void loop(const AxisOutputs& out, std::int64_t zero_count);
+    /// After each loop: its outputs, what the axis's zero then is, and how many steps so far the device could not keep
+    /// the time of: they are missing behind those of this loop. Steps and runs are recorded in the device's time, with
+    /// what that is in machine time.
+    void loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures);
     void health(const AxisHealth& health) { sink_.publish(channels_.health, to_lcm(machine_, health)); }
     /// At the end: what is still in hand.
     void finish();
@@ -43,7 +44,10 @@ private:
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
     std::uint64_t runs_ = 0;
-    bool placed_ = false;            // it is known where the device stands: it may have outlived another process
+    std::uint64_t lost_captures_ = 0;
+    /// It is known where the device stands: not at first, since it may have outlived another process, nor after steps
+    /// without their time.
+    bool placed_ = false;
     std::vector<StepEdge> steps_;    // not given to the batcher yet
     ClockView clock_;                // the device's, in machine time, at the last loop
     std::optional<Tick> published_;  // machine time of the last step published

@@ -13,6 +13,8 @@ public:
     virtual ~RecordSink() = default;
     /// utime: microseconds of machine time. What cannot be written is counted: motion never waits for it.
     virtual void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) = 0;
+    /// What was written is where it belongs, and is not held back in memory.
+    virtual void flush() {}
     /// Messages that could not be written.
     virtual std::uint64_t failures() const { return 0; }
 

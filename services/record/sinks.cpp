@@ -1,15 +1,29 @@
 #include "services/record/sinks.hpp"
 
+#include "services/record/own_log.hpp"
 #include "services/runtime/log.hpp"
 
 namespace lockstep {
 
-std::unique_ptr<RecordSink> open_record(const NetworkConfig& network, bool wanted) {
-    if (!wanted) { return std::make_unique<NoSink>(); }
-    auto publisher = LcmPublisher::open(network);
-    if (publisher) { return std::make_unique<LcmSink>(std::move(*publisher)); }
-    log_warning("nothing is recorded: " + publisher.error());
-    return std::make_unique<NoSink>();
+std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std::string& axis, bool published) {
+    std::vector<std::unique_ptr<RecordSink>> sinks;
+    if (published) {
+        auto publisher = LcmPublisher::open(machine.network);
+        if (publisher) {
+            sinks.push_back(std::make_unique<LcmSink>(std::move(*publisher)));
+        } else {
+            log_warning("nothing is published of the record: " + publisher.error());
+        }
+    }
+    if (machine.record.own_logs) {
+        auto log = open_own_log(machine, axis);
+        if (log) {
+            sinks.push_back(std::move(*log));
+        } else {
+            log_warning("no log of its own is kept: " + log.error());
+        }
+    }
+    return std::make_unique<AllSinks>(std::move(sinks));
 }
 
 }  // namespace lockstep

@@ -1,8 +1,10 @@
-// The two sinks there are: LCM's network, for lcm-logger and lcm-spy, and LCM's log file, for the simulator.
+// The sinks there are: LCM's network, for lcm-logger and lcm-spy; LCM's log file; several at once.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "services/record/record_sink.hpp"
 #include "services/wire/lcm_log.hpp"
@@ -43,7 +45,26 @@ public:
     void write(const std::string&, std::int64_t, std::span<const std::uint8_t>) override {}
 };
 
-/// The network's, or none where the record is not wanted or cannot be published: the log says why.
-std::unique_ptr<RecordSink> open_record(const NetworkConfig& network, bool wanted);
+/// All of them, one after the other.
+class AllSinks : public RecordSink {
+public:
+    explicit AllSinks(std::vector<std::unique_ptr<RecordSink>> sinks) : sinks_(std::move(sinks)) {}
+    void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
+        for (const auto& sink : sinks_) { sink->write(channel, utime, bytes); }
+    }
+    std::uint64_t failures() const override {
+        std::uint64_t sum = 0;
+        for (const auto& sink : sinks_) { sum += sink->failures(); }
+        return sum;
+    }
+
+private:
+    std::vector<std::unique_ptr<RecordSink>> sinks_;
+};
+
+/// What a process records: to the network where it is to be `published`, and into a log of its own where the machine's
+/// file has it so. `axis` is the axis's name, empty for the coordinator. What cannot be opened is left out: the log
+/// says why.
+std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std::string& axis, bool published);
 
 }  // namespace lockstep

@@ -1,5 +1,8 @@
 #include "services/wire/lcm_channels.hpp"
 
+#include <array>
+#include <utility>
+
 namespace lockstep {
 namespace {
 
@@ -23,5 +26,23 @@ AxisChannels channels_of(std::string_view machine, std::string_view axis) {
 }
 
 std::string job_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_JOB"; }
+
+std::string loss_channel(std::string_view machine, std::string_view axis) {
+    return "LOCKSTEP_" + upper(machine) + (axis.empty() ? "" : "_" + upper(axis)) + "_LOSS";
+}
+
+RecordKind kind_of(std::string_view channel) {
+    constexpr std::array<std::pair<std::string_view, RecordKind>, 6> kEnds{{{"_STEPS", RecordKind::Steps},
+                                                                            {"_POSITION", RecordKind::Position},
+                                                                            {"_HEALTH", RecordKind::Health},
+                                                                            {"_RUN", RecordKind::Run},
+                                                                            {"_JOB", RecordKind::Job},
+                                                                            {"_LOSS", RecordKind::Loss}}};
+    if (!channel.starts_with("LOCKSTEP_")) { return RecordKind::Foreign; }
+    for (const auto& [end, kind] : kEnds) {
+        if (channel.ends_with(end)) { return kind; }
+    }
+    return RecordKind::Foreign;
+}
 
 }  // namespace lockstep

@@ -1,6 +1,7 @@
 // The names of the LCM channels: all that a machine records.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -19,5 +20,11 @@ inline constexpr std::size_t kMaxChannelName = 63;
 
 AxisChannels channels_of(std::string_view machine, std::string_view axis);
 std::string job_channel(std::string_view machine);
+/// Where a log says what it lacks. `axis` is empty for the coordinator's.
+std::string loss_channel(std::string_view machine, std::string_view axis);
+
+/// What a channel's messages are, by its name.
+enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, Loss, Foreign };
+RecordKind kind_of(std::string_view channel);
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/record_loss_t.hpp>
 #include <lockstep/run_t.hpp>
 #include <lockstep/step_batch_t.hpp>
 
@@ -26,6 +27,8 @@ template <>
 inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
 template <>
 inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888844ssn8";
+template <>
+inline constexpr std::string_view kLcmLayout<record_loss_t> = "8ss88";
 template <>
 inline constexpr std::string_view kLcmLayout<run_t> = "8ss8888188888188n888n8";
 template <>

@@ -132,6 +132,10 @@ std::expected<LogWriter, std::string> LogWriter::open(const std::filesystem::pat
     return LogWriter(std::move(file));
 }
 
+std::uint64_t LogWriter::event_bytes(std::string_view channel, std::span<const std::uint8_t> data) {
+    return kHeaderBytes + channel.size() + data.size();
+}
+
 bool LogWriter::write(std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> data) {
     std::string header(reinterpret_cast<const char*>(kSync.data()), kSync.size());
     append(header, number_++);

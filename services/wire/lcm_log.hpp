@@ -86,6 +86,9 @@ public:
     /// Begins a new file. Error: it cannot be written; the text names it and says why.
     static std::expected<LogWriter, std::string> open(const std::filesystem::path& path);
 
+    /// What an event takes in the file.
+    static std::uint64_t event_bytes(std::string_view channel, std::span<const std::uint8_t> data);
+
     /// False: the disk is full or gone. utime: microseconds.
     bool write(std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> data);
 

@@ -5,24 +5,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <fstream>
 #include <iterator>
+
+#include "services/runtime/directories.hpp"
 
 namespace lockstep {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path root() {
-    if (const char* set = std::getenv("LOCKSTEP_STATE"); set != nullptr && *set != '\0') { return fs::absolute(set); }
-    if (geteuid() == 0) { return "/run/lockstep"; }
-    if (const char* own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own != '\0') {
-        return fs::path(own) / "lockstep";
-    }
-    return "/tmp/lockstep-" + std::to_string(geteuid());
-}
 
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -40,7 +32,7 @@ bool replace_file(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-StateDirectory::StateDirectory(const std::string& machine) : path_(root() / machine) {}
+StateDirectory::StateDirectory(const std::string& machine) : path_(state_root() / machine) {}
 
 std::expected<void, std::string> StateDirectory::make() const {
     std::error_code error;
@@ -93,7 +85,7 @@ void StateDirectory::forget_processes() const {
 std::vector<std::string> machines_up() {
     std::vector<std::string> names;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(root(), error)) {
+    for (const auto& entry : fs::directory_iterator(state_root(), error)) {
         const std::string name = entry.path().filename().string();
         if (!StateDirectory(name).running().empty()) { names.push_back(name); }
     }

@@ -1,8 +1,6 @@
 // Where a machine that is up on this host keeps what its processes share: the copy of the configuration they run with,
 // the record of the processes, a log for each.
-//
-// The directory is ROOT/MACHINE. ROOT is $LOCKSTEP_STATE where that is set; else /run/lockstep for root; else
-// $XDG_RUNTIME_DIR/lockstep; else /tmp/lockstep-UID.
+// The directory is ROOT/MACHINE, with the root of services/runtime/directories.hpp.
 #pragma once
 
 #include <expected>

@@ -1,4 +1,5 @@
 // lockstep replay
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -8,7 +9,7 @@
 #include "clients/lockstep/offline/verdict_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/replay/replay.hpp"
-#include "clients/simulation/new_log_file.hpp"
+#include "services/record/new_log_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -22,6 +23,10 @@ struct ReplayOptions {
 
 ExitCode replay_verb(const ReplayOptions& options) {
     Voice voice(options.json);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options.log, options.made, ignored)) {
+        return voice.fail(bad_input(options.made + ": is the log that is replayed; name another with --log"));
+    }
     std::optional<NewLogFile> made;
     if (!options.made.empty()) {
         auto begun = NewLogFile::begin(options.made, options.force);

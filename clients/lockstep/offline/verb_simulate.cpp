@@ -7,9 +7,9 @@
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/offline/program_input.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/simulation/new_log_file.hpp"
 #include "clients/simulation/simulate.hpp"
 #include "services/record/job_recorder.hpp"
+#include "services/record/new_log_file.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 

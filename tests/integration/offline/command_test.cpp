@@ -105,6 +105,8 @@ TEST_F(Command, AReplayMakesTheStepsOfTheLogAndALogThatVerifies) {
     EXPECT_TRUE(verdict.exact());
     EXPECT_EQ(verdict.steps_compared(), made.steps_replayed());
     EXPECT_EQ(run("replay deploy/examples/plate.gcode 2>&1").exit, 2);
+    EXPECT_EQ(run("replay " + log + " --log " + log + " 2>&1").exit, 2) << "what was recorded stays";
+    EXPECT_EQ(run("export " + log + " --force --out " + log + " 2>&1").exit, 2);
     EXPECT_EQ(run("replay " + log + " --log deploy/examples/plate.gcode 2>&1").exit, 2) << "that is no log";
 }
 

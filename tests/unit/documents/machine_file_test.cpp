@@ -26,6 +26,9 @@ TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
     EXPECT_EQ(machine.network.interface, "lo");
     EXPECT_EQ(machine.network.domain, 0U);
     EXPECT_EQ(machine.network.lcm_url, "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304");
+    EXPECT_TRUE(machine.record.own_logs);
+    EXPECT_EQ(machine.record.directory, "");
+    EXPECT_EQ(machine.record.size_limit_mb, 256);
     ASSERT_EQ(machine.axes.size(), 1U);
     EXPECT_EQ(machine.axes[0].max_decel_mm_s2, 1500);
 }
@@ -81,6 +84,7 @@ TEST(MachineFile, ZeroIsAValueAndNotAnAbsence) {
 
 TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
     for (const auto& text : {std::string(kShortest), with("80", "53.333333333333336"), machine_with("tick_ns: 250"),
+                             machine_with("record { own_logs: false directory: \"/tmp/x\" size_limit_mb: 7 }"),
                              axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
                              axis_with("method: CARRICA")}) {
         const MachineConfig machine = parse(text);

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/simulation/new_log_file.hpp"
 #include "clients/simulation/simulate.hpp"
+#include "services/record/new_log_file.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
 namespace lockstep {

@@ -30,7 +30,7 @@ protected:
 };
 
 TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
-    recorder.loop(says(0, 100), 0);
+    recorder.loop(says(0, 100), 0, 0);
     recorder.step({Tick{200}, +1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
@@ -38,7 +38,7 @@ TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
 }
 
 TEST_F(TheRecord, BeginsWhereADeviceStandsThatRanBefore) {
-    recorder.loop(says(400, 100), 0);
+    recorder.loop(says(400, 100), 0, 0);
     recorder.step({Tick{200}, -1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
@@ -49,7 +49,7 @@ TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
     recorder.step({Tick{80}, +1});
     recorder.step({Tick{90}, +1});
     recorder.step({Tick{101}, +1});  // after the look at the device
-    recorder.loop(says(400, 100), 0);
+    recorder.loop(says(400, 100), 0, 0);
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
     EXPECT_EQ(sink.batches[0].position_before, 398);
@@ -57,13 +57,26 @@ TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
 }
 
 TEST_F(TheRecord, JumpsWhereTheAxisIsZeroed) {
-    recorder.loop(says(0, 100), 0);
+    recorder.loop(says(0, 100), 0, 0);
     recorder.step({Tick{200}, -1});
-    recorder.loop({}, -81);
+    recorder.loop({}, -81, 0);
     recorder.step({Tick{400}, +1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 2U);
     EXPECT_EQ(sink.batches[1].position_before, 80);
+}
+
+TEST_F(TheRecord, SaysWhereStepsLackTheirTimes) {
+    recorder.loop(says(0, 100), 0, 0);
+    recorder.step({Tick{200}, +1});
+    recorder.loop(says(1, 210), 0, 3);  // three more were made, and their times not kept
+    recorder.step({Tick{400}, +1});
+    recorder.loop(says(5, 410), 0, 3);
+    recorder.finish();
+    ASSERT_EQ(sink.batches.size(), 2U);
+    EXPECT_EQ(sink.batches[0].position_before + sink.batches[0].count, 1);
+    EXPECT_EQ(sink.batches[1].position_before, 4) << "not 1: a reader sees that the count jumps";
+    EXPECT_EQ(sink.batches[1].sequence, 1) << "no message is missing";
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <random>
+
 #include "clients/replay/device_replay.hpp"
 #include "clients/replay/replay.hpp"
 #include "clients/verification/verification.hpp"
@@ -146,6 +149,29 @@ TEST_F(ARecordedRun, WithoutItsFirstFramesIsSaidToLackThem) {
     const Findings findings = replay(altered);
     ASSERT_TRUE(findings.difference);
     EXPECT_THAT(findings.difference->text, HasSubstr("the record of runs 0 to 2 are not in the log"));
+}
+
+/// Numbers that were damaged where their message still decodes: the verdict may be either, but there is one.
+TEST_F(ARecordedRun, WithAnyNumbersInItIsJudgedToItsEnd) {
+    const test::AlteredLog whole(log());
+    std::mt19937_64 random(11);
+    for (int round = 0; round < 100; ++round) {
+        test::AlteredLog altered = whole;
+        altered.change<run_t>("_RUN", [&](run_t& run) {
+            if (random() % 20 != 0 || run.pieces == 0) { return false; }
+            const std::size_t piece = random() % run.ticks.size();
+            std::int64_t* const numbers[] = {&run.start_tick,   &run.start_count,     &run.start_phase,
+                                             &run.stop_count,   &run.zero_count,      &run.sequence,
+                                             &run.frame,        &run.incarnation,     &run.epoch,
+                                             &run.ticks[piece], &run.velocity[piece], &run.acceleration[piece]};
+            *numbers[random() % std::size(numbers)] ^= std::int64_t{1} << random() % 64;
+            run.cut = static_cast<std::int8_t>(random() % 2);
+            return true;
+        });
+        const auto findings = replay_log(altered.write(test::test_directory() / "altered.lcm"), nullptr);
+        ASSERT_TRUE(findings || !findings.error().empty());
+        ASSERT_TRUE(!findings || !findings->difference || !findings->difference->text.empty()) << "round " << round;
+    }
 }
 
 TEST(ADevice, CannotBePoweredUpInMotionSoWhatBeginsInItIsPassedOver) {

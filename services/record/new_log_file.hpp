@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "services/documents/unfinished_file.hpp"
 #include "services/record/sinks.hpp"
 
 namespace lockstep {
@@ -16,20 +17,14 @@ public:
     /// remedy.
     static std::expected<NewLogFile, std::string> begin(const std::filesystem::path& path, bool force);
 
-    NewLogFile(NewLogFile&& other) noexcept;
-    NewLogFile& operator=(NewLogFile&&) = delete;
-    /// What was not kept is gone.
-    ~NewLogFile();
-
     RecordSink& sink() { return *sink_; }
     /// The log stands under its name now. Error: the disk is full or gone.
     std::expected<void, std::string> keep();
 
 private:
-    NewLogFile(std::filesystem::path path, std::filesystem::path unfinished, LogWriter writer);
+    NewLogFile(UnfinishedFile file, LogWriter writer);
 
-    std::filesystem::path path_;
-    std::filesystem::path unfinished_;  // empty: nothing to clear away
+    UnfinishedFile file_;
     std::unique_ptr<LogSink> sink_;
 };
 

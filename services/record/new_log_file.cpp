@@ -1,6 +1,4 @@
-#include "clients/simulation/new_log_file.hpp"
-
-#include <unistd.h>
+#include "services/record/new_log_file.hpp"
 
 #include <system_error>
 #include <utility>
@@ -28,34 +26,24 @@ std::string obstacle(const std::filesystem::path& path, bool force) {
 
 }  // namespace
 
-NewLogFile::NewLogFile(std::filesystem::path path, std::filesystem::path unfinished, LogWriter writer)
-    : path_(std::move(path)), unfinished_(std::move(unfinished)), sink_(std::make_unique<LogSink>(std::move(writer))) {}
-
-NewLogFile::NewLogFile(NewLogFile&& other) noexcept
-    : path_(std::move(other.path_)), unfinished_(std::exchange(other.unfinished_, {})), sink_(std::move(other.sink_)) {}
-
-NewLogFile::~NewLogFile() {
-    std::error_code ignored;
-    if (!unfinished_.empty()) { std::filesystem::remove(unfinished_, ignored); }
-}
+NewLogFile::NewLogFile(UnfinishedFile file, LogWriter writer)
+    : file_(std::move(file)), sink_(std::make_unique<LogSink>(std::move(writer))) {}
 
 std::expected<NewLogFile, std::string> NewLogFile::begin(const std::filesystem::path& path, bool force) {
     if (const std::string why_not = obstacle(path, force); !why_not.empty()) {
         return std::unexpected(path.string() + ": " + why_not);
     }
-    const std::filesystem::path unfinished = path.string() + ".unfinished-" + std::to_string(::getpid());
-    auto writer = LogWriter::open(unfinished);
+    UnfinishedFile file(path);
+    auto writer = LogWriter::open(file.unfinished());
     if (!writer) { return std::unexpected(writer.error()); }
-    return NewLogFile(path, unfinished, std::move(*writer));
+    return NewLogFile(std::move(file), std::move(*writer));
 }
 
 std::expected<void, std::string> NewLogFile::keep() {
-    if (!sink_->finish()) { return std::unexpected(path_.string() + ": cannot be written whole: is the disk full?"); }
-    std::error_code error;
-    std::filesystem::rename(unfinished_, path_, error);
-    if (error) { return std::unexpected(path_.string() + ": cannot be written: " + error.message()); }
-    unfinished_.clear();
-    return {};
+    if (!sink_->finish()) {
+        return std::unexpected(file_.path().string() + ": cannot be written whole: is the disk full?");
+    }
+    return file_.keep();
 }
 
 }  // namespace lockstep

@@ -1,0 +1,58 @@
+// One table for the whole log, as PlotJuggler and spreadsheets open it: a row for each instant at which something was
+// said, time_s first, then one column for each signal ("mill/X/position_mm"); empty where nothing was said then.
+// time_s counts from the first sample of the log and rises strictly from row to row.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "clients/analysis/csv.hpp"
+#include "clients/export/sample_writer.hpp"
+
+namespace lockstep::exporting {
+
+/// The columns there will be, found in a first reading of the log.
+class Columns {
+public:
+    static constexpr std::size_t kMaxTopics = 1024;
+
+    void add(const Sample& sample);
+    std::string header() const;
+    std::size_t count() const { return names_.size(); }
+    /// The first column of a topic; none: it was not added.
+    std::optional<std::size_t> of(const Topic& topic) const;
+    /// Of the first sample.
+    std::int64_t utime_begin() const { return utime_begin_.value_or(0); }
+
+private:
+    std::map<Topic, std::size_t> first_;
+    std::vector<std::string> names_;
+    std::optional<std::int64_t> utime_begin_;
+};
+
+class CsvTable final : public SampleWriter {
+public:
+    /// Samples may come so much later than others of their time; what comes later still is left out.
+    static constexpr std::int64_t kPatience_us = 2'000'000;
+    static constexpr std::size_t kMaxRowsHeld = 1 << 16;
+
+    CsvTable(Columns columns, analysis::CsvFile file) : columns_(std::move(columns)), file_(std::move(file)) {}
+
+    void write(const Sample& sample) override;
+    std::expected<void, std::string> close() override;
+    std::int64_t left_out() const override { return left_out_; }
+
+private:
+    using Row = std::map<std::size_t, Value>;  // by column
+    void write_first_row();
+
+    Columns columns_;
+    analysis::CsvFile file_;
+    std::map<std::int64_t, Row> rows_;  // by utime
+    std::optional<std::int64_t> written_up_to_;
+    std::int64_t left_out_ = 0;
+};
+
+}  // namespace lockstep::exporting

@@ -1,0 +1,82 @@
+#include "clients/export/export.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "clients/analysis/log_read.hpp"
+#include "clients/analysis/log_step.hpp"
+#include "clients/export/csv_table.hpp"
+#include "clients/export/mcap_file.hpp"
+#include "services/documents/unfinished_file.hpp"
+
+namespace lockstep::exporting {
+namespace {
+
+using analysis::LogPlace;
+
+/// Every message that is exported, as a sample.
+class Samples final : public analysis::LogListener {
+public:
+    using OnSample = std::function<void(const Sample&)>;
+    explicit Samples(OnSample on_sample) : on_sample_(std::move(on_sample)) {}
+
+    void on_steps(const step_batch_t& /*message*/, LogPlace /*place*/) override {}
+    void on_run(const run_t& /*message*/, LogPlace /*place*/) override {}
+    void on_position(const axis_position_t& message, LogPlace /*place*/) override { take(message); }
+    void on_health(const axis_health_t& message, LogPlace /*place*/) override { take(message); }
+    void on_job(const job_t& message, LogPlace /*place*/) override { take(message); }
+    void on_foreign(std::string_view /*channel*/) override {}
+    void on_damage(LogPlace /*place*/, std::string /*what*/) override { ++damages_; }
+
+    std::int64_t samples() const { return samples_; }
+    std::int64_t damages() const { return damages_; }
+
+private:
+    void take(const auto& message) {
+        if (!analysis::is_countable(message.utime)) {
+            ++damages_;
+            return;
+        }
+        ++samples_;
+        on_sample_(sample_of(message));
+    }
+
+    OnSample on_sample_;
+    std::int64_t samples_ = 0;
+    std::int64_t damages_ = 0;
+};
+
+std::expected<std::unique_ptr<SampleWriter>, std::string> open_csv(const std::filesystem::path& log,
+                                                                   const std::filesystem::path& to) {
+    Columns columns;
+    Samples names([&](const Sample& sample) { columns.add(sample); });
+    if (const auto read = analysis::read_log(log, names); !read) { return std::unexpected(read.error()); }
+    auto file = analysis::CsvFile::create(to, columns.header());
+    if (!file) { return std::unexpected(file.error()); }
+    return std::make_unique<CsvTable>(std::move(columns), std::move(*file));
+}
+
+std::expected<std::unique_ptr<SampleWriter>, std::string> open_mcap(const std::filesystem::path& to) {
+    auto file = McapFile::create(to);
+    if (!file) { return std::unexpected(file.error()); }
+    return std::make_unique<McapFile>(std::move(*file));
+}
+
+}  // namespace
+
+std::expected<Exported, std::string> export_log(const std::filesystem::path& log, const std::filesystem::path& to,
+                                                Format format, const std::function<void(double)>& progress) {
+    UnfinishedFile file(to);
+    auto writer = format == Format::Csv ? open_csv(log, file.unfinished()) : open_mcap(file.unfinished());
+    if (!writer) { return std::unexpected(writer.error()); }
+    Samples samples([&](const Sample& sample) { (*writer)->write(sample); });
+    if (const auto read = analysis::read_log(log, samples, progress); !read) { return std::unexpected(read.error()); }
+    if (samples.samples() == 0) {
+        return std::unexpected(log.string() + ": no position, no health and no job is in it that could be exported");
+    }
+    if (const auto closed = (*writer)->close(); !closed) { return std::unexpected(closed.error()); }
+    if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }
+    return Exported{samples.samples(), (*writer)->left_out(), samples.damages()};
+}
+
+}  // namespace lockstep::exporting

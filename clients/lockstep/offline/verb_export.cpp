@@ -1,0 +1,99 @@
+// lockstep export
+#include <filesystem>
+#include <memory>
+
+#include "clients/export/export.hpp"
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+namespace {
+
+using exporting::Exported;
+using exporting::Format;
+
+struct ExportOptions {
+    std::string log;
+    std::string format = "csv";
+    std::string out;
+    bool force = false;
+    bool json = false;
+};
+
+std::string place_of(const ExportOptions& options) {
+    if (!options.out.empty()) { return options.out; }
+    return std::filesystem::path(options.log).replace_extension(options.format).string();
+}
+
+proto::ExportReport to_report(const Exported& exported, const ExportOptions& options) {
+    proto::ExportReport report;
+    report.set_file(place_of(options));
+    report.set_format(options.format);
+    report.set_samples(exported.samples);
+    report.set_left_out(exported.left_out);
+    report.set_damages(exported.damages);
+    return report;
+}
+
+void warn_of_losses(const Exported& exported, Voice& voice) {
+    if (exported.left_out > 0) {
+        voice.warn(std::to_string(exported.left_out) +
+                   " samples are left out: they came more than 2 s after others of their time, or of too many axes");
+    }
+    if (exported.damages > 0) {
+        voice.warn(std::to_string(exported.damages) + " places in the log cannot be read; see: lockstep analyze");
+    }
+}
+
+ExitCode export_verb(const ExportOptions& options) {
+    Voice voice(options.json);
+    const std::filesystem::path to = place_of(options);
+    std::error_code ignored;
+    if (std::filesystem::exists(to, ignored) && !options.force) {
+        return voice.fail(bad_input(to.string() + ": is there already; name another with --out, or say --force"));
+    }
+    if (std::filesystem::equivalent(options.log, to, ignored)) {
+        return voice.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
+    }
+    std::function<void(double)> progress;
+    if (voice.is_terminal()) {
+        progress = [&](double done) { voice.progress("exporting " + fixed(done * 100, 0) + " %"); };
+    }
+    const auto exported =
+        exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap, progress);
+    if (!exported) { return voice.fail(bad_input(exported.error())); }
+    voice.say(to.string() + ": " + std::to_string(exported->samples) + " samples");
+    warn_of_losses(*exported, voice);
+    voice.report(to_report(*exported, options));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("export",
+                                        "write a log's positions, states, health and jobs as PlotJuggler and Foxglove "
+                                        "open them");
+    const auto options = std::make_shared<ExportOptions>();
+    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
+    verb->add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")
+        ->check(CLI::IsMember({"csv", "mcap"}))
+        ->capture_default_str();
+    verb->add_option("--out", options->out, "the file to write; beside the log unless given");
+    verb->add_flag("--force", options->force, "replace a file that is there");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb->footer(
+        "csv: one table; time_s first, from the log's first sample on, then a column for each signal with its unit in\n"
+        "its name, as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state, mill/X/fault; empty where nothing was\n"
+        "said at that time. In PlotJuggler: load the file, take time_s as time.\n"
+        "mcap: a topic for each axis and kind, as /mill/X/position; messages as JSON with the same names.\n"
+        "Every step's tick: lockstep analyze LOG --csv DIR.\n"
+        "Exit 0: written. 2: no log, nothing in it to export, or the file cannot be written.\n" +
+        footer("  lockstep export plate.lcm\n  lockstep export plate.lcm --format mcap --out plate.mcap\n"));
+    verb->callback([&action, options] { action = [options] { return export_verb(*options); }; });
+}
+
+}  // namespace lockstep

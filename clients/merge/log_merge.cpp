@@ -1,0 +1,154 @@
+#include "clients/merge/log_merge.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "clients/merge/written_lately.hpp"
+
+namespace lockstep::merge {
+namespace {
+
+constexpr std::uint64_t kMessagesPerProgress = 4096;
+constexpr std::int64_t kWindowsRemembered = 4;
+
+using Failure = std::unexpected<std::string>;
+
+class Merger {
+public:
+    Merger(const MergeOptions& options, RecordSink& to)
+        : options_(options), to_(to), lately_(options.window_us * kWindowsRemembered) {}
+
+    std::expected<void, std::string> open() {
+        for (const auto& path : options_.logs) {
+            auto input = MergeInput::open(path);
+            if (!input) { return Failure(input.error()); }
+            merged_.inputs.push_back({.log = path});
+            inputs_.push_back(std::move(*input));
+        }
+        const auto holds_something = [](const MergeInput& input) { return input.begins_utime().has_value(); };
+        if (std::ranges::any_of(inputs_, holds_something)) {
+            sort_waiting();
+            return {};
+        }
+        return Failure("no message of a record in " + options_.logs.front().string() +
+                       (options_.logs.size() > 1 ? " and the others" : "") + ": are they LCM logs of a machine?");
+    }
+
+    std::expected<void, std::string> run() {
+        while (true) {
+            if (const auto begun = begin_due(); !begun) { return begun; }
+            const std::size_t next = lowest();
+            if (next == inputs_.size()) { return {}; }
+            const HeldMessage message = inputs_[next].take();
+            if (const auto filled = fill(next); !filled) { return filled; }
+            write(next, message);
+            if (options_.progress && ++steps_ % kMessagesPerProgress == 0) { options_.progress(share_read()); }
+        }
+    }
+
+    Merged finish() {
+        for (std::size_t i = 0; i < inputs_.size(); ++i) {
+            merged_.inputs[i].messages = inputs_[i].messages();
+            merged_.inputs[i].damages = inputs_[i].damages();
+        }
+        merged_.axes = missing_.finish();
+        return std::move(merged_);
+    }
+
+private:
+    /// Logs that begin later than all that is held are not open yet: of a log in many files, only those in progress
+    /// are.
+    std::expected<void, std::string> begin_due() {
+        while (!waiting_.empty()) {
+            const std::size_t first = lowest();
+            const bool is_due = first == inputs_.size() ||
+                                begins(waiting_.back()) <= inputs_[first].front()->id.utime + options_.window_us;
+            if (!is_due) { return {}; }
+            if (const auto filled = fill(waiting_.back()); !filled) { return filled; }
+            waiting_.pop_back();
+        }
+        return {};
+    }
+
+    void sort_waiting() {
+        for (std::size_t i = 0; i < inputs_.size(); ++i) { waiting_.push_back(i); }
+        std::ranges::sort(waiting_, std::greater{}, [this](std::size_t i) { return begins(i); });
+    }
+
+    std::expected<void, std::string> fill(std::size_t i) {
+        std::uint64_t others = 0;
+        for (const MergeInput& input : inputs_) { others += &input == &inputs_[i] ? 0 : input.bytes_held(); }
+        return inputs_[i].fill(options_.window_us, kMostBytesHeld - std::min(kMostBytesHeld, others));
+    }
+
+    /// A log that holds nothing is looked at first: what is wrong with it is worth knowing.
+    std::int64_t begins(std::size_t i) const {
+        return inputs_[i].begins_utime().value_or(std::numeric_limits<std::int64_t>::min());
+    }
+
+    /// The input whose next message is the first of all; as many as there are inputs: none has one.
+    std::size_t lowest() const {
+        std::size_t lowest = inputs_.size();
+        for (std::size_t i = 0; i < inputs_.size(); ++i) {
+            const HeldMessage* front = inputs_[i].front();
+            if (front != nullptr && (lowest == inputs_.size() || front->id < inputs_[lowest].front()->id)) {
+                lowest = i;
+            }
+        }
+        return lowest;
+    }
+
+    void write(std::size_t from, const HeldMessage& message) {
+        if (!message.is_foreign && !is_new(message)) { return; }
+        merged_.late += message.id.utime < written_utime_ ? 1 : 0;
+        written_utime_ = std::max(written_utime_, message.id.utime);
+        to_.write(message.id.channel, message.id.utime, message.data);
+        missing_.take(message.id, message.data);
+        merged_.foreign += message.is_foreign ? 1 : 0;
+        ++merged_.messages;
+        ++merged_.inputs[from].kept;
+    }
+
+    bool is_new(const HeldMessage& message) {
+        const bool is_new_number = missing_.is_new(message.id);
+        const bool is_new_content = lately_.add(message);
+        const bool is_new = message.id.number ? is_new_number : is_new_content;
+        merged_.duplicates += is_new ? 0 : 1;
+        const bool is_remembered = message.id.utime > written_utime_ - options_.window_us * kWindowsRemembered;
+        merged_.differing += !is_new && is_new_content && is_remembered ? 1 : 0;
+        return is_new;
+    }
+
+    double share_read() const {
+        double read = 0;
+        double all = 1;
+        for (const MergeInput& input : inputs_) {
+            read += static_cast<double>(input.bytes_read());
+            all += static_cast<double>(input.file_bytes());
+        }
+        return read / all;
+    }
+
+    const MergeOptions& options_;
+    RecordSink& to_;
+    std::vector<MergeInput> inputs_;
+    std::vector<std::size_t> waiting_;  // inputs not begun, the first to begin last
+    MissingWatch missing_;
+    WrittenLately lately_;
+    Merged merged_;
+    std::int64_t written_utime_ = std::numeric_limits<std::int64_t>::min();
+    std::uint64_t steps_ = 0;
+};
+
+}  // namespace
+
+bool Merged::is_complete() const { return std::ranges::all_of(axes, &AxisRecord::is_complete); }
+
+std::expected<Merged, std::string> merge_logs(const MergeOptions& options, RecordSink& to) {
+    Merger merger(options, to);
+    if (const auto opened = merger.open(); !opened) { return Failure(opened.error()); }
+    if (const auto run = merger.run(); !run) { return Failure(run.error()); }
+    return merger.finish();
+}
+
+}  // namespace lockstep::merge

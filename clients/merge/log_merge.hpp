@@ -1,0 +1,53 @@
+// Several logs of the same machine made one: every message that any of them has, once, in the order of machine time.
+//
+// Steps and runs are told apart by channel, process and sequence number; positions, figures and jobs by their time and
+// content. Messages of channels that are not of the record are kept from each log, at the time of the message before.
+// Memory is bounded by the window, kMostBytesHeld, and a few bytes for each gap in the sequence numbers.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "clients/merge/merge_input.hpp"
+#include "clients/merge/missing.hpp"
+#include "services/record/record_sink.hpp"
+
+namespace lockstep::merge {
+
+/// A run is recorded when it has ended, with the time of its start: frames are shorter than this.
+inline constexpr std::int64_t kWindow_us = 2'000'000;
+inline constexpr std::uint64_t kMostBytesHeld = 256 << 20;  // of all logs together; beyond it the window shrinks
+
+struct MergeOptions {
+    std::vector<std::filesystem::path> logs;
+    std::int64_t window_us = kWindow_us;
+    std::function<void(double)> progress;  // 0 ... 1, now and then
+};
+
+struct MergedInput {
+    std::filesystem::path log;
+    std::uint64_t messages = 0;
+    std::uint64_t kept = 0;  // that were not in a log before
+    std::vector<analysis::Damage> damages;
+};
+
+struct Merged {
+    std::vector<MergedInput> inputs;
+    std::uint64_t messages = 0;    // written
+    std::uint64_t duplicates = 0;  // left out
+    std::uint64_t differing = 0;   // of those: with the number, but not the content, of one written
+    std::uint64_t late = 0;        // written behind younger ones: later than the window
+    std::uint64_t foreign = 0;     // written, of channels that are not of the record
+    std::vector<AxisRecord> axes;
+
+    bool is_complete() const;
+};
+
+/// The error is a sentence for the user: a log cannot be read, or none holds a message of the record.
+std::expected<Merged, std::string> merge_logs(const MergeOptions& options, RecordSink& to);
+
+}  // namespace lockstep::merge

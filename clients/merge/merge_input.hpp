@@ -1,0 +1,75 @@
+// One log to be merged, read a little ahead of what is taken from it, so that it comes out in the order of machine
+// time.
+//
+// A log is nearly in order: a message is at most so late that one which is `window_us` younger has not been read before
+// it. What is later still comes out late.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/damage.hpp"
+#include "clients/merge/message_id.hpp"
+#include "services/wire/lcm_log.hpp"
+
+namespace lockstep::merge {
+
+struct HeldMessage {
+    MessageId id;               // of a foreign channel: the time of the record's message before it
+    std::uint64_t arrival = 0;  // its place among the input's messages
+    bool is_foreign = false;
+    std::vector<std::uint8_t> data;
+
+    friend bool operator<(const HeldMessage& a, const HeldMessage& b) {
+        return std::tie(a.id, a.arrival) < std::tie(b.id, b.arrival);
+    }
+};
+
+class MergeInput {
+public:
+    /// Error: the file cannot be read; the text names it and says why.
+    static std::expected<MergeInput, std::string> open(const std::filesystem::path& path);
+
+    const std::filesystem::path& path() const { return path_; }
+    std::uint64_t file_bytes() const { return file_bytes_; }
+    std::uint64_t bytes_read() const { return bytes_read_; }
+    std::uint64_t bytes_held() const { return bytes_held_; }
+    std::uint64_t messages() const { return messages_; }
+    /// By reason; whole once the input is at its end.
+    const std::vector<analysis::Damage>& damages() const { return damages_; }
+
+    /// Of its first message of the record; none where it holds none. The file is open only from the first fill on.
+    std::optional<std::int64_t> begins_utime() const { return begins_utime_; }
+
+    /// Reads until the window is full, or `most_bytes` are held, or the log ends. Error: reading failed.
+    std::expected<void, std::string> fill(std::int64_t window_us, std::uint64_t most_bytes);
+    /// The next to be taken; null: none is left.
+    const HeldMessage* front() const { return held_.empty() ? nullptr : &*held_.begin(); }
+    HeldMessage take();
+
+private:
+    explicit MergeInput(std::filesystem::path path) : path_(std::move(path)) {}
+    std::expected<void, std::string> find_beginning();
+    void hold(const LogEvent& event);
+    void end();
+
+    std::filesystem::path path_;
+    std::uint64_t file_bytes_ = 0;
+    std::optional<std::int64_t> begins_utime_;
+    std::optional<LogReader> reader_;  // none: not begun, or at its end
+    bool has_ended_ = false;
+    std::set<HeldMessage> held_;
+    std::uint64_t bytes_held_ = 0;
+    std::uint64_t bytes_read_ = 0;
+    std::uint64_t messages_ = 0;
+    std::int64_t latest_utime_ = 0;  // of the record's message read last
+    std::int64_t newest_utime_ = 0;  // of all read
+    std::vector<analysis::Damage> damages_;
+};
+
+}  // namespace lockstep::merge

@@ -1,0 +1,45 @@
+#include "clients/merge/message_id.hpp"
+
+#include "clients/analysis/log_step.hpp"
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm_decode.hpp"
+
+namespace lockstep::merge {
+namespace {
+
+using Identified = std::expected<std::optional<MessageId>, std::string>;
+
+template <typename Message>
+Identified identify_as(const LogEvent& event) {
+    const auto message = decode_lcm<Message>(event.data);
+    if (!message) { return std::unexpected(message.error() + " on " + std::string(event.channel)); }
+    MessageId id{.utime = message->utime, .channel = std::string(event.channel), .number = {}};
+    if constexpr (requires { message->sequence; }) {
+        id.number = MessageNumber{message->incarnation, message->sequence};
+        if (message->sequence < 0 || !analysis::is_countable(message->sequence)) {
+            return std::unexpected("a message with a number that no axis counts to");
+        }
+    }
+    if constexpr (std::is_same_v<Message, step_batch_t>) {
+        if (const auto batch = analysis::to_batch(*message); !batch) { return std::unexpected(batch.error()); }
+    }
+    if (!analysis::is_countable(id.utime)) { return std::unexpected("a message of a time that no machine counts to"); }
+    return id;
+}
+
+}  // namespace
+
+std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& event) {
+    switch (kind_of(event.channel)) {
+        case RecordKind::Steps: return identify_as<step_batch_t>(event);
+        case RecordKind::Position: return identify_as<axis_position_t>(event);
+        case RecordKind::Health: return identify_as<axis_health_t>(event);
+        case RecordKind::Run: return identify_as<run_t>(event);
+        case RecordKind::Job: return identify_as<job_t>(event);
+        case RecordKind::Loss: return identify_as<record_loss_t>(event);
+        case RecordKind::Foreign: break;
+    }
+    return std::nullopt;
+}
+
+}  // namespace lockstep::merge

@@ -1,0 +1,32 @@
+// What tells a message of the record from every other, and where it belongs among them.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+
+#include "services/wire/lcm_log.hpp"
+
+namespace lockstep::merge {
+
+/// Of steps and runs, which are numbered without gaps from 0 on.
+struct MessageNumber {
+    std::int64_t incarnation = 0;  // of the axis's process
+    std::int64_t sequence = 0;
+    auto operator<=>(const MessageNumber&) const = default;
+};
+
+/// Orders messages by machine time, and those of the same microsecond by channel and number.
+struct MessageId {
+    std::int64_t utime = 0;  // microseconds of machine time
+    std::string channel;
+    std::optional<MessageNumber> number;
+    auto operator<=>(const MessageId&) const = default;
+};
+
+/// None: the channel is not of the record. Error: why the message cannot be one.
+std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& event);
+
+}  // namespace lockstep::merge

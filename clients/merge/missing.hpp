@@ -1,0 +1,75 @@
+// What is missing of a record, found out as it goes by: steps and runs, by the numbers of their messages.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clients/analysis/step_stream.hpp"
+#include "clients/merge/message_id.hpp"
+#include "clients/merge/number_set.hpp"
+
+namespace lockstep::merge {
+
+/// Steps that are in no log: those after the step at from_tick, which led to from_step, up to the one at to_tick,
+/// before which the axis stood at to_step. Ticks of machine time; steps in machine coordinates. Where from_* are none,
+/// the log lacks what the axis did first.
+struct MissingSteps {
+    std::string axis;
+    std::int64_t messages = 0;
+    std::optional<std::int64_t> from_step;
+    std::optional<Tick> from_tick;
+    std::optional<std::int64_t> to_step;
+    std::optional<Tick> to_tick;
+};
+
+/// Frames and tails of which no log tells.
+struct MissingRuns {
+    std::string axis;
+    std::int64_t incarnation = 0;  // of the axis's process
+    Numbers numbers;
+};
+
+/// What there is of one axis. Its name is that of its channel where logs of several machines are merged.
+struct AxisRecord {
+    std::string machine;
+    std::string axis;
+    std::int64_t steps = 0;
+    std::int64_t step_messages = 0;
+    std::int64_t runs = 0;
+    std::vector<MissingSteps> missing_steps;  // the first kListed
+    std::vector<MissingRuns> missing_runs;    // the first kListed
+    std::int64_t missing_step_messages = 0;
+    std::int64_t missing_run_messages = 0;
+
+    bool is_complete() const { return missing_step_messages == 0 && missing_run_messages == 0; }
+};
+
+class MissingWatch {
+public:
+    static constexpr std::size_t kListed = 1000;  // of each axis; all are counted
+
+    MissingWatch();
+    ~MissingWatch();
+
+    /// Whether it has not come before; what has no number never has. Messages of a channel come nearly in order.
+    bool is_new(const MessageId& id);
+    /// To be told of each message that is new.
+    void take(const MessageId& id, const std::vector<std::uint8_t>& data);
+    /// By axis. Call once, at the end.
+    std::vector<AxisRecord> finish();
+
+private:
+    class Axis;
+    Axis& axis(const std::string& machine, const std::string& name);
+
+    std::map<std::pair<std::string, std::int64_t>, NumberSet> seen_;             // by channel and incarnation
+    std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
+    std::map<std::pair<std::string, std::int64_t>, Axis*> runs_;                 // whose runs a channel has
+};
+
+}  // namespace lockstep::merge

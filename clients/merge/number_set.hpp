@@ -1,0 +1,50 @@
+// Which of the numbers 0, 1, 2, ... have come: as stretches, since nearly all do, and nearly in order.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <vector>
+
+namespace lockstep::merge {
+
+/// From `from` up to `end`, which is not among them.
+struct Numbers {
+    std::int64_t from = 0;
+    std::int64_t end = 0;
+    bool operator==(const Numbers&) const = default;
+};
+
+class NumberSet {
+public:
+    /// False: it had come already.
+    bool add(std::int64_t number) {
+        auto after = ends_.upper_bound(number);
+        const bool follows = after != ends_.begin() && std::prev(after)->second >= number;
+        if (follows && std::prev(after)->second > number) { return false; }
+        const auto stretch = follows ? std::prev(after) : ends_.emplace_hint(after, number, number);
+        stretch->second = number + 1;
+        if (after != ends_.end() && after->first == number + 1) {
+            stretch->second = after->second;
+            ends_.erase(after);
+        }
+        return true;
+    }
+
+    /// Those that are missing between 0 and the highest that came.
+    std::vector<Numbers> gaps() const {
+        std::vector<Numbers> out;
+        std::int64_t expected = 0;
+        for (const auto& [from, end] : ends_) {
+            if (from > expected) { out.push_back({expected, from}); }
+            expected = end;
+        }
+        return out;
+    }
+
+private:
+    std::map<std::int64_t, std::int64_t> ends_;  // of each stretch, by where it begins
+};
+
+}  // namespace lockstep::merge

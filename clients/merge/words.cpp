@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include "clients/analysis/numbers.hpp"
+#include "clients/merge/report.hpp"
+
+namespace lockstep::merge {
+namespace {
+
+using analysis::grouped;
+using analysis::plural;
+
+constexpr std::size_t kLinesOfAnAxis = 10;  // --json has more
+
+std::string place(const std::optional<std::int64_t>& step, const std::optional<Tick>& tick, const char* otherwise) {
+    if (!step && !tick) { return otherwise; }
+    return (step ? "step " + grouped(*step) : std::string("the log's first step")) +
+           (tick ? " at tick " + grouped(tick->value) : "");
+}
+
+std::string line_of(const MissingSteps& missing) {
+    return fmt::format("  {} missing: {}, from {} to {}\n", missing.axis,
+                       plural(missing.messages, "message") + " of steps",
+                       place(missing.from_step, missing.from_tick, "the axis's first step"),
+                       place(missing.to_step, missing.to_tick, "the log's end"));
+}
+
+std::string line_of(const MissingRuns& missing) {
+    return fmt::format("  {} missing: runs {} to {}\n", missing.axis, missing.numbers.from, missing.numbers.end - 1);
+}
+
+template <typename Missing>
+std::string lines_of(const std::vector<Missing>& all) {
+    std::string text;
+    for (std::size_t i = 0; i < all.size() && i < kLinesOfAnAxis; ++i) { text += line_of(all[i]); }
+    if (all.size() > kLinesOfAnAxis) {
+        text += fmt::format("  and {} more such places\n", all.size() - kLinesOfAnAxis);
+    }
+    return text;
+}
+
+std::string inputs_table(const Merged& merged) {
+    std::string text = fmt::format("{:>12} {:>12}  log\n", "messages", "new in it");
+    for (const MergedInput& input : merged.inputs) {
+        text += fmt::format("{:>12} {:>12}  {}\n", grouped(static_cast<std::int64_t>(input.messages)),
+                            grouped(static_cast<std::int64_t>(input.kept)), input.log.string());
+        for (const analysis::Damage& damage : input.damages) {
+            text += "  " + analysis::damage_sentence(damage) + "\n";
+        }
+    }
+    return text;
+}
+
+std::string axes_table(const Merged& merged) {
+    std::string text = fmt::format("{:<16} {:>14} {:>10} {:>20}\n", "axis", "steps", "runs", "messages missing");
+    for (const AxisRecord& axis : merged.axes) {
+        text += fmt::format("{:<16} {:>14} {:>10} {:>20}\n", axis.axis, grouped(axis.steps), grouped(axis.runs),
+                            grouped(axis.missing_step_messages + axis.missing_run_messages));
+        text += lines_of(axis.missing_steps) + lines_of(axis.missing_runs);
+    }
+    return text;
+}
+
+std::string oddities(const Merged& merged) {
+    const auto count = [](std::uint64_t number) { return plural(static_cast<std::int64_t>(number), "message"); };
+    std::string text;
+    if (merged.differing > 0) {
+        text += count(merged.differing) + " left out that had the number of another, but not its content\n";
+    }
+    if (merged.late > 0) { text += count(merged.late) + " later than the window: written behind younger ones\n"; }
+    if (merged.foreign > 0) { text += count(merged.foreign) + " of other channels, kept from each log\n"; }
+    return text;
+}
+
+}  // namespace
+
+std::string to_text(const Merged& merged, const std::filesystem::path& written) {
+    const std::string verdict = merged.is_complete() ? "complete: no step and no run is missing"
+                                                     : "incomplete: what is listed as missing is in none of the logs";
+    return inputs_table(merged) + "\n" + axes_table(merged) + "\n" + oddities(merged) +
+           fmt::format("{}: {} written, {} left out that came again\n{}\n", written.string(),
+                       plural(static_cast<std::int64_t>(merged.messages), "message"),
+                       grouped(static_cast<std::int64_t>(merged.duplicates)), verdict);
+}
+
+}  // namespace lockstep::merge

@@ -1,0 +1,47 @@
+#include "services/record/own_log.hpp"
+
+#include <lockstep/record_loss_t.hpp>
+
+#include "services/record/queued_sink.hpp"
+#include "services/record/rotating_log.hpp"
+#include "services/runtime/directories.hpp"
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/translate_lcm.hpp"
+
+namespace lockstep {
+namespace {
+
+QueuedSink::SayLoss loss_teller(const MachineConfig& machine, const std::string& axis) {
+    return [machine = machine.name, axis](RecordSink& log, const RecordLoss& loss) {
+        record_loss_t message{};
+        message.utime = loss.last_utime;
+        message.machine = machine;
+        message.axis = axis;
+        message.messages = static_cast<std::int64_t>(loss.messages);
+        message.first_utime = loss.first_utime;
+        log.publish(loss_channel(machine, axis), message);
+    };
+}
+
+}  // namespace
+
+std::filesystem::path own_log_directory(const MachineConfig& machine) {
+    return machine.record.directory.empty() ? record_directory(machine.name)
+                                            : std::filesystem::path(machine.record.directory);
+}
+
+std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const MachineConfig& machine,
+                                                                     const std::string& axis) {
+    constexpr std::uint64_t kBytesPerMB = 1'000'000;
+    auto log =
+        RotatingLog::open({.directory = own_log_directory(machine),
+                           .name = axis.empty() ? "coordinator" : "axis-" + axis,
+                           .limit_bytes = static_cast<std::uint64_t>(machine.record.size_limit_mb) * kBytesPerMB});
+    if (!log) {
+        return std::unexpected(log.error() +
+                               "; set record { directory } to one that can be written, or record { own_logs: false }");
+    }
+    return std::make_unique<QueuedSink>(std::make_unique<RotatingLog>(std::move(*log)), loss_teller(machine, axis));
+}
+
+}  // namespace lockstep

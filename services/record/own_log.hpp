@@ -1,0 +1,21 @@
+// The log that a process keeps by itself, on the board it runs on, as the machine's file has it (`record`).
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/machine.hpp"
+#include "services/record/record_sink.hpp"
+
+namespace lockstep {
+
+/// `axis` is empty for the coordinator. Error: the disk's, and the remedy.
+std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const MachineConfig& machine,
+                                                                     const std::string& axis);
+
+/// Where this host's processes of the machine keep theirs.
+std::filesystem::path own_log_directory(const MachineConfig& machine);
+
+}  // namespace lockstep

@@ -1,0 +1,143 @@
+#include "services/record/rotating_log.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NumberedFile {
+    std::uint64_t number = 0;
+    fs::path path;
+    std::uint64_t bytes = 0;
+};
+
+/// The number in NAME.NUMBER.lcm.
+std::optional<std::uint64_t> number_in(const std::string& file, const std::string& name) {
+    constexpr std::string_view kEnd = ".lcm";
+    if (!file.starts_with(name + ".") || !file.ends_with(kEnd)) { return std::nullopt; }
+    const char* const from = file.data() + name.size() + 1;
+    const char* const to = file.data() + file.size() - kEnd.size();
+    std::uint64_t number = 0;
+    const auto [end, error] = from < to ? std::from_chars(from, to, number) : std::from_chars_result{from, {}};
+    return from < to && end == to && error == std::errc{} ? std::optional(number) : std::nullopt;
+}
+
+/// The oldest first.
+std::vector<NumberedFile> files_of(const RotatingLog::Place& place) {
+    std::vector<NumberedFile> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(place.directory, error)) {
+        const auto number = number_in(entry.path().filename().string(), place.name);
+        std::error_code gone;
+        const std::uint64_t bytes = number ? entry.file_size(gone) : 0;
+        if (number && !gone) { files.push_back({*number, entry.path(), bytes}); }
+    }
+    std::ranges::sort(files, {}, &NumberedFile::number);
+    return files;
+}
+
+std::string file_name(const std::string& name, std::uint64_t number) {
+    char digits[24];
+    std::snprintf(digits, sizeof digits, "%06llu", static_cast<unsigned long long>(number));
+    return name + "." + digits + ".lcm";
+}
+
+/// The first free name from `number` on: two coordinators, one of them standing by, keep theirs side by side. Where no
+/// file can be made it is left to who opens it to say why.
+fs::path claim_file(const RotatingLog::Place& place, std::uint64_t number) {
+    constexpr std::uint64_t kMostRivals = 100;
+    fs::path path;
+    for (const std::uint64_t last = number + kMostRivals; number < last; ++number) {
+        path = place.directory / file_name(place.name, number);
+        std::FILE* const claimed = std::fopen(path.c_str(), "wx");
+        const bool is_taken = claimed == nullptr && errno == EEXIST;
+        if (claimed != nullptr) { std::fclose(claimed); }
+        if (!is_taken) { break; }
+    }
+    return path;
+}
+
+}  // namespace
+
+std::expected<RotatingLog, std::string> RotatingLog::open(Place place) {
+    std::error_code error;
+    fs::create_directories(place.directory, error);
+    if (error) { return std::unexpected("cannot make " + place.directory.string() + ": " + error.message()); }
+    RotatingLog log(std::move(place));
+    if (const auto begun = log.begin_file(); !begun) { return std::unexpected(begun.error()); }
+    return log;
+}
+
+std::expected<void, std::string> RotatingLog::begin_file() {
+    writer_.reset();
+    written_ = 0;
+    remove_oldest();
+    const auto files = files_of(place_);
+    auto writer = LogWriter::open(claim_file(place_, files.empty() ? 1 : files.back().number + 1));
+    if (!writer) { return std::unexpected(writer.error()); }
+    writer_.emplace(std::move(*writer));
+    return {};
+}
+
+/// Until a new file has room. Empty files, of processes that did not get far, count as if they held something: else
+/// there might come to be any number of them.
+void RotatingLog::remove_oldest() const {
+    constexpr std::uint64_t kLeastBytes = 4096;
+    const std::uint64_t room = place_.limit_bytes - place_.limit_bytes / kFiles;
+    auto files = files_of(place_);
+    std::uint64_t total = 0;
+    for (const NumberedFile& file : files) { total += std::max(file.bytes, kLeastBytes); }
+    for (auto file = files.begin(); file != files.end() && total > room; ++file) {
+        std::error_code ignored;
+        fs::remove(file->path, ignored);
+        total -= std::max(file->bytes, kLeastBytes);
+    }
+}
+
+/// A message larger than a whole file has one to itself.
+bool RotatingLog::has_room(std::uint64_t bytes) const {
+    return written_ == 0 || written_ + bytes <= place_.limit_bytes / kFiles;
+}
+
+bool RotatingLog::is_ready(std::int64_t utime, std::uint64_t bytes) {
+    if (writer_ && has_room(bytes)) { return true; }
+    if (writer_) {
+        flush();
+    } else if (utime < retry_utime_) {
+        return false;
+    }
+    if (begin_file()) { return true; }
+    give_up_file(utime);
+    return false;
+}
+
+void RotatingLog::give_up_file(std::int64_t utime) {
+    writer_.reset();
+    retry_utime_ = utime + kRetry_us;
+}
+
+void RotatingLog::write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
+    last_utime_ = utime;
+    const std::uint64_t size = LogWriter::event_bytes(channel, bytes);
+    if (is_ready(utime, size) && writer_->write(channel, utime, bytes)) {
+        written_ += size;
+        return;
+    }
+    ++failures_;
+    if (writer_) { give_up_file(utime); }
+}
+
+/// What then turns out not to fit is not known message by message: one failure is counted, and the file's end shows it.
+void RotatingLog::flush() {
+    if (!writer_ || writer_->flush()) { return; }
+    ++failures_;
+    give_up_file(last_utime_);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,17 @@
+// Where this host keeps what a machine's processes leave: what is gone with them, and what is to stay.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace lockstep {
+
+/// For what lasts as long as the processes: $LOCKSTEP_STATE where that is set; else /run/lockstep for root; else
+/// $XDG_RUNTIME_DIR/lockstep; else /tmp/lockstep-UID.
+std::filesystem::path state_root();
+
+/// For the logs that they keep by themselves: ROOT/MACHINE/record. ROOT is $LOCKSTEP_STATE where that is set; else
+/// /var/lib/lockstep for root; else $HOME/.local/state/lockstep; else /tmp/lockstep-UID.
+std::filesystem::path record_directory(const std::string& machine);
+
+}  // namespace lockstep

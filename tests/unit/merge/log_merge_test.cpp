@@ -1,0 +1,257 @@
+// Several logs that each lack something are one log that lacks nothing, or it is said what no log has.
+#include "clients/merge/log_merge.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "clients/merge/report.hpp"
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm_decode.hpp"
+#include "services/wire/translate_lcm.hpp"
+
+namespace lockstep::merge {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// What was written, as a log would have it.
+class Kept : public RecordSink {
+public:
+    void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
+        utimes.push_back(utime);
+        channels.push_back(channel);
+        if (kind_of(channel) == RecordKind::Steps) {
+            sequences[channel].push_back(decode_lcm<step_batch_t>(bytes)->sequence);
+        }
+    }
+    std::vector<std::int64_t> utimes;
+    std::vector<std::string> channels;
+    std::map<std::string, std::vector<std::int64_t>> sequences;
+};
+
+/// Axes X and Y: a message of ten steps each 10 ms, with a position between. Machine time is in us, and so are ticks.
+class Merge : public testing::Test {
+protected:
+    using Wanted = std::function<bool(std::int64_t sequence)>;
+    static constexpr std::int64_t kMessages = 300;
+
+    Merge() {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+    }
+    ~Merge() override { fs::remove_all(folder); }
+
+    static bool all(std::int64_t) { return true; }
+
+    static step_batch_t steps(const std::string& axis, std::int64_t sequence) {
+        step_batch_t message{};
+        message.utime = (sequence + 1) * 10'000;
+        message.machine = "mill";
+        message.axis = axis;
+        message.incarnation = 7;
+        message.sequence = sequence;
+        message.position_before = sequence * 10;
+        message.first_tick = sequence * 10'000 + 500;
+        message.count = 10;
+        message.delta_ticks.assign(10, 1000);
+        message.delta_ticks[0] = 0;
+        message.direction.assign(10, 1);
+        return message;
+    }
+    static void write_steps(LogWriter& log, const std::string& axis, std::int64_t sequence) {
+        const step_batch_t message = steps(axis, sequence);
+        log.write_message(channels_of("mill", axis).steps, message.utime, message);
+    }
+    static void write_position(LogWriter& log, const std::string& axis, std::int64_t utime) {
+        axis_position_t message{};
+        message.utime = message.tick = utime;
+        message.machine = "mill";
+        message.axis = axis;
+        log.write_message(channels_of("mill", axis).position, message.utime, message);
+    }
+
+    fs::path log(const std::string& name, const std::string& axes, const Wanted& wanted,
+                 std::int64_t end = kMessages) const {
+        auto writer = LogWriter::open(folder / name).value();
+        for (std::int64_t sequence = 0; sequence < end; ++sequence) {
+            for (const char axis : axes) {
+                if (!wanted(sequence)) { continue; }
+                write_steps(writer, std::string(1, axis), sequence);
+                write_position(writer, std::string(1, axis), (sequence + 1) * 10'000 + 5);
+            }
+        }
+        EXPECT_TRUE(writer.flush());
+        return folder / name;
+    }
+
+    Merged merge(const std::vector<fs::path>& logs) {
+        auto merged = merge_logs({.logs = logs, .progress = {}}, kept);
+        EXPECT_TRUE(merged) << merged.error();
+        return merged ? std::move(*merged) : Merged{};
+    }
+    void expect_every_step_in_order() {
+        EXPECT_TRUE(std::ranges::is_sorted(kept.utimes));
+        for (const auto& [channel, numbers] : kept.sequences) {
+            ASSERT_EQ(numbers.size(), static_cast<std::size_t>(kMessages)) << channel;
+            for (std::int64_t i = 0; i < kMessages; ++i) { EXPECT_EQ(numbers[static_cast<std::size_t>(i)], i); }
+        }
+    }
+
+    fs::path folder = fs::path(testing::TempDir()) / "lockstep_merge";
+    Kept kept;
+};
+
+TEST_F(Merge, WhatOneLogLacksAnotherHas) {
+    const Merged merged =
+        merge({log("net.lcm", "XY", [](std::int64_t n) { return n % 7 != 3; }),
+               log("X.lcm", "X", [](std::int64_t n) { return n % 7 == 3 || n < 100; }), log("Y.lcm", "Y", all)});
+    EXPECT_TRUE(merged.is_complete());
+    expect_every_step_in_order();
+    EXPECT_EQ(kept.channels.size(), 4U * kMessages) << "positions too, each once";
+    EXPECT_EQ(merged.messages, 4U * kMessages);
+    ASSERT_EQ(merged.axes.size(), 2U);
+    EXPECT_EQ(merged.axes[0].steps, 10 * kMessages);
+    EXPECT_EQ(merged.differing, 0U);
+    EXPECT_EQ(merged.late, 0U);
+    std::uint64_t read = 0;
+    for (const MergedInput& input : merged.inputs) { read += input.messages; }
+    EXPECT_EQ(read, merged.messages + merged.duplicates);
+}
+
+TEST_F(Merge, SaysFromWhereToWhereNoLogHasSteps) {
+    const auto wanted = [](std::int64_t n) { return n != 0 && n != 50 && n != 51; };
+    const Merged merged = merge({log("a.lcm", "X", wanted), log("b.lcm", "X", wanted)});
+    EXPECT_FALSE(merged.is_complete());
+    ASSERT_EQ(merged.axes.size(), 1U);
+    EXPECT_EQ(merged.axes[0].missing_step_messages, 3);
+    const auto& missing = merged.axes[0].missing_steps;
+    ASSERT_EQ(missing.size(), 2U);
+    EXPECT_FALSE(missing[0].from_step) << "what it did first";
+    EXPECT_EQ(missing[0].to_step, 10);
+    EXPECT_EQ(missing[1].messages, 2);
+    EXPECT_EQ(missing[1].from_step, 500);
+    EXPECT_EQ(missing[1].from_tick, Tick{499'500});
+    EXPECT_EQ(missing[1].to_step, 520);
+    EXPECT_EQ(missing[1].to_tick, Tick{520'500});
+    EXPECT_THAT(to_text(merged, "out.lcm"),
+                HasSubstr("X missing: 2 messages of steps, from step 500 at tick 499 500 to step 520 at tick 520 500"));
+    EXPECT_FALSE(to_report(merged, "out.lcm").complete());
+}
+
+TEST_F(Merge, SaysWhichRunsNoLogHas) {
+    auto writer = LogWriter::open(folder / "runs.lcm").value();
+    for (const std::uint64_t number : {0, 1, 4, 5}) {
+        const RunRecord run{.machine = "mill", .axis = "X", .incarnation = 7, .sequence = number};
+        writer.write_message(channels_of("mill", "X").run, 0, to_lcm(run, 1000));
+    }
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({folder / "runs.lcm"});
+    EXPECT_FALSE(merged.is_complete());
+    ASSERT_EQ(merged.axes.at(0).missing_runs.size(), 1U);
+    EXPECT_EQ(merged.axes[0].missing_runs[0].numbers, (Numbers{2, 4}));
+}
+
+TEST_F(Merge, EachProcessOfAnAxisCountsAnew) {
+    auto writer = LogWriter::open(folder / "restart.lcm").value();
+    for (std::int64_t i = 0; i < 20; ++i) {
+        step_batch_t message = steps("X", i);
+        message.incarnation = i < 10 ? 7 : 8;
+        message.sequence = i % 10;
+        writer.write_message(channels_of("mill", "X").steps, message.utime, message);
+    }
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({folder / "restart.lcm"});
+    EXPECT_TRUE(merged.is_complete());
+    EXPECT_EQ(merged.messages, 20U);
+    EXPECT_EQ(merged.axes.at(0).steps, 200);
+}
+
+TEST_F(Merge, PutsALogInOrderThatIsNearlyInOrder) {
+    auto writer = LogWriter::open(folder / "shuffled.lcm").value();
+    for (std::int64_t block = 0; block < kMessages; block += 100) {
+        for (std::int64_t i = 99; i >= 0; --i) { write_steps(writer, "X", block + i); }
+    }
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({folder / "shuffled.lcm"});
+    expect_every_step_in_order();
+    EXPECT_EQ(merged.late, 0U);
+}
+
+TEST_F(Merge, KeepsWhatIsLaterThanTheWindowAndSaysSo) {
+    auto writer = LogWriter::open(folder / "late.lcm").value();
+    for (std::int64_t i = 1; i < 1000; ++i) { write_steps(writer, "X", i); }
+    write_steps(writer, "X", 0);
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({folder / "late.lcm"});
+    EXPECT_EQ(merged.messages, 1000U);
+    EXPECT_EQ(merged.late, 1U);
+}
+
+TEST_F(Merge, ReadsWhatCanBeReadOfADamagedLogAndNamesTheBytes) {
+    const auto damaged = log("a.lcm", "X", all);
+    const auto whole = log("b.lcm", "X", all);
+    {
+        std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(1000);
+        file << std::string(500, '\x5a');
+    }
+    fs::resize_file(damaged, fs::file_size(damaged) - 17);
+    const Merged merged = merge({damaged, whole});
+    EXPECT_TRUE(merged.is_complete());
+    expect_every_step_in_order();
+    ASSERT_FALSE(merged.inputs[0].damages.empty());
+    EXPECT_LE(merged.inputs[0].damages[0].first_byte, 1000U);
+    EXPECT_TRUE(merged.inputs[1].damages.empty());
+}
+
+TEST_F(Merge, OneNumberWithTwoContentsIsSaid) {
+    const auto a = log("a.lcm", "X", all);
+    auto writer = LogWriter::open(folder / "b.lcm").value();
+    step_batch_t other = steps("X", 5);
+    other.direction[3] = -1;
+    writer.write_message(channels_of("mill", "X").steps, other.utime, other);
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({a, folder / "b.lcm"});
+    EXPECT_EQ(merged.differing, 1U);
+    EXPECT_EQ(merged.duplicates, 1U);
+    expect_every_step_in_order();
+}
+
+TEST_F(Merge, ALogInManyFilesIsOneLog) {
+    std::vector<fs::path> files;
+    for (std::int64_t part = 0; part < 10; ++part) {
+        const auto holds = [part](std::int64_t n) { return n / 30 == part; };
+        files.push_back(log("X." + std::to_string(part) + ".lcm", "X", holds));
+    }
+    std::ranges::reverse(files);
+    EXPECT_TRUE(merge(files).is_complete());
+    expect_every_step_in_order();
+}
+
+TEST_F(Merge, WhatIsNoLogIsRefused) {
+    std::ofstream(folder / "notes.txt") << "not a log";
+    std::ofstream(folder / "empty.lcm").flush();
+    const auto refused = [&](const std::vector<fs::path>& logs) { return merge_logs({.logs = logs}, kept).error(); };
+    EXPECT_THAT(refused({folder / "notes.txt", folder / "empty.lcm"}), HasSubstr("are they LCM logs"));
+    EXPECT_THAT(refused({folder / "nothing.lcm"}), HasSubstr("nothing.lcm"));
+    EXPECT_TRUE(merge({folder / "empty.lcm", log("a.lcm", "X", all)}).is_complete()) << "of a process that ended early";
+}
+
+TEST_F(Merge, OtherChannelsAreKeptFromEachLog) {
+    auto writer = LogWriter::open(folder / "foreign.lcm").value();
+    write_steps(writer, "X", 0);
+    writer.write("CAMERA", 123, std::vector<std::uint8_t>{1, 2, 3});
+    write_steps(writer, "X", 1);
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({folder / "foreign.lcm"});
+    EXPECT_EQ(merged.foreign, 1U);
+    EXPECT_THAT(kept.channels,
+                testing::UnorderedElementsAre("LOCKSTEP_MILL_X_STEPS", "CAMERA", "LOCKSTEP_MILL_X_STEPS"));
+}
+
+}  // namespace
+}  // namespace lockstep::merge

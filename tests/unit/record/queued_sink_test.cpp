@@ -1,0 +1,105 @@
+// A slow disk costs a log messages, and the log says which; it never costs the one who writes any time.
+#include "services/record/queued_sink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <future>
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+struct Disk {
+    std::promise<void> opens;
+    std::shared_future<void> open{opens.get_future()};
+    std::atomic<bool> is_full = false;
+    std::atomic<bool> is_busy = false;  // with a message
+    std::vector<std::int64_t> written;  // utimes
+    std::vector<RecordLoss> losses;
+    std::vector<std::size_t> losses_said;  // after so many messages
+};
+
+/// Each write takes until the disk opens.
+class DiskSink : public RecordSink {
+public:
+    explicit DiskSink(Disk& disk) : disk_(disk) {}
+    void write(const std::string&, std::int64_t utime, std::span<const std::uint8_t>) override {
+        disk_.is_busy = true;
+        disk_.open.wait();
+        if (disk_.is_full) {
+            ++failures_;
+        } else {
+            disk_.written.push_back(utime);
+        }
+    }
+    std::uint64_t failures() const override { return failures_; }
+
+private:
+    Disk& disk_;
+    std::uint64_t failures_ = 0;
+};
+
+class Queue : public testing::Test {
+protected:
+    void begin(std::size_t queue_bytes) {
+        sink = std::make_unique<QueuedSink>(
+            std::make_unique<DiskSink>(disk),
+            [this](RecordSink&, const RecordLoss& loss) {
+                disk.losses.push_back(loss);
+                disk.losses_said.push_back(disk.written.size());
+            },
+            queue_bytes);
+    }
+    void write(std::int64_t utime) { sink->write("C", utime, std::vector<std::uint8_t>(100)); }
+    void end() { sink.reset(); }
+
+    Disk disk;
+    std::unique_ptr<QueuedSink> sink;
+};
+
+TEST_F(Queue, KeepsEveryMessageInItsOrder) {
+    begin(1 << 20);
+    disk.opens.set_value();
+    for (std::int64_t i = 0; i < 1000; ++i) { write(i); }
+    end();
+    ASSERT_EQ(disk.written.size(), 1000U);
+    EXPECT_TRUE(std::ranges::is_sorted(disk.written));
+    EXPECT_TRUE(disk.losses.empty());
+}
+
+TEST_F(Queue, LetsNobodyWaitForADiskThatHangs) {
+    begin(2000);
+    write(0);
+    while (!disk.is_busy) { std::this_thread::yield(); }   // the disk has it, and keeps it
+    for (std::int64_t i = 1; i < 1000; ++i) { write(i); }  // would never end if it waited
+    const std::uint64_t lost = sink->failures();
+    EXPECT_GT(lost, 900U);
+    disk.opens.set_value();
+    end();
+    EXPECT_EQ(disk.written.size() + lost, 1000U);
+    ASSERT_EQ(disk.losses.size(), 1U) << "said once, where they are missing";
+    EXPECT_EQ(disk.losses[0].messages, lost);
+    EXPECT_EQ(disk.losses[0].first_utime, disk.written.back() + 1);
+    EXPECT_EQ(disk.losses[0].last_utime, 999);
+    EXPECT_EQ(disk.losses_said[0], disk.written.size());
+}
+
+TEST_F(Queue, SaysWhatAFullDiskRefused) {
+    begin(1 << 20);
+    disk.is_full = true;
+    disk.opens.set_value();
+    write(0);
+    write(1);
+    while (sink->failures() < 2) { std::this_thread::yield(); }
+    disk.is_full = false;
+    write(2);
+    end();
+    EXPECT_EQ(disk.written, (std::vector<std::int64_t>{2}));
+    std::uint64_t said = 0;
+    for (const RecordLoss& loss : disk.losses) { said += loss.messages; }
+    EXPECT_EQ(said, 2U);
+}
+
+}  // namespace
+}  // namespace lockstep
