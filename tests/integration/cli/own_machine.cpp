@@ -42,8 +42,10 @@ void OwnMachine::SetUp() {
     std::filesystem::create_directories(folder_);
     const NetworkConfig network = own_network();
     lcm_url_ = network.lcm_url;
-    MachineConfig machine{
-        .name = name_, .network = network, .axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)}};
+    MachineConfig machine;
+    machine.name = name_;
+    machine.network = network;
+    machine.axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)};
     machine.axes[0].method = StepMethod::Spielauer;  // X homes and moves on its own by it
     file_ = write("machine.textproto", machine_text(machine));
     setenv("LOCKSTEP_STATE", (folder_ / "state").c_str(), 1);
