@@ -101,7 +101,8 @@ protected:
         }
     }
 
-    fs::path folder = fs::path(testing::TempDir()) / "lockstep_merge";
+    fs::path folder =
+        fs::path(testing::TempDir()) / "lockstep_merge" / testing::UnitTest::GetInstance()->current_test_info()->name();
     Kept kept;
 };
 

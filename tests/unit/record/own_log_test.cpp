@@ -41,7 +41,8 @@ protected:
         return out;
     }
 
-    fs::path folder = fs::path(testing::TempDir()) / "lockstep_own_log";
+    fs::path folder = fs::path(testing::TempDir()) / "lockstep_own_log" /
+                      testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(OwnLog, KeepsTheNewestAndNeverOutgrowsItsLimit) {
