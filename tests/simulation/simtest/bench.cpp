@@ -82,9 +82,21 @@ void Bench::settle(double seconds) {
 }
 
 const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
+    return over_ ? nullptr : await_reply(vm_.command(kind, 0, program));
+}
+
+const Reply* Bench::turn(const Overrides& overrides) { return over_ ? nullptr : await_reply(vm_.turn(overrides)); }
+
+double Bench::most_feed() const {
+    double most = 1;
+    for (const Task& task : scenario_.tasks) {
+        for (const Interrupt& interrupt : task.interrupts) { most = std::max(most, interrupt.overrides.feed()); }
+    }
+    return most;
+}
+
+const Reply* Bench::await_reply(std::uint64_t sequence) {
     constexpr int kMostRepeats = 20;
-    if (over_) { return nullptr; }
-    const std::uint64_t sequence = vm_.command(kind, 0, program);
     const Tick patience = vm_.now() + Ticks{static_cast<std::int64_t>(outage_s_ * machine().ticks_per_second())};
     for (int tries = 0; vm_.reply_to(sequence) == nullptr && may_lose(); ++tries) {
         if (tries > kMostRepeats && vm_.now() > patience) { break; }

@@ -37,6 +37,7 @@ public:
 
     /// Commands and waits for the answer, repeating itself where messages may be lost. Null: the run is over.
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
+    const Reply* turn(const Overrides& overrides);
     /// The fault that the next job meets.
     void plan(const std::optional<PlannedFault>& fault) { placer_.plan(fault); }
     /// No further fault begins. Goes on until none is left and every axis has rested for long enough to rest for good.
@@ -45,6 +46,8 @@ public:
 
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
+    /// The highest that its feeds are turned to, in any job: they hold on.
+    double most_feed() const;
     Recording& recording() { return played_.recording; }
     VirtualMachine& vm() { return vm_; }
     bool lossy() const { return scenario_.lossy(); }
@@ -52,6 +55,7 @@ public:
     std::vector<std::size_t> steps_made() const;
 
 private:
+    const Reply* await_reply(std::uint64_t sequence);
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of whoever is asked
 
     bool may_lose() const { return lossy() || vm_.faults_pending(); }

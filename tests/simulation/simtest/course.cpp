@@ -87,7 +87,7 @@ void index_steps(AxisCourse& axis, const std::vector<Stretch>& stretches) {
 }
 
 AxisCourse axis_course(const MachineConfig& machine, std::size_t axis, Counts from,
-                       const std::vector<Stretch>& stretches) {
+                       const std::vector<Stretch>& stretches, double most_feed) {
     AxisCourse course;
     course.travelled.push_back(0);
     const double per_tick = machine.axes[axis].steps_per_mm * static_cast<double>(machine.tick_ns) * 1e-9;
@@ -96,7 +96,7 @@ AxisCourse axis_course(const MachineConfig& machine, std::size_t axis, Counts fr
         double mm_s = machine.axes[axis].max_velocity_mm_s;
         if (stretch.feed_mm_s > 0) {
             const double mm = std::abs(static_cast<double>(steps)) / machine.axes[axis].steps_per_mm;
-            mm_s = std::min(mm_s, stretch.feed_mm_s * mm / length_mm(machine, from, stretch.to));
+            mm_s = std::min(mm_s, most_feed * stretch.feed_mm_s * mm / length_mm(machine, from, stretch.to));
         }
         course.travelled.push_back(course.travelled.back() + std::abs(steps));
         course.direction.push_back(static_cast<std::int8_t>(steps == 0 ? 0 : (steps > 0 ? 1 : -1)));
@@ -113,11 +113,13 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm) {
     return static_cast<std::int64_t>(std::round(mm * axis.steps_per_mm));
 }
 
-Course course_of(const Program& program, const MachineConfig& machine, const Counts& from) {
+Course course_of(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed) {
     const std::vector<Stretch> stretches = stretches_of(program, machine, from);
     Course course{.from = from, .to = stretches.empty() ? from : stretches.back().to};
     course.moves = stretches.size();
-    for (std::size_t i = 0; i < from.size(); ++i) { course.axes.push_back(axis_course(machine, i, from, stretches)); }
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        course.axes.push_back(axis_course(machine, i, from, stretches, most_feed));
+    }
     Counts at = from;
     for (const Stretch& stretch : stretches) {
         course.pauses += stretch.pause ? 1 : 0;

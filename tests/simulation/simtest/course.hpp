@@ -42,6 +42,7 @@ struct Course {
     double seconds = 0;  // far more than it can take, rests of the protocol not included
 };
 
-Course course_of(const Program& program, const MachineConfig& machine, const Counts& from);
+/// `most_feed`: what feeds are multiplied with at the most.
+Course course_of(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed = 1);
 
 }  // namespace lockstep::simtest

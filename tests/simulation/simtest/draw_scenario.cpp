@@ -109,6 +109,20 @@ FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
             false};
 }
 
+/// Feed and rapid turned up to three times in each job. Drawn by itself: what else a seed means does not hang on it.
+void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
+    Draw draw(seed ^ 0x0f0e0d0c0b0a0908U);
+    if (mixed && draw.chance(0.5)) { return; }
+    for (Task& task : scenario.tasks) {
+        for (std::int64_t n = draw.whole(1, 3); n > 0; --n) {
+            Interrupt turn{.kind = Interrupt::Kind::Override, .after_s = draw.magnitude(0.002, 3), .wrong = {}};
+            turn.overrides = {static_cast<int>(draw.whole(60, 200)), static_cast<int>(draw.whole(60, 200))};
+            const auto place = draw.index(task.interrupts.size() + 1);
+            task.interrupts.insert(task.interrupts.begin() + static_cast<std::ptrdiff_t>(place), turn);
+        }
+    }
+}
+
 /// Set seconds apart, up to 100 ppm fast or slow, processes and devices each for themselves.
 void give_clocks(Draw& draw, Scenario& scenario) {
     MachineConfig& machine = scenario.machine;
@@ -147,6 +161,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optiona
     }
     // Whatever went wrong before, the machine is then as good as new.
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
+    if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
     return scenario;
 }
 

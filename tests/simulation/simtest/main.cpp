@@ -28,6 +28,8 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults stall
   clock      boards have clocks of their own, seconds and 100 ppm apart, which may be set:
                                                      lockstep-simtest --faults clock
+  override   no fault: feed and rapid are turned while jobs run:
+                                                     lockstep-simtest --faults override,loss
   mixed      a half of the other kinds named, in each run:
                                                      lockstep-simtest --faults mixed,loss,clock
 
@@ -59,7 +61,7 @@ int main(int argc, char** argv) {
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
-                               "corrupt", "stall", "clock", "mixed", "all"}));
+                               "corrupt", "stall", "clock", "override", "mixed", "all"}));
     app.footer(kKinds);
     app.add_flag("--json", options.json, "the figures as JSON");
     app.add_flag("--trace", options.trace, "what happens in a run, a line for each event");

@@ -150,7 +150,7 @@ void JobPlayer::play() {
 }
 
 bool JobPlayer::start() {
-    job_.course = course_of(task_.program, bench_.machine(), at_);
+    job_.course = course_of(task_.program, bench_.machine(), at_, bench_.most_feed());
     job_.first_step = bench_.steps_made();
     const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
     const Reply* reply = bench_.ask(CommandKind::Run, program);
@@ -187,6 +187,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::Stop: return stop();
         case Interrupt::Kind::EmergencyStop: return stop_at_once();
         case Interrupt::Kind::WrongCommand: return give(interrupt.wrong);
+        case Interrupt::Kind::Override: return turn(interrupt.overrides);
     }
 }
 
@@ -216,6 +217,12 @@ void JobPlayer::stop() {
         return;
     }
     (void)bench_.await([this] { return ended(); }, 2 * protocol_seconds(bench_) + job_.course.seconds, "a stop");
+}
+
+void JobPlayer::turn(const Overrides& overrides) {
+    const Reply* reply = bench_.turn(overrides);
+    const bool has_none = bench_.machine().coordination == StepMethod::Lai;
+    if (reply != nullptr && reply->status != ReplyStatus::Accepted && !has_none) { refused("override", *reply); }
 }
 
 void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }

@@ -66,7 +66,7 @@ FaultKinds Options::kinds() const {
     const auto has = [this](const char* name) { return std::ranges::find(faults, name) != faults.end(); };
     if (has("all")) { return FaultKinds::all(); }
     return {has("delay"),     has("reorder"), has("duplicate"), has("loss"),  has("freeze"), has("crash"),
-            has("partition"), has("corrupt"), has("stall"),     has("clock"), has("mixed")};
+            has("partition"), has("corrupt"), has("stall"),     has("clock"), has("mixed"),  has("override")};
 }
 
 void Tally::add(const Verdict& verdict) {

@@ -29,9 +29,12 @@ struct FaultKinds {
     bool stall = false;
     bool clock = false;
     bool mixed = false;  // each kind is there in half of the runs only
+    bool override = false;
 
     bool breaks_processes() const { return freeze || crash || partition || stall || clock; }
-    static constexpr FaultKinds all() { return {true, true, true, true, true, true, true, true, true, true, true}; }
+    static constexpr FaultKinds all() {
+        return {true, true, true, true, true, true, true, true, true, true, true, true};
+    }
 };
 
 /// A command that must be refused, and why; the machine goes on as if it had not been given.
@@ -54,11 +57,12 @@ struct PlannedFault {
 
 /// What happens while a job is in motion.
 struct Interrupt {
-    enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, EmergencyStop, WrongCommand };
+    enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, EmergencyStop, WrongCommand, Override };
     Kind kind = Kind::HoldAndResume;
     double after_s = 0;  // since the motion began or went on
     double rest_s = 0;   // how long it is held
     WrongCommand wrong;
+    Overrides overrides;
 };
 
 /// A program, to be run from wherever the machine then stands, and what comes in between.
