@@ -93,13 +93,11 @@ Findings LogCheck::finish() {
             " runs of axes on their own (homing, own moves) were compared with their records alone");
     }
     if (findings_.clock_error > Ticks{}) {
-        findings_.notes.push_back(
-            "boards have clocks of their own: every step is at its very tick by its device's clock, "
-            "and by machine time within " +
-            std::to_string(findings_.latest.value) +
-            " ticks of the tick planned; clocks were known "
-            "within " +
-            std::to_string(findings_.clock_error.value));
+        findings_.notes.push_back("machine time was known to the axes within " +
+                                  std::to_string(findings_.clock_error.value) +
+                                  " ticks: every step is at its very tick by its device's clock, and by machine time "
+                                  "within " +
+                                  std::to_string(findings_.latest.value) + " ticks of the tick planned");
     }
     return std::move(findings_);
 }
