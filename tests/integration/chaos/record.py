@@ -48,7 +48,7 @@ def _run(data):
     reader.take("q")
     reader.text()
     axis = reader.text()
-    incarnation, _, epoch, frame, tail, start, _, _, cut = reader.take("qqqqbqqqb")
+    incarnation, _, epoch, frame, tail, start, _, _, _, _, cut = reader.take("qqqqbqqqqqb")
     return Run(axis, incarnation, epoch, frame, bool(tail), bool(cut), start)
 
 
