@@ -26,9 +26,9 @@ class Judgement:
     failures: list = dataclasses.field(default_factory=list)
 
 
-def judge(machine, story, log):
+def judge(machine, story, log, types):
     found = Judgement(failures=list(story.failures))
-    record = Record(log)
+    record = Record(log, types)
     found.timed = [timed(chapter, record) for chapter in story.chapters]
     found.verify, is_exact = machine.verify(log)
     if not is_exact:

@@ -1,26 +1,10 @@
 """The record of the run, as far as it is needed here: what each axis ran, and where it said it was."""
 import dataclasses
-import struct
+import pathlib
+import sys
 
-SYNC = 0xEDA1DA01
 FRAME_US = 230_000
-
-
-class Reader:
-    """LCM's encoding: big-endian, texts with their length and a zero at the end."""
-
-    def __init__(self, data):
-        self.data, self.at = data, 8  # behind the type's fingerprint
-
-    def take(self, layout):
-        values = struct.unpack_from(">" + layout, self.data, self.at)
-        self.at += struct.calcsize(">" + layout)
-        return values if len(values) > 1 else values[0]
-
-    def text(self):
-        length = self.take("i")
-        self.at += length
-        return self.data[self.at - length:self.at - 1].decode()
+EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "deploy" / "examples"
 
 
 @dataclasses.dataclass
@@ -43,42 +27,20 @@ class State:
     at_rest: bool
 
 
-def _run(data):
-    reader = Reader(data)
-    reader.take("q")
-    reader.text()
-    axis = reader.text()
-    incarnation, _, epoch, frame, tail, start, _, _, _, _, cut = reader.take("qqqqbqqqqqb")
-    return Run(axis, incarnation, epoch, frame, bool(tail), bool(cut), start)
-
-
-def _state(data):
-    reader = Reader(data)
-    _, tick = reader.take("qq")
-    reader.text()
-    axis = reader.text()
-    _, _, velocity, _ = reader.take("qddd")
-    return State(axis, tick, velocity == 0)
-
-
-def events(path):
-    """Channel and data of each event of an LCM log."""
-    with open(path, "rb") as log:
-        while header := log.read(28):
-            sync, _, _, channel, size = struct.unpack(">IqqiI", header)
-            if sync != SYNC:
-                raise ValueError(f"{path}: damaged before byte {log.tell()}")
-            yield log.read(channel).decode(), log.read(size)
-
-
 class Record:
-    def __init__(self, path):
+    """`types`: the folder of LCM's Python types, as they were built."""
+
+    def __init__(self, path, types):
+        sys.path += [str(EXAMPLES), str(types)]
+        from lockstep import axis_position_t, run_t
+        from read_log import messages
         self.runs, self.states = [], []
-        for channel, data in events(path):
-            if channel.endswith("_RUN"):
-                self.runs.append(_run(data))
-            elif channel.endswith("_POSITION"):
-                self.states.append(_state(data))
+        for message in messages(path):
+            if isinstance(message, run_t):
+                self.runs.append(Run(message.axis, message.incarnation, message.epoch, message.frame,
+                                     bool(message.tail), bool(message.cut), message.start_tick))
+            elif isinstance(message, axis_position_t):
+                self.states.append(State(message.axis, message.tick, message.velocity_steps_per_s == 0))
 
     def reaction_us(self, since, until):
         """When the first axis left its frames for a tail, or ceased its pulses, in that time. None: none did."""
