@@ -97,17 +97,8 @@ Task draw_task(Draw& draw, const MachineConfig& machine, const FaultKinds& fault
 /// Each kind is there in half of the runs, so that each is seen alone, and in company.
 FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
     const auto kept = [&draw](bool kind) { return kind && draw.chance(0.5); };
-    return {kept(faults.delay),
-            kept(faults.reorder),
-            kept(faults.duplicate),
-            kept(faults.loss),
-            kept(faults.freeze),
-            kept(faults.crash),
-            kept(faults.partition),
-            kept(faults.corrupt),
-            kept(faults.stall),
-            kept(faults.clock),
-            false};
+    return {kept(faults.delay), kept(faults.reorder),   kept(faults.duplicate), kept(faults.loss),  kept(faults.freeze),
+            kept(faults.crash), kept(faults.partition), kept(faults.corrupt),   kept(faults.stall), kept(faults.clock)};
 }
 
 /// Feed and rapid turned up to three times in each job. Drawn by itself: what else a seed means does not hang on it.
@@ -126,10 +117,11 @@ void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
 
 /// A second coordinator, and jobs and homings that meet a takeover. Drawn by itself, as overrides. Where other kinds
 /// are there, some jobs keep the faults that were drawn of those.
-void give_standby(std::uint64_t seed, bool mixed, Scenario& scenario) {
+void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scenario& scenario) {
     Draw draw(seed ^ 0x0a0b0c0d0e0f0102U);
     if (mixed && draw.chance(0.6)) { return; }
     scenario.coordinators = 2;
+    if (!others.breaks_processes()) { scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}}); }
     if (draw.chance(0.25)) { scenario.homing_faults = draw_takeover_of_homing(draw, scenario.machine); }
     for (std::size_t n = 0; n + 1 < scenario.tasks.size(); ++n) {
         Task& task = scenario.tasks[n];
@@ -180,7 +172,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optiona
     // Whatever went wrong before, the machine is then as good as new.
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
-    if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, scenario); }
+    if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }
     return scenario;
 }
 

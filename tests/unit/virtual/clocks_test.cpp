@@ -165,7 +165,7 @@ TEST_F(TightLimit, NoCoordinatedMoveBeginsWhereAClockMayBeFurtherOffThanTheLimit
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::ClockUncertain);
     EXPECT_NE(reply.text.find("axis X: its clock may be"), std::string::npos) << reply.text;
-    EXPECT_NE(reply.text.find("the limit is 1 us"), std::string::npos) << reply.text;
+    EXPECT_NE(reply.text.find("timing.clock_error_limit_us is 1)"), std::string::npos) << reply.text;
 }
 
 /// The own clock of X's process is set forward while it moves.
