@@ -26,6 +26,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lockstep-config-version.c
 install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/lockstep-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)
 
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `make package` builds what it packs
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lockstep)
 set(CPACK_PACKAGE_VENDOR Lockstep)
@@ -42,8 +43,8 @@ set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_DEPENDS "adduser, iproute2")
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_RECOMMENDS "liblcm-bin, default-jre, liblcm-java, libjchart2d-java")
-set(CPACK_DEBIAN_LOCKSTEP_DESCRIPTION "Networked multi-axis stepper-motor controller
- Per-axis controller services, a coordinator that plans synchronized moves, and a
+set(CPACK_DEBIAN_LOCKSTEP_DESCRIPTION
+  "Per-axis controller services, a coordinator that plans synchronized moves, and a
  command to run, watch, record, analyse and verify a machine.")
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/deploy/debian/postinst;${PROJECT_SOURCE_DIR}/deploy/debian/prerm;${PROJECT_SOURCE_DIR}/deploy/debian/postrm")
@@ -51,7 +52,7 @@ set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_NAME lockstep-dev)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_DEPENDS "libhwy-dev")
-set(CPACK_DEBIAN_LOCKSTEP-DEV_DESCRIPTION "Networked multi-axis stepper-motor controller: its core, to build on
- Step engine, planner, frames, and the axis and the coordinator as state machines
+set(CPACK_DEBIAN_LOCKSTEP-DEV_DESCRIPTION
+  "The core, to build on: step engine, planner, frames, and the axis and the coordinator as state machines
  without I/O, as a static library with headers and a CMake package.")
 include(CPack)
