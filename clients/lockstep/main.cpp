@@ -16,6 +16,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_status(app, action);
     add_watch(app, action);
     add_spy(app, action);
+    add_doctor(app, action);
     add_home(app, action);
     add_move(app, action);
     add_run(app, action);

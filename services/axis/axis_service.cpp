@@ -6,8 +6,8 @@
 
 #include "services/axis/axis_node.hpp"
 #include "services/axis/axis_notices.hpp"
+#include "services/axis/device_window.hpp"
 #include "services/documents/machine_file.hpp"
-#include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
 #include "services/record/axis_recorder.hpp"
 #include "services/record/sinks.hpp"
@@ -28,14 +28,8 @@ using std::chrono::nanoseconds;
 
 std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis,
                                                    std::int64_t tick_ns, Tick now) {
-    constexpr std::string_view kShared = "shm:";
-    constexpr std::string_view kMapped = "uio:";
     if (fpga == "sim") { return simulated_device(axis, tick_ns, now); }
-    if (!is_device_name(fpga)) {
-        return std::unexpected("the device \"" + fpga + "\" is none of sim, shm:NAME and uio:PATH");
-    }
-    auto window = fpga.starts_with(kShared) ? RegisterWindow::open_shared(fpga.substr(kShared.size()))
-                                            : RegisterWindow::open_file(fpga.substr(kMapped.size()));
+    auto window = open_window(fpga);
     if (!window) { return std::unexpected("device " + fpga + ": " + window.error()); }
     return AxisDevice{std::move(*window), nullptr, true};
 }

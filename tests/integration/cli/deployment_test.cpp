@@ -62,5 +62,43 @@ TEST_F(Deployment, WhereNothingBelongsOnThisHostItIsSaid) {
     EXPECT_THAT(up.err, HasSubstr("places nothing on this host, " + host_name()));
 }
 
+/// The finding about this; none: nothing was said of it.
+proto::DoctorFinding about(const proto::DoctorReport& report, const std::string& what) {
+    for (const auto& finding : report.findings()) {
+        if (finding.what() == what) { return finding; }
+    }
+    return {};
+}
+
+TEST_F(Deployment, TheDoctorFindsNothingWrongWithAMachineThatIsUp) {
+    bring_up();
+    const Ran ran = run_lockstep({"doctor", "--seconds", "0.1", "--json"});
+    const auto report = ran.json<proto::DoctorReport>();
+    for (const char* what : {"interface", "multicast", "coordinator", "axis X", "axis Y"}) {
+        EXPECT_EQ(about(report, what).verdict(), "good") << what << ": " << about(report, what).found();
+    }
+}
+
+TEST_F(Deployment, TheDoctorNamesWhatIsBrokenAndWhatMendsIt) {
+    bring_up();
+    MachineConfig machine = load_machine_file(file()).value();
+    machine.axes[0].device = "uio:/dev/uio77";  // no such device
+    machine.timing.clock_error_limit_us = 1;    // another configuration than that which runs
+    machine.timing.time_source = TimeSource::Ptp;
+    const std::string broken = write("broken.textproto", machine_text(machine));
+    const Ran ran = run_lockstep({"doctor", "--machine", broken, "--seconds", "0.1", "--json"});
+    EXPECT_EQ(ran.code, 1);
+    const auto report = ran.json<proto::DoctorReport>();
+    EXPECT_FALSE(report.well());
+    EXPECT_THAT(about(report, "device of X").found(), HasSubstr("/dev/uio77: cannot open it"));
+    EXPECT_EQ(about(report, "axis Y").verdict(), "bad");
+    EXPECT_THAT(about(report, "axis Y").remedy(), HasSubstr("the same file"));
+
+    machine.network.interface = "nowhere0";
+    const std::string elsewhere = write("elsewhere.textproto", machine_text(machine));
+    const Ran lost = run_lockstep({"doctor", "--machine", elsewhere, "--seconds", "0.1", "--json"});
+    EXPECT_EQ(about(lost.json<proto::DoctorReport>(), "interface").found(), "there is no interface nowhere0");
+}
+
 }  // namespace
 }  // namespace lockstep

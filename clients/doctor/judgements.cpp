@@ -1,0 +1,148 @@
+#include "clients/doctor/judgements.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace lockstep::doctor {
+namespace {
+
+std::string milliseconds(double us) {
+    char text[32];
+    std::snprintf(text, sizeof text, us < 10'000 ? "%.2f ms" : "%.0f ms", us / 1000);
+    return text;
+}
+
+std::string text_of(const ProtocolTiming& t) {
+    return "timing { slot_us: " + std::to_string(t.slot_us) + " stall_slots: " + std::to_string(t.stall_slots) +
+           " freshness_slots: " + std::to_string(t.freshness_slots) +
+           " send_ahead_slots: " + std::to_string(t.send_ahead_slots) +
+           " frame_slots: " + std::to_string(t.frame_slots) + " }";
+}
+
+}  // namespace
+
+Finding judge_interface(const std::string& name, const InterfaceFacts& facts) {
+    const auto bad = [](std::string found, std::string remedy) {
+        return Finding{Verdict::Bad, "interface", std::move(found), std::move(remedy)};
+    };
+    if (!facts.exists) {
+        return bad("there is no interface " + name, "ip link; then network.interface in the machine's file");
+    }
+    if (!facts.up) { return bad(name + " is down", "ip link set " + name + " up"); }
+    if (!facts.has_address) { return bad(name + " has no IPv4 address", "ip address add ADDRESS/24 dev " + name); }
+    if (!facts.multicast && name != "lo") {
+        return bad(name + " carries no multicast", "ip link set " + name + " multicast on");
+    }
+    return {Verdict::Good, "interface", name + " is up and has an address", ""};
+}
+
+Finding judge_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
+                    std::optional<bool> heard) {
+    if (!route) {
+        return {Verdict::Bad, "multicast", "nothing can be recorded: " + route.error(),
+                "ip route add 224.0.0.0/4 dev " + network.interface};
+    }
+    if (heard == false) {
+        return {Verdict::Bad, "multicast", "what LCM sends to " + network.lcm_url + " does not come back",
+                "iptables -L INPUT -n; does a rule drop it?"};
+    }
+    return {Verdict::Good, "multicast", heard ? "LCM hears what it sends" : "a route is there", ""};
+}
+
+std::int64_t buffer_asked(const std::string& lcm_url) {
+    constexpr std::string_view kKey = "recv_buf_size=";
+    const std::size_t at = lcm_url.find(kKey);
+    return at == std::string::npos ? 0 : std::strtoll(lcm_url.c_str() + at + kKey.size(), nullptr, 10);
+}
+
+Finding judge_buffer(std::int64_t asked, std::int64_t given) {
+    const std::string text = std::to_string(given) + " of " + std::to_string(asked) + " bytes";
+    if (given >= asked) { return {Verdict::Good, "socket buffer", text, ""}; }
+    return {Verdict::Doubtful, "socket buffer", text + ": bursts of the record may be lost",
+            "sysctl -w net.core.rmem_max=" + std::to_string(asked)};
+}
+
+Finding judge_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
+    if (facts.scheduler.empty()) {
+        const std::string use = wanted.priority > 0 ? "" : "; unused: the machine's file has no real_time.priority";
+        return {Verdict::Good, "scheduler", "FIFO is permitted" + use, ""};
+    }
+    const Verdict verdict = wanted.priority > 0 ? Verdict::Bad : Verdict::Good;
+    return {verdict, "scheduler", "FIFO is refused (" + facts.scheduler + "): a busy host stalls the services",
+            wanted.priority > 0 ? "LimitRTPRIO=99 in the unit, or ulimit -r 99" : ""};
+}
+
+Finding judge_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
+    if (facts.memory.empty()) { return {Verdict::Good, "memory", "it may be locked", ""}; }
+    const Verdict verdict = wanted.priority > 0 ? Verdict::Bad : Verdict::Good;
+    return {verdict, "memory", "it may not be locked (" + facts.memory + "): a page on disk stalls the services",
+            wanted.priority > 0 ? "LimitMEMLOCK=infinity in the unit, or ulimit -l unlimited" : ""};
+}
+
+ProtocolTiming timing_for(const StallFacts& facts) {
+    constexpr std::array<std::int64_t, 6> kSlots_us{1000, 2000, 5000, 10'000, 20'000, 50'000};
+    const double stall = 2 * facts.worst_us;
+    const auto fits = [&](std::int64_t slot) { return static_cast<double>(slot) * 10 >= stall; };
+    const auto slot = std::ranges::find_if(kSlots_us, fits);
+    ProtocolTiming timing{.slot_us = slot == kSlots_us.end() ? kSlots_us.back() : *slot};
+    timing.stall_slots = std::max(1, static_cast<int>(std::ceil(stall / static_cast<double>(timing.slot_us))));
+    timing.freshness_slots = RULE_LEAST_FRESHNESS(timing.stall_slots);
+    timing.send_ahead_slots = RULE_LEAST_SEND_AHEAD(timing.check_slots(), timing.freshness_slots, timing.stall_slots);
+    timing.frame_slots = RULE_LEAST_FRAME(timing.freshness_slots, timing.stall_slots);
+    return timing;
+}
+
+Finding judge_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
+    const double may_us = static_cast<double>(timing.stall_slots) * static_cast<double>(timing.slot_us);
+    const ProtocolTiming better = timing_for(facts);
+    const std::string found = "in " + std::to_string(static_cast<int>(std::lround(facts.seconds))) +
+                              " s a thread woke " + milliseconds(facts.worst_us) + " late at most, " +
+                              milliseconds(facts.p99_us) + " in one of 100; the timing bears " + milliseconds(may_us);
+    if (facts.worst_us > may_us) { return {Verdict::Bad, "stalls", found, text_of(better)}; }
+    if (2 * facts.worst_us > may_us) { return {Verdict::Doubtful, "stalls", found, text_of(better)}; }
+    const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * t.send_ahead_slots; };
+    const bool slack = 2 * reaction(better) < reaction(timing);
+    return {Verdict::Good, "stalls", found + (slack ? "; a hold could come sooner with " + text_of(better) : ""), ""};
+}
+
+Finding judge_clock(TimeSource source, const ClockFacts& facts) {
+    if (source == TimeSource::Ptp && !(facts.synchronised && facts.tai_offset_s != 0)) {
+        return {Verdict::Bad, "clock",
+                std::string("time_source is PTP, but ") +
+                    (facts.synchronised ? "nobody has set CLOCK_TAI" : "no service keeps this host's clock"),
+                "apt-get install linuxptp; then ptp4l -i INTERFACE -s and phc2sys -a -r"};
+    }
+    constexpr std::array<std::string_view, 5> kQuick{"tsc", "kvm-clock", "arch_sys_counter",
+                                                     "hyperv_clocksource_tsc_page", ""};
+    if (std::ranges::find(kQuick, facts.source) == kQuick.end()) {
+        return {Verdict::Doubtful, "clock", "the kernel reads " + facts.source + ", which is slow to read",
+                "clocksource=tsc on the kernel's command line, where the processor has one"};
+    }
+    return {Verdict::Good, "clock", "the kernel reads " + facts.source, ""};
+}
+
+Finding judge_device(const AxisConfig& axis, const std::expected<void, std::string>& answer) {
+    if (answer) { return {Verdict::Good, "device of " + axis.name, axis.device, ""}; }
+    return {Verdict::Bad, "device of " + axis.name, axis.device + ": " + answer.error(),
+            "power it up, or mend `device` of axis " + axis.name + " in the machine's file"};
+}
+
+Finding judge_directory(const std::string& what, const std::string& path, const std::string& not_writable) {
+    if (not_writable.empty()) { return {Verdict::Good, what, path + " can be written", ""}; }
+    return {Verdict::Bad, what, path + " cannot be written: " + not_writable, "install -d -o $(id -un) " + path};
+}
+
+Finding judge_process(const ProcessFacts& facts, std::uint64_t config_hash) {
+    if (!facts.heard) { return {Verdict::Doubtful, facts.name, "is not heard", "lockstep up, on its host"}; }
+    if (facts.config_hash != config_hash) {
+        return {Verdict::Bad, facts.name, "runs with another configuration than this file",
+                "give all hosts the same file; then lockstep down and up"};
+    }
+    return {Verdict::Good, facts.name, "is heard, with this configuration", ""};
+}
+
+}  // namespace lockstep::doctor

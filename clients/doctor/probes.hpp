@@ -1,0 +1,27 @@
+// Looks at the host: one function for each thing that the doctor judges.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "clients/doctor/judgements.hpp"
+
+namespace lockstep::doctor {
+
+InterfaceFacts look_at_interface(const std::string& name);
+/// Of a socket that asks for so many bytes: how many it was given.
+std::int64_t receive_buffer_given(std::int64_t asked);
+/// Publishes a message on a channel of the doctor's own. No value: LCM cannot be opened.
+std::optional<bool> hears_itself(const std::string& lcm_url);
+RealTimeFacts look_at_real_time();
+ClockFacts look_at_clock();
+/// Wakes each `period` for so long, as a service does; tells how much is done, 0 to 1.
+StallFacts look_for_stalls(std::chrono::nanoseconds period, std::chrono::nanoseconds during,
+                           const std::function<void(double)>& progress);
+/// Whether a file could be made there, or in the nearest folder above it that exists. Empty: yes; else why not.
+std::string why_not_writable(const std::string& directory);
+
+}  // namespace lockstep::doctor

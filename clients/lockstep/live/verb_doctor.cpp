@@ -1,0 +1,151 @@
+// lockstep doctor
+#include <algorithm>
+#include <cmath>
+
+#include "clients/doctor/probes.hpp"
+#include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "idl/proto/report.pb.h"
+#include "services/axis/device_driver.hpp"
+#include "services/axis/device_window.hpp"
+#include "services/documents/placement.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/directories.hpp"
+#include "services/runtime/host_name.hpp"
+#include "services/runtime/multicast.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using doctor::Finding;
+using doctor::Findings;
+using doctor::Verdict;
+
+constexpr auto kListening = 1500ms;
+
+struct DoctorOptions : LiveOptions {
+    double seconds = 3;
+};
+
+void examine_network(const MachineConfig& machine, Findings& findings) {
+    const NetworkConfig& network = machine.network;
+    const auto facts = doctor::look_at_interface(network.interface);
+    findings.push_back(doctor::judge_interface(network.interface, facts));
+    const auto route = check_multicast(network);
+    const auto heard = route ? doctor::hears_itself(network.lcm_url) : std::nullopt;
+    findings.push_back(doctor::judge_route(network, route, heard));
+    const std::int64_t asked = doctor::buffer_asked(network.lcm_url);
+    if (asked > 0) { findings.push_back(doctor::judge_buffer(asked, doctor::receive_buffer_given(asked))); }
+}
+
+void examine_host(const MachineConfig& machine, double seconds, Voice& voice, Findings& findings) {
+    const auto real_time = doctor::look_at_real_time();
+    findings.push_back(doctor::judge_scheduler(machine.real_time, real_time));
+    findings.push_back(doctor::judge_memory(machine.real_time, real_time));
+    findings.push_back(doctor::judge_clock(machine.timing.time_source, doctor::look_at_clock()));
+    const auto period = std::chrono::microseconds(machine.timing.slot_us) / 4;
+    const auto during = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+    findings.push_back(doctor::judge_stalls(machine.timing, doctor::look_for_stalls(period, during, [&](double done) {
+                                                voice.progress("watching for stalls " +
+                                                               std::to_string(std::lround(done * 100)) + " %");
+                                            })));
+}
+
+std::expected<void, std::string> try_device(const AxisConfig& axis, std::int64_t tick_ns) {
+    const auto window = open_window(axis.device);
+    if (!window) { return std::unexpected(window.error()); }
+    const auto driver = DeviceDriver::attach(*window, tick_ns);
+    return driver ? std::expected<void, std::string>{} : std::unexpected(driver.error());
+}
+
+void examine_parts_here(const MachineConfig& machine, Findings& findings) {
+    const Placement here = placed_on(machine, host_name());
+    for (const std::size_t i : here.axes) {
+        const AxisConfig& axis = machine.axes[i];
+        if (axis.device != "sim") { findings.push_back(doctor::judge_device(axis, try_device(axis, machine.tick_ns))); }
+    }
+    if (here.empty() || !machine.record.own_logs) { return; }
+    const std::string directory =
+        machine.record.directory.empty() ? record_directory(machine.name).string() : machine.record.directory;
+    findings.push_back(doctor::judge_directory("own logs", directory, doctor::why_not_writable(directory)));
+}
+
+void examine_processes(const ChosenMachine& machine, Findings& findings) {
+    auto session = Session::join(machine);
+    if (!session) {
+        findings.push_back({Verdict::Bad, "DDS", session.error().errors.front().message, "see: interface"});
+        return;
+    }
+    for (const auto until = monotonic_now() + kListening; monotonic_now() < until;) { session->listen(100ms); }
+    const auto say = [&](const std::string& name, bool heard, std::uint64_t hash) {
+        findings.push_back(doctor::judge_process({name, heard, hash}, machine.hash));
+    };
+    say("coordinator", session->state().has_value(), session->state() ? session->state()->state.config_hash : 0);
+    for (std::size_t i = 0; i < machine.config.axes.size(); ++i) {
+        const auto& axis = session->axis(i);
+        say("axis " + machine.config.axes[i].name, axis.has_value(), axis ? axis->state.config_hash : 0);
+    }
+}
+
+std::string_view name_of(Verdict verdict) {
+    constexpr std::string_view kNames[] = {"good", "doubtful", "bad"};
+    return kNames[static_cast<std::size_t>(verdict)];
+}
+
+proto::DoctorReport report_of(const Findings& findings, bool well) {
+    proto::DoctorReport report;
+    report.set_well(well);
+    for (const Finding& finding : findings) {
+        auto& message = *report.add_findings();
+        message.set_verdict(std::string(name_of(finding.verdict)));
+        message.set_what(finding.what);
+        message.set_found(finding.found);
+        if (!finding.remedy.empty()) { message.set_remedy(finding.remedy); }
+    }
+    return report;
+}
+
+void say(const Finding& finding, Voice& voice) {
+    constexpr std::size_t kColumn = 16;
+    const std::string mark = finding.verdict == Verdict::Good  ? "ok   "
+                             : finding.verdict == Verdict::Bad ? "BAD  "
+                                                               : "?    ";
+    std::string what = finding.what;
+    what.resize(std::max(what.size() + 1, kColumn), ' ');
+    voice.say(mark + what + finding.found);
+    if (!finding.remedy.empty()) { voice.say("     " + std::string(kColumn, ' ') + "do: " + finding.remedy); }
+}
+
+ExitCode examine(const DoctorOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    Findings findings;
+    examine_network(machine->config, findings);
+    examine_host(machine->config, options.seconds, voice, findings);
+    examine_parts_here(machine->config, findings);
+    examine_processes(*machine, findings);
+    const bool well = std::ranges::none_of(findings, [](const Finding& f) { return f.verdict == Verdict::Bad; });
+    for (const Finding& finding : findings) { say(finding, voice); }
+    voice.report(report_of(findings, well));
+    return well ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "doctor",
+        "say whether this host and its network are fit for a machine, and the command that mends what is not");
+    const auto options = std::make_shared<DoctorOptions>();
+    verb->add_option("--seconds", options->seconds, "how long to watch for stalls; under the load of every day")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    add_live_options(*verb, *options);
+    verb->footer(footer("  lockstep doctor --machine mill.textproto\n  lockstep doctor --seconds 600 --json\n"));
+    verb->callback([&action, options] { action = [options] { return examine(*options); }; });
+}
+
+}  // namespace lockstep

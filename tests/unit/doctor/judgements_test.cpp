@@ -1,0 +1,95 @@
+// What the doctor says of a host: what is wrong with it, and what mends it.
+#include "clients/doctor/judgements.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/documents/machine_file.hpp"
+
+namespace lockstep::doctor {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr InterfaceFacts kFine{.exists = true, .up = true, .has_address = true, .multicast = true};
+
+TEST(DoctorOnTheInterface, NamesWhatIsMissingAndTheCommandThatMendsIt) {
+    EXPECT_EQ(judge_interface("eth0", kFine).verdict, Verdict::Good);
+    EXPECT_THAT(judge_interface("eth7", {}).found, HasSubstr("no interface eth7"));
+    EXPECT_EQ(judge_interface("eth0", {.exists = true}).remedy, "ip link set eth0 up");
+    EXPECT_THAT(judge_interface("eth0", {.exists = true, .up = true}).found, HasSubstr("no IPv4 address"));
+    InterfaceFacts silent = kFine;
+    silent.multicast = false;
+    EXPECT_EQ(judge_interface("eth0", silent).remedy, "ip link set eth0 multicast on");
+    EXPECT_EQ(judge_interface("lo", silent).verdict, Verdict::Good) << "lo carries it all the same";
+}
+
+TEST(DoctorOnMulticast, ARouteIsNeededAndWhatIsSentMustComeBack) {
+    EXPECT_EQ(judge_route({}, {}, true).verdict, Verdict::Good);
+    EXPECT_EQ(judge_route({}, std::unexpected("no route"), {}).remedy, "ip route add 224.0.0.0/4 dev lo");
+    EXPECT_EQ(judge_route({}, {}, false).verdict, Verdict::Bad);
+}
+
+TEST(DoctorOnTheBuffer, ASmallerOneThanTheUrlAsksForMayLoseBursts) {
+    EXPECT_EQ(buffer_asked(NetworkConfig{}.lcm_url), 4'194'304);
+    EXPECT_EQ(judge_buffer(4'194'304, 4'194'304).verdict, Verdict::Good);
+    const Finding small = judge_buffer(4'194'304, 212'992);
+    EXPECT_EQ(small.verdict, Verdict::Doubtful);
+    EXPECT_EQ(small.remedy, "sysctl -w net.core.rmem_max=4194304");
+}
+
+TEST(DoctorOnRealTime, WhatIsRefusedIsBadOnlyWhereItIsAskedFor) {
+    const RealTimeFacts refused{.scheduler = "not permitted", .memory = "the limit is 64 KB"};
+    EXPECT_EQ(judge_scheduler({}, refused).verdict, Verdict::Good);
+    EXPECT_EQ(judge_scheduler({.priority = 80}, refused).verdict, Verdict::Bad);
+    EXPECT_EQ(judge_memory({.priority = 80}, refused).verdict, Verdict::Bad);
+    EXPECT_EQ(judge_scheduler({.priority = 80}, {}).verdict, Verdict::Good);
+}
+
+TEST(DoctorOnStalls, AreJudgedByWhatTheTimingBears) {
+    const ProtocolTiming bears_100_ms;
+    EXPECT_EQ(judge_stalls(bears_100_ms, {.worst_us = 30'000, .seconds = 3}).verdict, Verdict::Good);
+    EXPECT_EQ(judge_stalls(bears_100_ms, {.worst_us = 60'000, .seconds = 3}).verdict, Verdict::Doubtful);
+    const Finding bad = judge_stalls(bears_100_ms, {.worst_us = 120'000, .seconds = 3});
+    EXPECT_EQ(bad.verdict, Verdict::Bad);
+    EXPECT_THAT(bad.remedy, HasSubstr("timing { slot_us: 50000 stall_slots: 5"));
+}
+
+TEST(DoctorOnStalls, WhatItProposesIsAcceptedAndBearsTwiceWhatWasSeen) {
+    for (const double worst_us : {0.0, 80.0, 400.0, 3'000.0, 20'000.0, 50'000.0, 240'000.0}) {
+        MachineConfig machine{.name = "m", .timing = timing_for({.worst_us = worst_us})};
+        machine.axes = {{.name = "X",
+                         .steps_per_mm = 80,
+                         .start_velocity_mm_s = 10,
+                         .max_velocity_mm_s = 150,
+                         .max_accel_mm_s2 = 1500,
+                         .max_decel_mm_s2 = 1500,
+                         .position_max_mm = 200,
+                         .homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 2},
+                         .plant = {.start_position_mm = 100,
+                                   .travel_margin_mm = 2,
+                                   .max_torque_accel_mm_s2 = 2000,
+                                   .max_jump_mm_s = 15}}};
+        const auto read = parse_machine(machine_text(machine));
+        ASSERT_TRUE(read) << to_text("machine", read.error());
+        const ProtocolTiming& timing = read->timing;
+        EXPECT_GE(static_cast<double>(timing.slot_us * timing.stall_slots), 2 * worst_us);
+    }
+}
+
+TEST(DoctorOnTheClock, PtpNeedsAServiceThatKeepsIt) {
+    const ClockFacts kept{.source = "tsc", .synchronised = true, .tai_offset_s = 37};
+    EXPECT_EQ(judge_clock(TimeSource::Ptp, kept).verdict, Verdict::Good);
+    EXPECT_THAT(judge_clock(TimeSource::Ptp, {.source = "tsc"}).remedy, HasSubstr("phc2sys"));
+    EXPECT_EQ(judge_clock(TimeSource::Shared, {.source = "tsc"}).verdict, Verdict::Good);
+    EXPECT_EQ(judge_clock(TimeSource::Shared, {.source = "hpet"}).verdict, Verdict::Doubtful);
+}
+
+TEST(DoctorOnProcesses, OneOfAnotherConfigurationIsBadAndOneNotHeardMayNotBeUpYet) {
+    EXPECT_EQ(judge_process({"axis X", true, 7}, 7).verdict, Verdict::Good);
+    EXPECT_EQ(judge_process({"axis X", true, 8}, 7).verdict, Verdict::Bad);
+    EXPECT_EQ(judge_process({"axis X"}, 7).verdict, Verdict::Doubtful);
+}
+
+}  // namespace
+}  // namespace lockstep::doctor
