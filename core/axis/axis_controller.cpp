@@ -33,7 +33,8 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
         const auto veto_before = follower_.veto();
         for (DeviceOrder& order : follower_.decide(slot)) { out.orders.push_back(std::move(order)); }
         if (follower_.veto() != veto_before) {
-            out.notices.push_back({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
+            out.notices.push_back(
+                {AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
         }
     }
     if (!state_slot_ || slot > *state_slot_) {

@@ -66,7 +66,8 @@ struct AxisNotice {
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // a term, an epoch, a frame, a stage: as the kind says
+    std::uint64_t number = 0;               // a term, an epoch, a frame, a stage: as the kind says
+    std::optional<FailedCheck> check = {};  // Vetoed: why
 };
 
 struct AxisOutputs {

@@ -28,6 +28,8 @@ fs::path root(const fs::path& of_root, const char* users, const fs::path& below)
 
 fs::path state_root() { return root("/run/lockstep", "XDG_RUNTIME_DIR", "lockstep"); }
 
+fs::path memory_directory() { return "/dev/shm/lockstep-" + std::to_string(geteuid()); }
+
 fs::path record_directory(const std::string& machine) {
     return root("/var/lib/lockstep", "HOME", ".local/state/lockstep") / machine / "record";
 }

@@ -45,4 +45,9 @@ std::string try_real_time(int priority) {
            "); to permit it: LimitRTPRIO=99 in the unit, or --ulimit rtprio=99 --cap-add SYS_NICE for a container";
 }
 
+void leave_real_time() {
+    const sched_param normal{.sched_priority = 0};
+    (void)sched_setscheduler(0, SCHED_OTHER, &normal);
+}
+
 }  // namespace lockstep

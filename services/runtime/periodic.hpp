@@ -43,4 +43,7 @@ private:
 /// before a DDS participant is made: its threads inherit the scheduler. priority: 1 ... 99.
 std::string try_real_time(int priority);
 
+/// This thread need not be in time: it goes back to the normal scheduler.
+void leave_real_time();
+
 }  // namespace lockstep

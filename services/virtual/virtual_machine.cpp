@@ -51,9 +51,10 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 void VirtualMachine::power_up() {
     const MachineConfig& machine = options_.machine;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        axes_.push_back({simulated_device(machine.axes[i], machine.tick_ns, device_time(i)), {}, {}, {}});
+        axes_.push_back({simulated_device(machine.axes[i], machine.tick_ns, device_time(i)), {}, {}, {}, {}});
     }
     coordinators_.resize(options_.coordinators);
+    coordinator_flights_.resize(options_.coordinators);
     processes_.resize(axes_.size() + coordinators_.size());
     std::mt19937_64 random(options_.seed ^ 0x9e3779b97f4a7c15U);
     for (std::size_t i = 0; i < processes_.size(); ++i) {
@@ -75,6 +76,17 @@ void VirtualMachine::start(std::size_t process) {
         axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
     }
     processes_[process] = {true, now_};
+    if (options_.flight) { note_flight(process); }
+}
+
+void VirtualMachine::note_flight(std::size_t process) {
+    FlightLog& log = options_.flight(process);
+    if (is_coordinator(process)) {
+        coordinator_flights_[process - axes_.size()].emplace(options_.machine, log);
+    } else {
+        axes_[process].flight.emplace(process, options_.machine, log);
+        axes_[process].node->note_in(*axes_[process].flight);
+    }
 }
 
 void VirtualMachine::crash(std::size_t process) {
@@ -248,7 +260,9 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
 
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
     const Mail mail = collect(network_, now_, here);
-    CoordinatorOutputs out = coordinator(here)->step({now_, mail.axes, mail.machine, mail.commands});
+    const CoordinatorInputs in{now_, mail.axes, mail.machine, mail.commands};
+    CoordinatorOutputs out = coordinator(here)->step(in);
+    if (auto& flight = coordinator_flights_[here - axes_.size()]) { flight->take(in, out); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
     return out;
 }
