@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/protocol/messages.hpp"
+#include "core/protocol/names.hpp"
 
 namespace lockstep {
 
@@ -96,12 +96,6 @@ constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent e
 constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
     const auto row = find_transition(from, event);
     return row ? std::optional(kAxisTransitions[*row].to) : std::nullopt;
-}
-
-constexpr std::string_view name_of(AxisPhase phase) {
-    constexpr std::array<std::string_view, 7> kNames{"Initialize", "Standby", "Accelerate", "Cruise",
-                                                     "Decelerate", "Stop",    "Fault"};
-    return kNames[static_cast<std::size_t>(phase)];
 }
 
 constexpr std::string_view name_of(AxisEvent event) {

@@ -81,9 +81,9 @@ void CoordinatorFlight::take_notice(Tick now, const CoordinatorNotice& notice) {
     }
     log_.add(event);
     const bool is_takeover = notice.kind == Kind::StoodDown || (notice.kind == Kind::Claimed && knew_owner_);
-    if (notice.kind == Kind::Fault) { log_.incident(now, IncidentReason::Fault); }
+    if (notice.kind == Kind::Fault) { log_.incident(now, IncidentReason::Fault, event.about); }
     if (notice.kind == Kind::Interrupted) { log_.incident(now, IncidentReason::Interrupted); }
-    if (notice.kind == Kind::AxisGone) { log_.incident(now, IncidentReason::AxisLost); }
+    if (notice.kind == Kind::AxisGone) { log_.incident(now, IncidentReason::AxisLost, event.about); }
     if (is_takeover) { log_.incident(now, IncidentReason::Takeover); }
 }
 

@@ -58,7 +58,7 @@ namespace lockstep {
     X(Started, "started")   /* its first loop */                                                             \
     X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                            \
     X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */       \
-    X(Incident, "incident") /* detail: IncidentReason; what came before is worth keeping */
+    X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,
@@ -123,8 +123,8 @@ public:
     /// Never waits.
     virtual void add(const FlightEvent& event) = 0;
 
-    void incident(Tick now, IncidentReason reason) {
-        add({.tick = now, .kind = FlightKind::Incident, .detail = static_cast<std::uint8_t>(reason)});
+    void incident(Tick now, IncidentReason reason, FlightPeer about = {}) {
+        add({.tick = now, .kind = FlightKind::Incident, .about = about, .detail = static_cast<std::uint8_t>(reason)});
     }
 };
 

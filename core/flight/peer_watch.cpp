@@ -27,14 +27,14 @@ void PeerWatch::hear(Tick now, const News& news, FlightLog& log) {
     last_ = news;
     if (news.fault == before || news.fault == FaultCode::None) { return; }
     log.add({.tick = now, .kind = FlightKind::PeerFault, .about = peer_, .fault = news.fault});
-    log.incident(now, IncidentReason::Fault);
+    log.incident(now, IncidentReason::Fault, peer_);
 }
 
 /// Of coordinators it is the owner's changes that count, and an axis's controller says so by itself.
 void PeerWatch::hear_identity(Tick now, Identity identity, FlightLog& log) {
     if (last_->identity == identity) { return; }
     log.add({.tick = now, .kind = FlightKind::PeerRestarted, .about = peer_});
-    if (peer_.kind == FlightPeer::Kind::Axis) { log.incident(now, IncidentReason::AxisLost); }
+    if (peer_.kind == FlightPeer::Kind::Axis) { log.incident(now, IncidentReason::AxisLost, peer_); }
 }
 
 void PeerWatch::look(Tick now, Ticks missed, FlightLog& log) {
@@ -45,7 +45,7 @@ void PeerWatch::look(Tick now, Ticks missed, FlightLog& log) {
         log.add({.tick = now, .kind = FlightKind::PeerSilent, .about = peer_, .lasts = silence});
     }
     is_lost_ = silence > limits_.lost;
-    if (is_lost_) { log.incident(now, lost()); }
+    if (is_lost_) { log.incident(now, lost(), peer_); }
 }
 
 }  // namespace lockstep

@@ -1,11 +1,11 @@
 #include "services/coordinator/coordinator_service.hpp"
 
-#include <array>
 #include <iostream>
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
 #include "core/flight/coordinator_flight.hpp"
+#include "core/protocol/names.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/flight/flight_recorder.hpp"
@@ -23,12 +23,6 @@ namespace lockstep {
 namespace {
 
 using std::chrono::nanoseconds;
-
-std::string_view phase_name(std::uint64_t phase) {
-    constexpr std::array<std::string_view, 9> kNames{"Waiting", "Idle",     "Homing", "Running", "Holding",
-                                                     "Paused",  "Stopping", "Fault",  "Standby"};
-    return phase < kNames.size() ? kNames[phase] : "unknown";
-}
 
 class CoordinatorService {
 public:
@@ -89,7 +83,8 @@ private:
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
-            case Kind::Phase: return log_info("machine is " + std::string(phase_name(notice.number)));
+            case Kind::Phase:
+                return log_info("machine is " + std::string(name_of(static_cast<MachinePhase>(notice.number))));
             case Kind::AxisSeen: return log_info("axis " + axis_name(notice.number) + " is heard");
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,

@@ -29,6 +29,13 @@ std::string how_to_read(const std::filesystem::path& file) {
     return file.string() + "; see: lockstep analyze --incident " + file.parent_path().string();
 }
 
+void say_left(const LeftRings& left) {
+    for (const auto& file : left.saved) {
+        log_warning("a process of this machine has ended unasked; what it had noted is in " + how_to_read(file));
+    }
+    for (const std::string& problem : left.problems) { log_warning(problem); }
+}
+
 }  // namespace
 
 std::expected<std::unique_ptr<FlightRecorder>, std::string> FlightRecorder::open(const std::filesystem::path& directory,
@@ -63,7 +70,7 @@ bool FlightRecorder::sleep(const std::stop_token& stop) {
 
 void FlightRecorder::serve(const std::stop_token& stop) {
     leave_real_time();
-    save_left_rings(directory_, source_.directory, [](const std::string& why) { log_warning(why); });
+    say_left(save_left_rings(directory_, source_.directory));
     std::uint64_t seen = 0;
     std::optional<std::chrono::nanoseconds> first;
     std::chrono::nanoseconds last{};
@@ -109,25 +116,23 @@ std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::
     return std::make_unique<NoFlight>();
 }
 
-std::vector<std::filesystem::path> save_left_rings(const std::filesystem::path& rings,
-                                                   const std::filesystem::path& incidents,
-                                                   const std::function<void(const std::string&)>& complain) {
-    std::vector<std::filesystem::path> saved;
+LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesystem::path& incidents) {
+    LeftRings found;
     for (const auto& path : rings_in(rings)) {
         auto left = LeftRing::claim(path);
         const auto snapshot = left ? read_ring(path) : std::unexpected(std::string());
         if (!snapshot || snapshot->source.directory != incidents) { continue; }
         const Tick last = snapshot->events.empty() ? Tick{} : snapshot->events.back().event.tick;
         const auto file = write_incident(*snapshot, {IncidentReason::Ended, last, wall_clock_us()});
-        if (!file) {
-            complain("what a process that ended had noted cannot be written: " + file.error());
-            continue;
+        if (file) {
+            left->remove();
+            found.saved.push_back(*file);
+        } else {
+            found.problems.push_back("what " + snapshot->source.process +
+                                     " had noted when it ended is not written: " + file.error());
         }
-        left->remove();
-        complain(snapshot->source.process + " ended unasked before; what it had noted is in " + how_to_read(*file));
-        saved.push_back(*file);
     }
-    return saved;
+    return found;
 }
 
 }  // namespace lockstep

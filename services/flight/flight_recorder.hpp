@@ -4,10 +4,11 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/machine.hpp"
 #include "services/flight/flight_ring.hpp"
@@ -45,10 +46,13 @@ private:
 /// Where there can be none the log says why, and nothing is kept.
 std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity);
 
-/// Writes down what dead processes with incident files in the same directory left. Returns the files. `complain`: what
-/// could not be.
-std::vector<std::filesystem::path> save_left_rings(const std::filesystem::path& rings,
-                                                   const std::filesystem::path& incidents,
-                                                   const std::function<void(const std::string&)>& complain);
+/// What dead processes had noted, and is in files now.
+struct LeftRings {
+    std::vector<std::filesystem::path> saved;
+    std::vector<std::string> problems;  // what could not be written, and why
+};
+
+/// Of those in `rings` whose incident files go to `incidents`.
+LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesystem::path& incidents);
 
 }  // namespace lockstep
