@@ -13,7 +13,6 @@ namespace {
 
 /// What shows first that something is wrong.
 bool is_symptom(const FlightEvent& event) {
-    const bool is_asked = event.detail == static_cast<std::uint8_t>(IncidentReason::Asked);
     switch (event.kind) {
         case FlightKind::Vetoed:
         case FlightKind::Fault:
@@ -21,7 +20,10 @@ bool is_symptom(const FlightEvent& event) {
         case FlightKind::FrameRefused:
         case FlightKind::PulsesStopped:
         case FlightKind::PeerRestarted: return true;
-        case FlightKind::Incident: return !is_asked;
+        case FlightKind::Incident: {
+            const auto reason = static_cast<IncidentReason>(event.detail);
+            return reason != IncidentReason::Asked && reason != IncidentReason::Ended;
+        }
         default: return false;
     }
 }

@@ -89,6 +89,12 @@ void add(const Life& life, Incident& incident) {
         if (is_state) { process.clock_error = std::max(process.clock_error, event.lasts); }
         incident.timeline.push_back({event.tick, incident.processes.size(), event});
     }
+    if (life.ended && !life.events.empty()) {
+        const FlightEvent end{.tick = process.last,
+                              .kind = FlightKind::Incident,
+                              .detail = static_cast<std::uint8_t>(IncidentReason::Ended)};
+        incident.timeline.push_back({process.last, incident.processes.size(), end});
+    }
     incident.processes.push_back(std::move(process));
 }
 

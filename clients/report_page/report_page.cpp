@@ -49,6 +49,11 @@ bool may_replace(const std::filesystem::path& path) {
     return beginning.find(kMark) != std::string::npos;
 }
 
+std::string in_the_way(const std::filesystem::path& path) {
+    return path.string() +
+           ": is there already and is no report, so it is left as it is; name another file with --html FILE";
+}
+
 std::expected<void, std::string> write_html(const Analysis& analysis, const std::filesystem::path& path) {
     return write_text_file(path, to_html(analysis));
 }

@@ -54,11 +54,6 @@ std::filesystem::path page_path(const AnalyzeOptions& options) {
     return path.replace_extension(".html");
 }
 
-std::string in_the_way(const std::filesystem::path& path) {
-    return path.string() +
-           ": is there already and is no report, so it is left as it is; name another file with --html FILE";
-}
-
 /// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
 std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
                                                              const analysis::Analysis& found, Voice& voice) {
@@ -67,7 +62,7 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
     const auto path = page_path(options);
     std::string problem;
     if (!analysis::may_replace(path)) {
-        problem = in_the_way(path);
+        problem = analysis::in_the_way(path);
     } else if (const auto written = analysis::write_html(found, path); !written) {
         problem = written.error();
     } else {
@@ -81,7 +76,7 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
 ExitCode analyze_log(const AnalyzeOptions& options) {
     Voice voice(options.json);
     if (!options.html.empty() && !analysis::may_replace(options.html)) {
-        return voice.fail(bad_input(in_the_way(options.html)));  // before a long log is read
+        return voice.fail(bad_input(analysis::in_the_way(options.html)));  // before a long log is read
     }
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
