@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "clients/incident/rest.hpp"
 #include "clients/incident/sentences.hpp"
 #include "clients/incident/suspects.hpp"
 
@@ -120,36 +121,6 @@ Cause cause_without_symptom(const Incident& incident) {
     return {CauseKind::Asked, std::nullopt, "nothing was wrong: what was noted was asked for", std::nullopt, {}};
 }
 
-bool is_moving(const FlightEvent& state) {
-    const auto phase = static_cast<AxisPhase>(state.detail);
-    return state.amount != 0 || phase == AxisPhase::Accelerate || phase == AxisPhase::Cruise ||
-           phase == AxisPhase::Decelerate;
-}
-
-/// When an axis that moved at `since` came to rest: by the tail it ran, or by its states. Nothing: it did not move.
-std::optional<Tick> rest_of(const Incident& incident, FlightPeer axis, Tick since) {
-    bool moved = false;
-    std::optional<Tick> rest;
-    for (const Entry& entry : incident.timeline) {
-        const FlightEvent& event = entry.event;
-        if (incident.processes[entry.process].who != axis) { continue; }
-        const bool is_state = event.kind == FlightKind::State || event.kind == FlightKind::Phase;
-        if (is_state && entry.tick <= since) { moved = is_moving(event); }
-        if (event.kind == FlightKind::TailRun && event.tick + event.lasts > since) { return event.tick + event.lasts; }
-        if (is_state && entry.tick > since && moved && !is_moving(event) && !rest) { rest = entry.tick; }
-    }
-    return rest;
-}
-
-std::optional<Tick> all_at_rest(const Incident& incident, Tick since) {
-    std::optional<Tick> rest;
-    for (std::size_t i = 0; i < incident.machine.axes.size(); ++i) {
-        const auto its = rest_of(incident, flight_axis(i), since);
-        if (its) { rest = std::max(rest.value_or(*its), *its); }
-    }
-    return rest;
-}
-
 std::string noticed_text(const Incident& incident, const Entry& symptom, const Cause& cause) {
     std::string text = incident.processes[symptom.process].name + " " + sentence(incident, symptom);
     if (symptom.event.kind == FlightKind::Incident) {
@@ -162,7 +133,9 @@ std::string noticed_text(const Incident& incident, const Entry& symptom, const C
 
 std::string rest_text(const Incident& incident, const Verdict& verdict) {
     if (!verdict.rest) { return "no axis was moving"; }
-    return "all axes at rest " + duration(incident.seconds(*verdict.rest - verdict.noticed)) + " after that";
+    const Ticks after = *verdict.rest - verdict.noticed;
+    if (after < Ticks{}) { return "all axes had come to rest " + duration(-incident.seconds(after)) + " before that"; }
+    return "all axes at rest " + duration(incident.seconds(after)) + " after that";
 }
 
 }  // namespace
@@ -183,7 +156,8 @@ Verdict judge(const Incident& incident) {
         verdict.story = {verdict.cause.text};
         return verdict;
     }
-    Verdict verdict{cause_of(incident, *symptom), symptom->tick, all_at_rest(incident, symptom->tick), {}};
+    Verdict verdict{cause_of(incident, *symptom), symptom->tick, {}, {}};
+    verdict.rest = all_at_rest(incident, std::min(verdict.noticed, verdict.cause.at.value_or(verdict.noticed)));
     verdict.story = {verdict.cause.text, noticed_text(incident, *symptom, verdict.cause), rest_text(incident, verdict)};
     return verdict;
 }

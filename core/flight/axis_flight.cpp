@@ -43,6 +43,7 @@ void AxisFlight::take(const AxisInputs& in, const AxisOutputs& out) {
     hear(in);
     owner_.look(in.now, missed, log_);
     for (PeerWatch& axis : axes_) { axis.look(in.now, missed, log_); }
+    ran_ = in.device.frame;
     for (const AxisNotice& notice : out.notices) { take_notice(in.now, notice); }
     for (const DeviceOrder& order : out.orders) { take_order(in.now, order); }
     take_tracks(out);
@@ -82,6 +83,7 @@ void AxisFlight::take_order(Tick now, const DeviceOrder& order) {
     if (std::holds_alternative<device::StopNow>(order)) { log_.add({.tick = now, .kind = FlightKind::PulsesStopped}); }
     if (own_run_) { return; }
     if (const auto* load = std::get_if<device::LoadFrame>(&order)) {
+        if (load->last) { last_frame_ = load->number; }
         log_.add({.tick = now,
                   .kind = FlightKind::FrameHeld,
                   .epoch = epoch_,
@@ -112,7 +114,10 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     FlightEvent event{.tick = now, .kind = kind_of(notice.kind), .fault = notice.fault};
     const bool is_of_epoch = notice.kind == Kind::EpochBegun || notice.kind == Kind::EpochEnded;
     const bool is_of_frame = notice.kind == Kind::FrameRefused || notice.kind == Kind::Vetoed;
-    if (notice.kind == Kind::EpochBegun) { epoch_ = notice.number; }
+    if (notice.kind == Kind::EpochBegun) {
+        epoch_ = notice.number;
+        last_frame_.reset();
+    }
     if (is_of_epoch || is_of_frame) { event.epoch = epoch_; }
     if (is_of_frame) { event.frame = notice.number; }
     if (!is_of_epoch && !is_of_frame) { event.count = static_cast<std::int64_t>(notice.number); }
@@ -129,17 +134,17 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     }
 }
 
-/// A motion that is vetoed though its owner, as far as it was heard, was running it, has been interrupted.
+/// A motion that ended before its end though its owner, as far as it was heard, was running it, has been interrupted.
 void AxisFlight::end_epoch(Tick now) {
-    const bool is_vetoed = last_ && last_->epoch == epoch_ && last_->veto;
-    if (is_vetoed && machine_phase_ == MachinePhase::Running) { log_.incident(now, IncidentReason::Interrupted); }
+    const bool is_complete = last_frame_ && ran_ == *last_frame_;
+    if (!is_complete && machine_phase_ == MachinePhase::Running) { log_.incident(now, IncidentReason::Interrupted); }
 }
 
 /// At each change of phase, and ten times a second.
 void AxisFlight::say(Tick now, const AxisState& state) {
     const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
-    const bool is_new_phase = !last_ || last_->phase != state.phase;
-    last_ = state;
+    const bool is_new_phase = phase_ != state.phase;
+    phase_ = state.phase;
     if (!is_new_phase && said_ && now - *said_ < period) { return; }
     said_ = now;
     log_.add({.tick = state.tick,

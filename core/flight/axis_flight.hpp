@@ -33,12 +33,14 @@ private:
     std::vector<PeerWatch> axes_;
     PeerWatch owner_;
     std::optional<MachinePhase> machine_phase_;
-    std::uint64_t order_ = 0;   // heard last
-    bool has_owner_ = false;    // has ever followed one
-    Epoch epoch_ = 0;           // begun last
-    bool own_run_ = false;      // the device's present run is a move of the axis's own
-    std::optional<Tick> said_;  // when its state was noted last
-    std::optional<AxisState> last_;
+    std::uint64_t order_ = 0;                // heard last
+    bool has_owner_ = false;                 // has ever followed one
+    Epoch epoch_ = 0;                        // begun last
+    bool own_run_ = false;                   // the device's present run is a move of the axis's own
+    std::optional<Tick> said_;               // when its state was noted last
+    std::optional<AxisPhase> phase_;         // then
+    FrameNumber ran_ = 0;                    // of the device's run, begun
+    std::optional<FrameNumber> last_frame_;  // of the epoch, once it is known
 };
 
 }  // namespace lockstep
