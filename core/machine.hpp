@@ -108,6 +108,11 @@ struct MachineConfig {
     }
     Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
     Ticks clock_error_limit() const { return {timing.clock_error_limit_us * 1000 / tick_ns}; }
+    /// To begin: a quarter is kept in hand, since the bound grows while exchanges are lost.
+    Ticks clock_error_to_begin() const {
+        return timing.time_source == TimeSource::Network ? Ticks{(clock_error_limit().value * 3 + 3) / 4}
+                                                         : clock_error_limit();
+    }
     Ticks frame_ticks() const { return slot_ticks() * timing.frame_slots; }
 };
 

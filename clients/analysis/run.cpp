@@ -29,11 +29,7 @@ Position Run::to() const {
     return at;
 }
 
-Ticks Run::ticks() const {
-    Ticks sum;
-    for (const Piece& piece : pieces) { sum += piece.ticks; }
-    return sum;
-}
+Ticks Run::ticks() const { return total_ticks(pieces); }
 
 std::expected<Run, std::string> to_run(const run_t& message) {
     if (!is_countable_run(message)) { return std::unexpected("a run with numbers that no machine counts to"); }

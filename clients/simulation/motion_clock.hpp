@@ -9,7 +9,7 @@ namespace lockstep {
 
 class MotionClock final : public VirtualObserver {
 public:
-    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const JobEvent& event : out.jobs) {
             if (event.kind == JobEvent::Kind::Begun) { begin_job(); }
             if (event.kind == JobEvent::Kind::EpochBegun) { begin_epoch(event); }
@@ -19,9 +19,7 @@ public:
     void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) {
             if (track.epoch == 0 || track.epoch != epoch_) { continue; }  // 0: homing
-            Ticks ticks;
-            for (const Piece& piece : track.pieces) { ticks += piece.ticks; }
-            end_ = std::max(end_, track.start + ticks);
+            end_ = std::max(end_, track.start + total_ticks(track.pieces));
         }
     }
 

@@ -10,16 +10,7 @@ namespace {
 
 constexpr std::size_t kRemembered = 64;  // frames: more than can be loaded and not yet recorded
 
-template <typename Pieces>
-Ticks length(const Pieces& pieces) {
-    Ticks all;
-    for (const Piece& piece : pieces) { all += piece.ticks; }
-    return all;
-}
-
-Ticks at_least_one_each(Ticks ticks, std::size_t pieces) {
-    return {std::max(ticks.value, static_cast<std::int64_t>(pieces))};
-}
+Ticks apart(Tick a, Tick b) { return {std::abs((a - b).value)}; }
 
 }  // namespace
 
@@ -109,36 +100,52 @@ DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
 }
 
 void DeviceTime::load(device::LoadFrame& frame) {
-    const Tick machine_end = frame.start + length(frame.track.body);
+    const Tick machine_end = frame.start + total_ticks(frame.track.body);
     const bool joins = machine_end_ == frame.start;
-    const Ticks end_error = error_at(machine_end);
-    Loaded loaded{.error = joins ? std::max(end_error_, end_error) : end_error,
-                  .tail_error = error_at(machine_end + length(frame.track.tail))};
+    const Ticks start_error = joins ? end_error_ : Ticks{};
     const Tick start = joins ? device_end_ : to_device(frame.start);
+    end_error_ = error_at(machine_end);
+    Loaded loaded{.tail_error = error_at(machine_end + total_ticks(frame.track.tail))};
     if (own_run_) {
         frame.start = start;
-        loaded.body_end = start + length(frame.track.body);
-        loaded.end = loaded.body_end + length(frame.track.tail);
+        loaded.body_end = start + total_ticks(frame.track.body);
+        loaded.end = loaded.body_end + total_ticks(frame.track.tail);
     } else {
         loaded.body_end = start;
         stretch(frame, machine_end, loaded);
     }
+    loaded.error = std::max(start_error, end_error_);
     machine_end_ = machine_end;
     device_end_ = loaded.body_end;
-    end_error_ = end_error;
     loaded.frame = frame;
     loaded_.push_back(loaded);
     if (loaded_.size() > kRemembered) { loaded_.pop_front(); }
 }
 
+/// So many ticks of the device's clock for so many of the machine's: what is asked, or as near as the slew allows; a
+/// tick for each piece.
+Ticks DeviceTime::slewed(Ticks machine, Ticks asked, std::size_t pieces) const {
+    const double as_clocks_go = static_cast<double>(machine.value) / (1 + device_clock().rate);
+    const double most = static_cast<double>(machine.value) * MachineTime::kMaxSlew;
+    const double least = std::floor(as_clocks_go - most);
+    const double longest = std::ceil(as_clocks_go + most);
+    const double ticks = std::clamp(static_cast<double>(asked.value), least, longest);
+    return {std::max(std::llround(ticks), static_cast<long long>(pieces))};
+}
+
 /// `loaded.body_end` is where the frame is to start, and becomes what it says.
 void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
     const Tick start = loaded.body_end;
-    const Ticks body = at_least_one_each(to_device(machine_end) - start, frame.track.body.size());
-    loaded.body_end = start + body;
-    const Tick machine_rest = machine_end + length(frame.track.tail);
-    const Ticks tail = at_least_one_each(to_device(machine_rest) - loaded.body_end, frame.track.tail.size());
-    loaded.end = frame.track.tail.empty() ? loaded.body_end : loaded.body_end + tail;
+    const Tick asked_end = to_device(machine_end);
+    loaded.body_end = start + slewed(total_ticks(frame.track.body), asked_end - start, frame.track.body.size());
+    end_error_ += apart(asked_end, loaded.body_end);
+    loaded.end = loaded.body_end;
+    if (!frame.track.tail.empty()) {
+        const Ticks tail = total_ticks(frame.track.tail);
+        const Tick asked_rest = to_device(machine_end + tail);
+        loaded.end += slewed(tail, asked_rest - loaded.body_end, frame.track.tail.size());
+        loaded.tail_error += apart(asked_rest, loaded.end);
+    }
     (void)retime(frame.track.body, {start, loaded.body_end});
     (void)retime(frame.track.tail, {loaded.body_end, loaded.end});
     frame.start = start;

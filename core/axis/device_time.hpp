@@ -4,6 +4,8 @@
 // the network there are three clocks: the coordinator's (machine time), this process's, and the device's. The first is
 // estimated from exchanges of messages, the last from looks at the device; their rates and offsets may change at any
 // time, so each frame's end is mapped anew when the frame is loaded, and its start is where the frame before ended.
+// What has changed between two loads is made up at MachineTime::kMaxSlew at most, however short the frame is; the rest
+// is left to the next frame, and counts as error until then.
 //
 // An axis's own moves are not coordinated: they keep the device's ticks, so that each step is made at its method's own
 // tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time, with what it is
@@ -66,6 +68,7 @@ private:
     Ticks error_at(Tick machine) const;
     void load(device::LoadFrame& frame);
     void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
+    Ticks slewed(Ticks machine, Ticks asked, std::size_t pieces) const;
 
     TimeSource source_;
     Ticks ptp_error_;

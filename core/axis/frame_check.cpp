@@ -61,12 +61,6 @@ FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, 
     return FaultCode::None;
 }
 
-Ticks total(std::span<const Piece> pieces) {
-    Ticks sum;
-    for (const Piece& piece : pieces) { sum += piece.ticks; }
-    return sum;
-}
-
 }  // namespace
 
 FaultCode check_track(const AxisTrack& track, Ticks ticks, bool last, const AxisLimits& limits, MotionPoint& from) {
@@ -74,7 +68,7 @@ FaultCode check_track(const AxisTrack& track, Ticks ticks, bool last, const Axis
     MotionPoint point = from;
     const std::span<const Piece> body(track.body.begin(), track.body.end());
     if (const FaultCode fault = check_pieces(body, limits, point); fault != FaultCode::None) { return fault; }
-    if (total(body) != ticks || (last && !track.tail.empty())) { return FaultCode::BadProgram; }
+    if (total_ticks(body) != ticks || (last && !track.tail.empty())) { return FaultCode::BadProgram; }
 
     MotionPoint end = point;
     const std::span<const Piece> tail(track.tail.begin(), track.tail.end());

@@ -23,13 +23,6 @@ Piece solved(const Piece& piece, Displacement covers, Ticks ticks) {
     return result;
 }
 
-template <typename Pieces>
-Ticks length(const Pieces& pieces) {
-    Ticks all;
-    for (const Piece& piece : pieces) { all += piece.ticks; }
-    return all;
-}
-
 /// One tick that covers just so much.
 Piece tick_of(Displacement covers) { return {{1}, {static_cast<std::int64_t>(covers.raw)}, {}}; }
 
@@ -39,7 +32,7 @@ template <std::size_t Capacity>
 bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
     StaticVector<Piece, Capacity> result;
     const ClockStretch stretch{
-        .from = {}, .ticks = length(pieces), .other_from = when.start, .other_ticks = when.end - when.start};
+        .from = {}, .ticks = total_ticks(pieces), .other_from = when.start, .other_ticks = when.end - when.start};
     Tick gone;  // ticks of the pieces as they are
     Tick device = when.start;
     Displacement left;  // of what the pieces so far should have covered

@@ -8,8 +8,9 @@
 // however the delay was shared between the two ways. The estimate is the middle of what all exchanges kept prove
 // together, each widened by what its age may have added; the bound is half of that span, so the true error never
 // exceeds it as long as the two rates differ by at most kMaxRate and neither clock steps by less than a round trip
-// (that looks like delay). Of each stretch of the window only the exchange with the least round trip is kept, so the
-// bound comes to about half the least round trip.
+// (that looks like delay). Of each stretch of the window only the exchange that proves most is kept: the one with the
+// least round trip, or, as long as little is known of the rates, a newer one. So the bound comes to about half the
+// least round trip.
 #pragma once
 
 #include <cstdint>
@@ -87,6 +88,7 @@ private:
     };
 
     Sample sample_of(const ClockExchange& exchange) const;
+    bool proves_more(const Sample& newer, const Sample& older) const;
     void keep(const Sample& sample);
     void fit();
     Span proven_rates() const;

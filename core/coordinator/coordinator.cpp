@@ -87,9 +87,9 @@ std::optional<std::size_t> Coordinator::missing_axis() const {
     return std::nullopt;
 }
 
-/// Whether an axis's clock may be further off than the protocol can bear.
-bool Coordinator::is_uncertain(std::size_t axis) const {
-    return views_[axis].state && views_[axis].state->clock_error > machine_.clock_error_limit();
+/// Whether an axis's clock may be further off than this.
+bool Coordinator::is_uncertain(std::size_t axis, Ticks limit) const {
+    return views_[axis].state && views_[axis].state->clock_error > limit;
 }
 
 /// Who is there, who is not, and who is in trouble.
@@ -108,7 +108,7 @@ void Coordinator::watch_axes(CoordinatorOutputs& out) {
             const bool being_homed = phase_ == MachinePhase::Homing && !order_done(i);
             const bool being_reset = orders_[i] && orders_[i]->kind == AxisCommandKind::Reset && !order_done(i);
             if (!being_homed && !being_reset) { fail(static_cast<FaultCode>(view.state->fault), i, out); }
-        } else if (moving_ && is_uncertain(i)) {
+        } else if (moving_ && is_uncertain(i, machine_.clock_error_limit())) {
             fail(FaultCode::ClockUncertain, i, out);
         }
     }

@@ -172,7 +172,7 @@ private:
     bool order_done(std::size_t axis) const;
     bool present(std::size_t axis) const { return views_[axis].present(now_slot_, machine_.timing); }
     std::optional<std::size_t> missing_axis() const;
-    bool is_uncertain(std::size_t axis) const;
+    bool is_uncertain(std::size_t axis, Ticks limit) const;
     std::optional<Reply> refuse_uncertain_clocks(const Command& command) const;
     AxisCounts counts() const;
     MachineState state() const;

@@ -64,14 +64,17 @@ std::optional<Reply> Coordinator::refuse_unless_ready(const Command& command) co
 
 /// Coordinated moves are for axes that agree on the time.
 std::optional<Reply> Coordinator::refuse_uncertain_clocks(const Command& command) const {
+    const Ticks limit = machine_.clock_error_to_begin();
+    const auto us = [this](Ticks t) {
+        return std::to_string(static_cast<std::int64_t>(Int128{t.value} * machine_.tick_ns / 1000)) + " us";
+    };
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        if (!is_uncertain(i)) { continue; }
-        const Int128 bound_us = Int128{views_[i].state->clock_error.value} * machine_.tick_ns / 1000;
+        if (!is_uncertain(i, limit)) { continue; }
         return refused(command, FaultCode::ClockUncertain,
-                       "axis " + machine_.axes[i].name + ": its clock may be " +
-                           std::to_string(static_cast<std::int64_t>(bound_us)) + " us off, the limit is " +
+                       "axis " + machine_.axes[i].name + ": its clock may be " + us(views_[i].state->clock_error) +
+                           " off, the limit to begin is " + us(limit) + " (timing.clock_error_limit_us is " +
                            std::to_string(machine_.timing.clock_error_limit_us) +
-                           " us (timing.clock_error_limit_us); wait until the axis has heard the coordinator for some "
+                           "); wait until the axis has heard the coordinator for some "
                            "seconds, check the network to it, or give the slots more time");
     }
     return std::nullopt;

@@ -25,6 +25,14 @@ struct Piece {
     constexpr Int128 velocity_after(Ticks n) const { return Int128{velocity.raw} + Int128{n.value} * acceleration.raw; }
 };
 
+/// How long pieces last that follow each other.
+template <typename Pieces>
+constexpr Ticks total_ticks(const Pieces& pieces) {
+    Ticks total;
+    for (const Piece& piece : pieces) { total += piece.ticks; }
+    return total;
+}
+
 /// A piece with its place in time and space.
 struct Segment {
     Tick start;

@@ -263,7 +263,7 @@ CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
     const CoordinatorInputs in{now_, mail.axes, mail.machine, mail.commands};
     CoordinatorOutputs out = coordinator(here)->step(in);
     if (auto& flight = coordinator_flights_[here - axes_.size()]) { flight->take(in, out); }
-    for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
+    for (VirtualObserver* observer : observers_) { observer->on_coordinator(here, now_, out); }
     return out;
 }
 

@@ -48,12 +48,6 @@ Made run(const Body& body, Tick start) {
     return made;
 }
 
-Ticks length(const Body& body) {
-    Ticks all;
-    for (const Piece& piece : body) { all += piece.ticks; }
-    return all;
-}
-
 TEST(Retime, EveryEndIsMetBitForBitAndEveryStepWithinTwoTicks) {
     std::mt19937_64 random(5);
     for (int run_number = 0; run_number < 300; ++run_number) {
@@ -63,11 +57,11 @@ TEST(Retime, EveryEndIsMetBitForBitAndEveryStepWithinTwoTicks) {
         const auto to_device = [&](Tick machine) {
             return Tick{std::llround(static_cast<double>((machine - start).value) * rate) + 7'000'000};
         };
-        const Tick device_end = std::max(to_device(start + length(body)), to_device(start) + Ticks{300});
+        const Tick device_end = std::max(to_device(start + total_ticks(body)), to_device(start) + Ticks{300});
         Body device = body;
         ASSERT_TRUE(retime(device, {to_device(start), device_end}));
         EXPECT_LE(device.size(), body.size() + 1);
-        EXPECT_EQ(to_device(start) + length(device), device_end);
+        EXPECT_EQ(to_device(start) + total_ticks(device), device_end);
         const Made planned = run(body, start);
         const Made made = run(device, to_device(start));
         ASSERT_EQ(made.end, planned.end) << "run " << run_number;
@@ -85,7 +79,7 @@ TEST(Retime, AClockOfTheSameRateChangesNothing) {
         Body device = body;
         const Ticks ahead{123};
         const Tick start{50};
-        ASSERT_TRUE(retime(device, {start + ahead, start + ahead + length(body)}));
+        ASSERT_TRUE(retime(device, {start + ahead, start + ahead + total_ticks(body)}));
         EXPECT_EQ(device, body);
     }
 }

@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/play_job.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lockstep::simtest {
 namespace {
@@ -101,11 +102,12 @@ void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
     if (!undisturbed) { bench.settle(seconds); }
     job.end_step = bench.steps_made();
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
-    end_record(bench, job);
     for (std::size_t i = 0; i < at.size(); ++i) {
+        if (job.end_step[i] == job.first_step[i]) { continue; }  // its turn never came
         const AxisConfig& axis = bench.machine().axes[i];
         at[i] = nearest_step(axis, axis.homing.park_mm);
     }
+    end_record(bench, job);
 }
 
 void make_ready(Bench& bench, Counts& at) {
@@ -153,12 +155,24 @@ bool JobPlayer::start() {
     job_.course = course_of(task_.program, bench_.machine(), at_, bench_.most_feed());
     job_.first_step = bench_.steps_made();
     const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
-    const Reply* reply = bench_.ask(CommandKind::Run, program);
+    const Reply* reply = ask_in_time(CommandKind::Run, program);
     if (reply == nullptr) { return false; }
     begun_ = reply->status == ReplyStatus::Accepted;
     if (!begun_) { refused("refusal", *reply); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
+}
+
+/// As a person does who is told to wait until the clocks are known well enough.
+const Reply* JobPlayer::ask_in_time(CommandKind kind, std::uint64_t program) {
+    constexpr double kLearning_s = 10;
+    const Tick patience = bench_.vm().now() + Ticks{std::llround(kLearning_s * bench_.machine().ticks_per_second())};
+    const Reply* reply = bench_.ask(kind, program);
+    while (reply != nullptr && is_refusal(*reply, FaultCode::ClockUncertain) && bench_.vm().now() < patience) {
+        bench_.wait(0.5);
+        reply = bench_.ask(kind, program);
+    }
+    return reply;
 }
 
 /// What an undisturbed machine does not refuse.
@@ -242,7 +256,7 @@ void JobPlayer::give(const WrongCommand& wrong) {
 
 void JobPlayer::resume() {
     if (ended()) { return; }
-    const Reply* reply = bench_.ask(CommandKind::Resume);
+    const Reply* reply = ask_in_time(CommandKind::Resume);
     if (reply == nullptr) { return; }
     if (reply->status != ReplyStatus::Accepted) { return refused("resume", *reply); }
     moving_since_ = bench_.vm().now();

@@ -31,7 +31,7 @@ class TrueTime : public VirtualObserver {
 public:
     TrueTime(const VirtualOptions& options, VirtualMachine& vm) : options_(options) { vm.observe(*this); }
 
-    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const Frame& frame : out.frames) { sent_.emplace(std::pair{frame.epoch, frame.number}, frame); }
     }
     void on_step(std::size_t axis, StepEdge step) override {
@@ -165,7 +165,7 @@ TEST_F(TightLimit, NoCoordinatedMoveBeginsWhereAClockMayBeFurtherOffThanTheLimit
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::ClockUncertain);
     EXPECT_NE(reply.text.find("axis X: its clock may be"), std::string::npos) << reply.text;
-    EXPECT_NE(reply.text.find("the limit is 1 us"), std::string::npos) << reply.text;
+    EXPECT_NE(reply.text.find("timing.clock_error_limit_us is 1)"), std::string::npos) << reply.text;
 }
 
 /// The own clock of X's process is set forward while it moves.

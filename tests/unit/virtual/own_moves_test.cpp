@@ -192,9 +192,7 @@ TEST_F(OwnMoves, AMoveInAGivenTimeTakesExactlyThat) {
     home();
     expect_done({25, 5}, Ticks{500'000});
     Ticks sum;
-    for (const ExecutedTrack& track : log.tracks) {
-        for (const Piece& piece : track.pieces) { sum += piece.ticks; }
-    }
+    for (const ExecutedTrack& track : log.tracks) { sum += total_ticks(track.pieces); }
     EXPECT_EQ(sum.value, 500'000);
     EXPECT_EQ(counts()[0], 2'500);
 }

@@ -1,0 +1,96 @@
+// Frames on a device's own clock: in step with machine time within the error said, and never hurried to get there.
+#include "core/axis/device_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "tests/property/clock/two_clocks.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kDeviceDrift = 80e-6;  // against this process's clock
+
+Tick device_shows(Tick own) {
+    return Tick{12'345} + Ticks{std::llround(static_cast<double>(own.value) * (1 + kDeviceDrift))};
+}
+
+/// Frames that follow each other on one machine, each loaded while the one before it runs.
+class LoadedFrames {
+public:
+    explicit LoadedFrames(std::uint64_t seed) : clocks_(seed) {
+        machine_.timing.time_source = TimeSource::Network;
+        time_.emplace(machine_);
+    }
+
+    void begin() {
+        for (int i = 0; i < 20; ++i) { look(false); }
+        (void)time_->in_device_time(device::BeginRun{});
+        start_ = time_->now() + Ticks{300'000};
+    }
+
+    /// A frame of any length; how it came to the device.
+    ExecutedTrack load() {
+        look(true);
+        while (time_->now() < start_ - Ticks{300'000}) { look(true); }
+        const Ticks ticks{std::llround(std::exp(clocks_.real(std::log(50.0), std::log(200'000.0))))};
+        device::LoadFrame frame{.number = ++number_, .start = start_};
+        (void)frame.track.body.push_back({ticks, {1 << 20}, {}});
+        (void)time_->in_device_time(frame);
+        ExecutedTrack track{.epoch = 1, .frame = number_, .start = start_};
+        track.pieces.assign(1, {ticks, {1 << 20}, {}});
+        start_ += ticks;
+        return time_->in_device_time(track);
+    }
+
+    double drift() const { return clocks_.drift(); }
+    /// Of the device's clock at a machine time, by the clocks as they are.
+    Tick device_at(Tick machine) const { return device_shows(clocks_.own(static_cast<double>(machine.value))); }
+
+private:
+    void look(bool in_use) {
+        time_->take(clocks_.exchange());
+        const Tick own = clocks_.own(clocks_.truth());
+        (void)time_->look(own, {.now = device_shows(own)}, in_use);
+    }
+
+    MachineConfig machine_;
+    TwoClocks clocks_;
+    std::optional<DeviceTime> time_;
+    FrameNumber number_ = 0;
+    Tick start_;
+};
+
+TEST(DeviceTime, AFrameIsWithinTheErrorSaidHoweverTheClocksGo) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        LoadedFrames frames(seed);
+        frames.begin();
+        for (int i = 0; i < 60; ++i) {
+            const ExecutedTrack track = frames.load();
+            const Ticks off = track.start - frames.device_at(track.commanded_start);
+            ASSERT_LE(std::abs(off.value), track.clock_error.value + 2) << "seed " << seed << ", frame " << i;
+        }
+    }
+}
+
+TEST(DeviceTime, AShortFrameIsNotHurriedToMakeUpForALongOne) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        LoadedFrames frames(seed);
+        frames.begin();
+        for (int i = 0; i < 60; ++i) {
+            const ExecutedTrack track = frames.load();
+            ASSERT_EQ(track.commanded_ticks.size(), 1U);
+            const auto commanded = static_cast<double>(track.commanded_ticks[0].value);
+            const double by_clocks = commanded * (1 + frames.drift()) * (1 + kDeviceDrift);
+            const double most = commanded * (MachineTime::kMaxSlew + ClockEstimator::kMaxRate) + 2;
+            ASSERT_NEAR(static_cast<double>(total_ticks(track.pieces).value), by_clocks, most)
+                << "seed " << seed << ", frame " << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
