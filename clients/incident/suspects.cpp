@@ -33,6 +33,12 @@ const Entry* standstill(const Incident& incident, FlightPeer who, Tick at) {
     return longest;
 }
 
+/// For how long both stood still.
+Ticks overlap(const Entry& a, const Entry& b) {
+    const Tick from = std::max(a.tick - a.event.lasts, b.tick - b.event.lasts);
+    return std::max(Ticks{}, std::min(a.tick, b.tick) - from);
+}
+
 std::optional<Cause> explain_by_end(const Incident& incident, FlightPeer suspect, Tick at) {
     for (const Process& process : incident.processes) {
         if (process.who != suspect || !process.ended || process.last > at + hop(incident)) { continue; }
@@ -64,7 +70,7 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
     std::size_t together = 0;
     for (const Process& process : incident.processes) {
         const Entry* other = standstill(incident, process.who, at);
-        if (other == nullptr || other->tick <= from || other->tick - other->event.lasts >= stall->tick) { continue; }
+        if (other == nullptr || overlap(*other, *stall) * 2 < lasts) { continue; }
         ++together;
         if (process.who.kind == FlightPeer::Kind::Axis) { axes |= std::int64_t{1} << process.who.axis; }
     }
