@@ -8,7 +8,7 @@
 #include "services/runtime/clock.hpp"
 #include "services/runtime/directories.hpp"
 #include "services/runtime/log.hpp"
-#include "services/runtime/periodic.hpp"
+#include "services/runtime/real_time.hpp"
 
 namespace lockstep {
 namespace {
