@@ -77,6 +77,9 @@ std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message) {
         return std::unexpected("a head of version " + std::to_string(message.version) + ", reason \"" + message.reason +
                                "\": this command reads version " + std::to_string(kFlightVersion));
     }
+    if (message.process.contains('/') || message.machine.contains('/')) {
+        return std::unexpected("a head of a process that no machine can have");
+    }
     FlightHead head;
     head.source = {.machine = message.machine,
                    .process = message.process,

@@ -13,8 +13,8 @@ namespace lockstep {
 namespace {
 
 /// What living processes noted, read as they run, or stand still: they need do nothing for it.
-void write_living(const MachineConfig& machine, proto::FlightReport& report) {
-    for (const auto& path : rings_in(memory_directory())) {
+void write_living(const std::filesystem::path& rings, const MachineConfig& machine, proto::FlightReport& report) {
+    for (const auto& path : rings_in(rings)) {
         const auto snapshot = read_ring(path);
         if (!snapshot || snapshot->source.directory != incident_directory(machine)) { continue; }
         const Tick last = snapshot->events.empty() ? Tick{} : snapshot->events.back().event.tick;
@@ -26,10 +26,12 @@ void write_living(const MachineConfig& machine, proto::FlightReport& report) {
 proto::FlightReport write_all(const MachineConfig& machine) {
     proto::FlightReport report;
     report.set_directory(incident_directory(machine).string());
-    const LeftRings left = save_left_rings(memory_directory(), incident_directory(machine));
-    for (const auto& file : left.saved) { report.add_files(file.string()); }
-    for (const std::string& problem : left.problems) { report.add_problems(problem); }
-    write_living(machine, report);
+    for (const auto& rings : memory_directories()) {
+        const LeftRings left = save_left_rings(rings, incident_directory(machine));
+        for (const auto& file : left.saved) { report.add_files(file.string()); }
+        for (const std::string& problem : left.problems) { report.add_problems(problem); }
+        write_living(rings, machine, report);
+    }
     return report;
 }
 
