@@ -11,7 +11,7 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     ring_room_ = device.free_segments;
     if (mode_ == Mode::Rest) { run_ = std::max(run_, device.run); }  // a device may have outlived another process
     if (mode_ != Mode::Rest && device.run == run_) {
-        veto_when_left_behind(device);
+        veto_when_left_behind(device, out);
         record_progress(device, out);
         follow_speed(device);
         if (device.finished) { end_run(device, out); }
@@ -25,9 +25,9 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
 
 /// The device has fallen to a tail, perhaps while this process stalled with a frame decided on: others may be running
 /// it. What this axis holds from here on must be no evidence to them.
-void AxisController::veto_when_left_behind(const DeviceStatus& device) {
+void AxisController::veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out) {
     const bool fell = device.in_tail || (device.finished && !follower_.is_complete(device.frame));
-    if (mode_ == Mode::Following && fell) { follower_.veto_for_own_reasons(rules::slot_of(now_, slot_)); }
+    if (mode_ == Mode::Following && fell) { veto_for_own_reasons(out); }
 }
 
 /// Records each body when the next has begun, and the last with its tail when the run has ended.
@@ -103,7 +103,7 @@ void AxisController::end_run(const DeviceStatus& device, AxisOutputs& out) {
         end_local(device, out);
     } else if (device.stopped_by_limit) {
         homed_ = false;
-        follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
+        veto_for_own_reasons(out);
         happen(AxisEvent::LimitStops);
         fail(FaultCode::LimitHit, out);
     }

@@ -31,10 +31,11 @@ struct FaultKinds {
     bool mixed = false;  // each kind is there in half of the runs only
     bool override = false;
     bool standby = false;  // a second coordinator, and faults about takeovers
+    bool limit = false;    // switches, slides and devices
 
-    bool breaks_processes() const { return freeze || crash || partition || stall || clock || standby; }
+    bool breaks_processes() const { return freeze || crash || partition || stall || clock || standby || limit; }
     static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true, true};
+        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true};
     }
 };
 
