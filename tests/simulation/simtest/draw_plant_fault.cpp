@@ -37,6 +37,12 @@ PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine) {
     planned.frame = draw.chance(0.3) ? 1 : 1 + static_cast<FrameNumber>(draw.magnitude(1, 60));
     planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
     planned.slots = draw.chance(0.5) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
+    if (kind != Kind::Stick || !draw.chance(0.25)) { return planned; }
+    // It is closed before the axis makes its first step.
+    planned.frame = 1;
+    planned.edge = PlannedFault::Edge::FirstSend;
+    const int until_moving = machine.timing.send_ahead_slots + machine.timing.frame_slots;
+    planned.fault.lasts = std::max(planned.fault.lasts, machine.slot_ticks() * until_moving);
     return planned;
 }
 

@@ -148,6 +148,7 @@ void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     if (longest_search_slots(scenario.machine) > kLongSearch) { return; }
     if (mixed && draw.chance(0.7)) { return; }
     scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}});
+    scenario.asks_in_fault = draw.chance(0.5);
     if (draw.chance(0.4)) { scenario.homing_faults = {draw_plant_fault_of_homing(draw, scenario.machine)}; }
     for (std::size_t n = 0; n + 1 < scenario.tasks.size(); ++n) {
         PlannedFault planned = draw_plant_fault(draw, scenario.machine);

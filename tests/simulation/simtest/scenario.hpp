@@ -102,6 +102,7 @@ struct Scenario {
     std::size_t coordinators = 1;
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
+    bool asks_in_fault = false;                // for a homing, which must then be refused
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 
