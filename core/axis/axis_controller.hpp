@@ -110,7 +110,8 @@ private:
     enum class Mode : std::uint8_t { Rest, Following, Local };
 
     void observe(const DeviceStatus& device, AxisOutputs& out);
-    void veto_when_left_behind(const DeviceStatus& device);
+    void veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out);
+    void veto_for_own_reasons(AxisOutputs& out);
     void record_progress(const DeviceStatus& device, AxisOutputs& out);
     void record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out);
     void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, AxisOutputs& out);

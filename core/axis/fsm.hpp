@@ -47,11 +47,9 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Initialize, AxisEvent::LimitStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::Fails, AxisPhase::Fault},
-    // Standby: homed, at rest.
+    // Standby: homed, at rest. Out of rest a speed can only rise.
     AxisTransition{AxisPhase::Standby, AxisEvent::HomingBegins, AxisPhase::Initialize},
     AxisTransition{AxisPhase::Standby, AxisEvent::SpeedRises, AxisPhase::Accelerate},
-    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedSteady, AxisPhase::Cruise},
-    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedFalls, AxisPhase::Decelerate},
     AxisTransition{AxisPhase::Standby, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Standby, AxisEvent::LimitStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Standby, AxisEvent::Fails, AxisPhase::Fault},

@@ -36,6 +36,20 @@ Mail collect(VirtualNetwork& network, Tick now, std::size_t address) {
     return mail;
 }
 
+/// Its first piece starts a tick later than it should: the frame does not join the one before.
+void damage_newest_frame(RegisterWindow& window) {
+    using namespace registers;
+    const std::uint64_t head = window.load(kSegmentHead);
+    const auto place = [](std::uint64_t n) {
+        return kSegmentRing + (n % kSegmentRingEntries) * kSegmentRingEntryBytes;
+    };
+    for (std::uint64_t n = head; n != window.load(kSegmentTail); --n) {
+        const std::size_t entry = place(n - 1);
+        if ((window.load(entry + kSegmentRingFlags) & kSegmentRingFlagsFirst) == 0) { continue; }
+        return window.store(entry + kSegmentRingStart, window.load(entry + kSegmentRingStart) + 1);
+    }
+}
+
 }  // namespace
 
 VirtualMachine::VirtualMachine(const VirtualOptions& options)
@@ -119,6 +133,20 @@ void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
     }
 }
 
+/// At this very tick of the device, which looks at its inputs at once.
+void VirtualMachine::disturb(const VirtualFault& fault, bool begins) {
+    const std::size_t i = fault.process;
+    device(i).advance(device_time(i));
+    if (fault.kind == VirtualFault::Kind::Stick) {
+        device(i).plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
+    } else if (fault.kind == VirtualFault::Kind::Push && begins) {
+        device(i).plant().push(fault.push_steps);
+    } else if (begins) {
+        damage_newest_frame(axes_[i].device.window);
+    }
+    device(i).advance(device_time(i));
+}
+
 void VirtualMachine::schedule(const VirtualFault& fault) {
     turns_.emplace(std::max(fault.at, now_), Turn{fault, true});
     turns_.emplace(std::max(fault.end(), now_), Turn{fault, false});
@@ -137,6 +165,9 @@ void VirtualMachine::take_turn(const Turn& turn) {
             break;
         case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault.process); break;
         case VirtualFault::Kind::Cut: cut(turn.fault, turn.begins); break;
+        case VirtualFault::Kind::Stick:
+        case VirtualFault::Kind::Push:
+        case VirtualFault::Kind::DamageFrame: disturb(turn.fault, turn.begins); break;
     }
     for (VirtualObserver* observer : observers_) { observer->on_fault(now_, turn.fault, turn.begins); }
 }

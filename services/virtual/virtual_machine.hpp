@@ -124,6 +124,7 @@ private:
     void crash(std::size_t process);
     void restart(std::size_t process);
     void cut(const VirtualFault& fault, bool begins);
+    void disturb(const VirtualFault& fault, bool begins);
 
     AxisClocks clocks_of(std::size_t i) const { return i < options_.clocks.size() ? options_.clocks[i] : AxisClocks{}; }
     Tick process_time(std::size_t i) const { return clocks_of(i).process.at(now_, options_.start); }
