@@ -90,6 +90,7 @@ struct MachineConfig {
     ProtocolTiming timing;
     NetworkConfig network;
     RecordConfig record;
+    std::string position_directory;  // where axes keep their positions; empty: where the host keeps such files
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
     std::vector<AxisConfig> axes;
 

@@ -10,6 +10,7 @@
 
 #include "core/machine.hpp"
 #include "core/motion/overrides.hpp"
+#include "core/motion/path_place.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"
 
@@ -89,6 +90,7 @@ struct AxisState {
     Ticks clock_error;                       // its machine time is at most so far off
     Term term;                               // of the owner it follows: the highest it ever has
     bool hears_owner = false;                // within silence_slots
+    std::uint16_t unproved = 0;  // FaultCode: why it did not know its position at its start; 0: it knows it now
     bool operator==(const AxisState&) const = default;
 };
 
@@ -128,6 +130,17 @@ enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding
 
 enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
+/// MoveOwn: axes to their places each by itself, not coordinated.
+enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
+
+/// Where the machine comes to rest if no frame behind this one is run; frame 0: where the epoch starts.
+struct FrameRest {
+    FrameNumber frame = 0;
+    PathPlace place;    // on the program
+    bool last = false;  // the epoch ends with it
+    bool operator==(const FrameRest&) const = default;
+};
+
 /// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
 struct MachineState {
     Term term;  // Standby: the highest number known, and who stands by
@@ -147,6 +160,10 @@ struct MachineState {
     Overrides overrides;             // of what is planned from now on
     std::uint32_t axes_present = 0;  // bit i: axis i is heard
     std::uint64_t config_hash = 0;
+    // What another needs to go on with the job, while one is in motion:
+    JobKind job_kind = JobKind::Run;
+    std::uint64_t program = 0;     // Command::program of the job; 0: none is in motion
+    std::vector<FrameRest> rests;  // of the frames of the epoch that may be the last ones run, rising
     bool operator==(const MachineState&) const = default;
 };
 

@@ -6,6 +6,7 @@
 
 #include "services/axis/axis_node.hpp"
 #include "services/axis/axis_notices.hpp"
+#include "services/axis/position_file.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/axis_recorder.hpp"
 #include "services/record/sinks.hpp"
@@ -33,6 +34,17 @@ std::expected<AxisDevice, std::string> open_device(const std::string& fpga, cons
     return AxisDevice{std::move(*window), nullptr, true};
 }
 
+void complain_of_disk(const std::string& why) {
+    log_warning("the position is not kept, a new process will not know it: " + why +
+                "; set position_directory to one that can be written");
+}
+
+KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
+    ReadPosition read = read_position(position_file(machine, axis));
+    if (!read.trouble.empty()) { log_warning("the kept position is not believed: " + read.trouble); }
+    return std::move(read.kept);
+}
+
 /// The loop's state: what came, what is said, what is complained about.
 class AxisService {
 public:
@@ -44,6 +56,7 @@ public:
           bus_(std::move(bus)),
           sink_(std::move(sink)),
           recorder_(setup.machine, setup.axis, setup.identity, *sink_),
+          keeper_(position_file(setup.machine, setup.axis), complain_of_disk),
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         if (setup.machine.timing.time_source != TimeSource::Network) { return; }
@@ -62,6 +75,7 @@ public:
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
+        if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
@@ -133,6 +147,7 @@ private:
     AxisBus bus_;
     std::unique_ptr<RecordSink> sink_;
     AxisRecorder recorder_;
+    PositionKeeper keeper_;
     HealthMeter meter_;
     std::vector<Frame> frames_;
     std::vector<AxisState> states_;
@@ -157,7 +172,8 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     StopSignal stop;
     if (options.priority > 0) { log_info(try_real_time(options.priority)); }
     const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
-    const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine)};
+    const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
+                                kept_position(machine, axis)};
     auto device = open_device(options.fpga, machine.axes[axis], machine.tick_ns, clock.now());
     if (!device) { return fail(device.error()); }
     auto node = AxisNode::attach(setup, std::move(*device));

@@ -156,6 +156,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     }
     draft.machine.network = read_network(message.network());
     draft.machine.record = read_record(message.record());
+    draft.machine.position_directory = message.position_directory();
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {

@@ -74,6 +74,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     write_timing(machine.timing, *message.mutable_timing());
     write_network(machine.network, *message.mutable_network());
     if (machine.record != RecordConfig{}) { write_record(machine.record, *message.mutable_record()); }
+    if (!machine.position_directory.empty()) { message.set_position_directory(machine.position_directory); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     return message;
