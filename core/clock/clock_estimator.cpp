@@ -74,12 +74,17 @@ bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
     return std::abs(one.ahead - other.ahead) <= one.half + other.half + drift;
 }
 
-/// Of its stretch of time the one that now proves most: what an older one proves has widened since. Those that have
-/// left the window go.
+/// What an older one proves has widened since: worth it from a tick on.
+bool ClockEstimator::proves_more(const Sample& newer, const Sample& older) const {
+    const double widened = rate_error_ * (newer.own - older.own);
+    return newer.half < older.half || newer.half + kRounding < older.half + widened;
+}
+
+/// Of its stretch of time the one that now proves most; those that have left the window go.
 void ClockEstimator::keep(const Sample& sample) {
     const auto stretch_of = [this](const Sample& s) { return std::floor(s.own / stretch_); };
     const bool same_stretch = !kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample);
-    if (same_stretch && sample.half >= kept_.back().half + rate_error_ * (sample.own - kept_.back().own)) { return; }
+    if (same_stretch && !proves_more(sample, kept_.back())) { return; }
     if (same_stretch) { kept_.pop_back(); }
     const auto is_young = [&](const Sample& s) { return s.own >= sample.own - window_; };
     const auto outdated = static_cast<std::size_t>(std::ranges::find_if(kept_, is_young) - kept_.begin());

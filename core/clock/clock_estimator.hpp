@@ -88,6 +88,7 @@ private:
     };
 
     Sample sample_of(const ClockExchange& exchange) const;
+    bool proves_more(const Sample& newer, const Sample& older) const;
     void keep(const Sample& sample);
     void fit();
     Span proven_rates() const;

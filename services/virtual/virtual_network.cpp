@@ -1,5 +1,7 @@
 #include "services/virtual/virtual_network.hpp"
 
+#include <iterator>
+
 namespace lockstep {
 
 bool VirtualNetwork::happens(double probability) {
@@ -29,18 +31,22 @@ void VirtualNetwork::post(Tick now, Address to, SharedMessage message) {
     if (mailboxes_.size() <= to) { mailboxes_.resize(to + 1); }
     const auto spread = static_cast<std::uint64_t>((behaviour_.delay_max - behaviour_.delay_min).value) + 1;
     const Ticks delay = behaviour_.delay_min + Ticks{static_cast<std::int64_t>(random_() % spread)};
-    mailboxes_[to].push({now + delay, sent_++, std::move(message)});
+    Mailbox& mailbox = mailboxes_[to];
+    auto place = mailbox.end();
+    while (place != mailbox.begin() && std::prev(place)->arrives > now + delay) { --place; }
+    mailbox.insert(place, {now + delay, std::move(message)});
 }
 
 std::optional<Tick> VirtualNetwork::next_arrival(Address to) const {
     if (to >= mailboxes_.size() || mailboxes_[to].empty()) { return std::nullopt; }
-    return mailboxes_[to].top().arrives;
+    return mailboxes_[to].front().arrives;
 }
 
 SharedMessage VirtualNetwork::receive(Tick now, Address to) {
-    if (to >= mailboxes_.size() || mailboxes_[to].empty() || mailboxes_[to].top().arrives > now) { return nullptr; }
-    SharedMessage message = mailboxes_[to].top().message;
-    mailboxes_[to].pop();
+    const auto next = next_arrival(to);
+    if (!next || *next > now) { return nullptr; }
+    SharedMessage message = std::move(mailboxes_[to].front().message);
+    mailboxes_[to].pop_front();
     return message;
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
-#include <queue>
 #include <random>
 #include <utility>
 #include <vector>
@@ -52,13 +52,9 @@ public:
 private:
     struct Parcel {
         Tick arrives;
-        std::uint64_t number = 0;
         SharedMessage message;
-        bool operator>(const Parcel& other) const {
-            return arrives != other.arrives ? arrives > other.arrives : number > other.number;
-        }
     };
-    using Mailbox = std::priority_queue<Parcel, std::vector<Parcel>, std::greater<>>;
+    using Mailbox = std::deque<Parcel>;  // in order of arrival; few ever overtake others
 
     bool happens(double probability);
     bool is_cut(Address from, Address to) const;
@@ -71,7 +67,6 @@ private:
     std::optional<Address> trusted_;
     AlterationCounts alterations_{};
     std::vector<Mailbox> mailboxes_;
-    std::uint64_t sent_ = 0;
 };
 
 }  // namespace lockstep

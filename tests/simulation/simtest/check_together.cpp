@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
-#include <optional>
-#include <utility>
+#include <span>
+#include <vector>
 
 #include "tests/simulation/simtest/checks.hpp"
 #include "tests/simulation/simtest/epoch_runs.hpp"
@@ -57,41 +57,45 @@ private:
 class TogetherCheck {
 public:
     /// until: when an axis is no longer bound to the others.
-    TogetherCheck(const Recording& recording, const JobRecord& job, std::vector<Tick> until)
-        : recording_(recording),
-          job_(job),
-          until_(std::move(until)),
-          made_(recording.axes.size(), 0),
-          may_(recording.axes.size(), 0) {
-        for (const AxisCourse& course : job.course.axes) { places_.emplace_back(course); }
+    TogetherCheck(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until)
+        : recording_(recording), job_(job) {
+        for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+            axes_.push_back({i, recording.steps_of(job, i), until[i], AxisPlace(job.course.axes[i])});
+            look_ahead(axes_.back());
+        }
     }
 
     void check(Violations& violations) {
-        while (const auto tick = next_tick()) {
-            for (std::size_t i = 0; i < made_.size(); ++i) { make_steps_at(*tick, i); }
-            std::optional<std::size_t> ahead, behind;
-            for (std::size_t i = 0; i < made_.size(); ++i) {
-                if (*tick > until_[i]) { continue; }
-                if (!ahead || places_[i].earliest() > places_[*ahead].earliest()) { ahead = i; }
-                if (!behind || places_[i].latest() < places_[*behind].latest()) { behind = i; }
+        for (Tick tick = next_tick(); tick != kNever; tick = next_tick()) {
+            for (Axis& axis : axes_) { make_steps_until(tick, axis); }
+            const Axis* ahead = nullptr;
+            const Axis* behind = nullptr;
+            for (const Axis& axis : axes_) {
+                if (tick > axis.until) { continue; }
+                if (ahead == nullptr || axis.place.earliest() > ahead->place.earliest()) { ahead = &axis; }
+                if (behind == nullptr || axis.place.latest() < behind->place.latest()) { behind = &axis; }
             }
-            if (ahead && places_[*ahead].earliest() > places_[*behind].latest() + 1e-9) {
-                return object(*tick, *ahead, *behind, violations);
+            if (ahead != nullptr && ahead->place.earliest() > behind->place.latest() + 1e-9) {
+                return object(tick, *ahead, *behind, violations);
             }
         }
     }
 
 private:
-    std::optional<Tick> next_tick() const {
-        std::optional<Tick> next;
-        for (std::size_t i = 0; i < made_.size(); ++i) {
-            const auto steps = recording_.steps_of(job_, i);
-            if (made_[i] == steps.size()) { continue; }
-            const Tick certain = latest(i, steps[made_[i]]);
-            if (!next || certain < *next) { next = certain; }
-        }
-        return next;
-    }
+    static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
+
+    struct Axis {
+        std::size_t index = 0;
+        std::span<const StepEdge> steps;
+        Tick until;
+        AxisPlace place;
+        std::size_t made = 0;      // certainly
+        std::size_t may_have = 0;  // made
+        Tick next_made = kNever;   // when the next step certainly is
+        Tick next_may = kNever;
+    };
+
+    Tick next_tick() const { return std::ranges::min_element(axes_, {}, &Axis::next_made)->next_made; }
 
     /// What a step may be off: the bound, what rounding in time leaves, and what it leaves here.
     Ticks error_at(std::size_t i, Tick truth) const {
@@ -107,29 +111,32 @@ private:
         return truth - error_at(i, truth);
     }
 
-    void make_steps_at(Tick tick, std::size_t i) {
-        const auto steps = recording_.steps_of(job_, i);
-        while (made_[i] < steps.size() && latest(i, steps[made_[i]]) <= tick) {
-            places_[i].made(static_cast<std::int64_t>(++made_[i]));
+    void look_ahead(Axis& axis) const {
+        axis.next_made = axis.made < axis.steps.size() ? latest(axis.index, axis.steps[axis.made]) : kNever;
+        axis.next_may = axis.may_have < axis.steps.size() ? earliest(axis.index, axis.steps[axis.may_have]) : kNever;
+    }
+
+    void make_steps_until(Tick tick, Axis& axis) const {
+        while (axis.next_made <= tick) {
+            axis.place.made(static_cast<std::int64_t>(++axis.made));
+            look_ahead(axis);
         }
-        while (may_[i] < steps.size() && earliest(i, steps[may_[i]]) <= tick) {
-            places_[i].may_have_made(static_cast<std::int64_t>(++may_[i]));
+        while (axis.next_may <= tick) {
+            axis.place.may_have_made(static_cast<std::int64_t>(++axis.may_have));
+            look_ahead(axis);
         }
     }
 
-    void object(Tick tick, std::size_t ahead, std::size_t behind, Violations& violations) const {
-        violations.push_back({"together", ahead, tick.value, job_.first_step[ahead] + made_[ahead] - 1,
-                              "it is at move " + std::to_string(places_[ahead].earliest()) +
-                                  " of the program at least, while axis " + recording_.machine.axes[behind].name +
-                                  " is at " + std::to_string(places_[behind].latest()) + " at most"});
+    void object(Tick tick, const Axis& ahead, const Axis& behind, Violations& violations) const {
+        violations.push_back({"together", ahead.index, tick.value, job_.first_step[ahead.index] + ahead.made - 1,
+                              "it is at move " + std::to_string(ahead.place.earliest()) +
+                                  " of the program at least, while axis " + recording_.machine.axes[behind.index].name +
+                                  " is at " + std::to_string(behind.place.latest()) + " at most"});
     }
 
     const Recording& recording_;
     const JobRecord& job_;
-    std::vector<Tick> until_;
-    std::vector<std::size_t> made_;
-    std::vector<std::size_t> may_;
-    std::vector<AxisPlace> places_;
+    std::vector<Axis> axes_;
 };
 
 /// Until pulses are told to cease; an axis that a fault may part from the others, until it has.
