@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -133,11 +134,24 @@ enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 /// MoveOwn: axes to their places each by itself, not coordinated.
 enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
 
+/// Positions of all axes in 64 bits: of two places that differ in any bit it differs but once in 2^64.
+constexpr std::uint64_t digest_of(std::span<const Position> positions) {
+    std::uint64_t digest = 0xcbf29ce484222325U;
+    for (const Position position : positions) {
+        for (const std::uint64_t word : {static_cast<std::uint64_t>(position.count()), position.phase()}) {
+            digest = (digest ^ word) * 0x9e3779b97f4a7c15U;
+            digest ^= digest >> 32;
+        }
+    }
+    return digest;
+}
+
 /// Where the machine comes to rest if no frame behind this one is run; frame 0: where the epoch starts.
 struct FrameRest {
     FrameNumber frame = 0;
-    PathPlace place;    // on the program
-    bool last = false;  // the epoch ends with it
+    PathPlace place;           // on the program
+    bool last = false;         // the epoch ends with it
+    std::uint64_t digest = 0;  // digest_of where each axis then rests
     bool operator==(const FrameRest&) const = default;
 };
 
