@@ -168,6 +168,7 @@ struct MachineState {
     std::optional<FrameNumber> veto;    // the coordinator's own, of this epoch
     std::uint64_t job = 0;              // counts the jobs done or begun since start
     std::optional<JobOutcome> outcome;  // of that job; nothing while it is in progress
+    Term job_begun;                     // in which term: another owner may have gone on with it
     std::int32_t line = 0;              // of the G-code now in motion, or where a takeover has ended the job
     double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
