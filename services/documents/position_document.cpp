@@ -1,5 +1,7 @@
 #include "services/documents/position_document.hpp"
 
+#include <google/protobuf/stubs/logging.h>
+
 #include "idl/proto/position.pb.h"
 #include "services/documents/fnv.hpp"
 #include "services/documents/text_source.hpp"
@@ -34,6 +36,7 @@ std::string position_text(const KeptPosition& kept) {
 }
 
 std::expected<KeptPosition, std::string> position_from_text(std::string_view text) {
+    const google::protobuf::LogSilencer what_is_wrong_is_the_answer;
     proto::KeptPosition message;
     TextSource source;
     if (const Diagnostics errors = source.parse(text, message); !errors.empty()) {
