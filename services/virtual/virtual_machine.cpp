@@ -65,7 +65,7 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 void VirtualMachine::power_up() {
     const MachineConfig& machine = options_.machine;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        axes_.emplace_back().device = simulated_device(machine.axes[i], machine.tick_ns, device_time(i));
+        axes_.push_back({.device = simulated_device(machine.axes[i], machine.tick_ns, device_time(i))});
     }
     coordinators_.resize(options_.coordinators);
     coordinator_flights_.resize(options_.coordinators);
