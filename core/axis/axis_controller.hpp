@@ -54,8 +54,6 @@ struct ExecutedTrack {
 /// What happened, for the log.
 struct AxisNotice {
     enum class Kind : std::uint8_t {
-        PositionProved,    // the axis is homed by the position that was kept
-        PositionUnproved,  // it is not: why
         OwnerAdopted,
         EpochBegun,
         EpochEnded,
@@ -65,7 +63,9 @@ struct AxisNotice {
         Homed,
         Fault,
         Reset,
-        CommandRefused
+        CommandRefused,
+        PositionProved,   // the axis is homed by the position that was kept
+        PositionUnproved  // it is not: why
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
