@@ -108,6 +108,7 @@ struct MachineConfig {
     ProtocolTiming timing;
     NetworkConfig network;
     RecordConfig record;
+    std::string position_directory;  // where axes keep their positions; empty: where the host keeps such files
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
     std::string coordinator_host;                  // where it runs; empty: wherever it is started
     RealTimeConfig real_time;

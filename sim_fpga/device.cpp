@@ -7,17 +7,18 @@ namespace lockstep {
 
 using namespace registers;
 
-SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now)
+SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now,
+                                 std::uint64_t power_up)
     : window_(window),
       segments_(window),
       capture_(window),
       plant_(std::move(plant)),
       engine_(now, rest_position(0, false)),
       inputs_(plant_.inputs()) {
-    reset(tick_ns);
+    reset(tick_ns, power_up);
 }
 
-void SimulatedDevice::reset(std::int64_t tick_ns) {
+void SimulatedDevice::reset(std::int64_t tick_ns, std::uint64_t power_up) {
     for (const std::size_t word :
          {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead, kCaptureTail}) {
         window_.store(word, 0);
@@ -25,6 +26,7 @@ void SimulatedDevice::reset(std::int64_t tick_ns) {
     window_.store(kVersion, kVersionValue);
     window_.store(kMapChecksum, kMapChecksumValue);
     window_.store(kTickNs, static_cast<std::uint64_t>(tick_ns));
+    window_.store(kPowerUp, power_up);
     publish();
     window_.store(kMagic, kMagicValue);
 }

@@ -26,8 +26,9 @@ namespace lockstep {
 class SimulatedDevice {
 public:
     /// Power-up at rest, having executed `now`: resets all registers. The window is this device's from here on; a
-    /// driver attaches to a copy. tick_ns: what TICK_NS says.
-    SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now);
+    /// driver attaches to a copy. tick_ns: what TICK_NS says. power_up: what POWER_UP says; another each time, where a
+    /// host goes by it.
+    SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now, std::uint64_t power_up = 0);
 
     /// Executes all ticks up to and including `until`, then publishes its state. At or before now(), it only looks at
     /// the host's words and acts on them.
@@ -41,7 +42,7 @@ public:
 private:
     enum class Phase : std::uint8_t { AtRest, Waiting, Body, Tail };
 
-    void reset(std::int64_t tick_ns);
+    void reset(std::int64_t tick_ns, std::uint64_t power_up);
     void take_run();
     Tick decide(Tick until);
     Tick decide_first_frame(Tick until);

@@ -128,6 +128,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
         case Kind::JobEnded:
         case Kind::Claimed:
         case Kind::Reset:
+        case Kind::PositionClaimed:
         case Kind::Started: return Weight::Notable;
         case Kind::PeerSilent:
         case Kind::PeerRestarted:
@@ -157,6 +158,9 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::Homed: return "is homed and parked";
         case Kind::Fault: return fault_sentence(incident, event);
         case Kind::Reset: return "is reset";
+        case Kind::PositionClaimed:
+            return event.fault == FaultCode::None ? "is homed by the position that was kept"
+                                                  : "is not homed: " + fault_words(event.fault);
         case Kind::CommandRefused: return "refuses what it was asked: " + fault_words(event.fault);
         case Kind::State:
         case Kind::Phase: return phase_words(incident, entry);

@@ -3,7 +3,7 @@
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
-                               std::uint64_t config_hash)
+                               std::uint64_t config_hash, KeptOrNot kept)
     : axis_(axis),
       machine_(machine),
       limits_(limits_of(machine.axes[axis], machine.tick_ns)),
@@ -11,7 +11,8 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       config_hash_(config_hash),
       slot_(machine.slot_ticks()),
       follower_(axis, machine),
-      homing_(machine.axes[axis]) {}
+      homing_(machine.axes[axis]),
+      kept_(std::move(kept)) {}
 
 AxisOutputs AxisController::step(const AxisInputs& inputs) {
     AxisOutputs out;
@@ -20,6 +21,7 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     const Slot slot = rules::slot_of(now_, slot_);
     // An owner that it has not heard because it did not run is not silent.
     if (state_slot_) { owner_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
+    if (kept_) { claim_position(inputs, out); }
     observe(inputs.device, out);
     if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
         homed_ = false;
@@ -37,11 +39,39 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
                 {AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
         }
     }
+    out.rests = position_to_keep();
     if (!state_slot_ || slot > *state_slot_) {
         state_slot_ = slot;
         out.state = state(slot);
     }
     return out;
+}
+
+/// Once, before anything else: what the device has done since is not this process's doing.
+void AxisController::claim_position(const AxisInputs& inputs, AxisOutputs& out) {
+    const KeptOrNot kept = *std::exchange(kept_, std::nullopt);
+    unproved_ = !kept                  ? kept.error()
+                : inputs.device_failed ? FaultCode::DeviceFault
+                                       : doubt_of(*kept, scale_of(machine_, axis_), inputs.device);
+    if (unproved_ != FaultCode::None) {
+        out.notices.push_back({AxisNotice::Kind::PositionUnproved, unproved_, 0});
+        return;
+    }
+    zero_count_ = kept->zero_count;
+    encoder_zero_ = kept->encoder_zero;
+    kept_run_ = kept->run;
+    homed_ = true;
+    happen(AxisEvent::PositionKept);
+    out.notices.push_back({AxisNotice::Kind::PositionProved, FaultCode::None, 0});
+}
+
+/// After each run that leaves it homed, once.
+std::optional<KeptPosition> AxisController::position_to_keep() {
+    const bool rests = mode_ == Mode::Rest && device_.finished && device_.run == run_ && device_.run_asked == run_;
+    if (!homed_ || fault_ != FaultCode::None || !rests || kept_run_ == run_) { return std::nullopt; }
+    kept_run_ = run_;
+    return KeptPosition{scale_of(machine_, axis_), device_.power_up, run_,
+                        device_.position,          zero_count_,      encoder_zero_};
 }
 
 void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
@@ -132,7 +162,7 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
 void AxisController::begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
     if (mode_ != Mode::Rest || device.moving) { return refuse(command, FaultCode::Busy, out); }
     if (phase_ == AxisPhase::Fault) { return refuse(command, FaultCode::InFault, out); }
-    fault_ = FaultCode::None;
+    fault_ = unproved_ = FaultCode::None;
     homed_ = false;
     happen(AxisEvent::HomingBegins);
     take_homing_step(homing_.begin(device.home), out);
@@ -228,7 +258,8 @@ AxisState AxisController::state(Slot slot) const {
             .refused_frames = refused_frames_,
             .clock_error = clock_error_,
             .term = owner_,
-            .hears_owner = hears_owner(slot)};
+            .hears_owner = hears_owner(slot),
+            .unproved = static_cast<std::uint16_t>(unproved_)};
 }
 
 }  // namespace lockstep

@@ -14,6 +14,7 @@
 #include "core/axis/fsm.hpp"
 #include "core/axis/homing.hpp"
 #include "core/axis/own_move.hpp"
+#include "core/axis/position_claim.hpp"
 #include "core/axis/setpoint_follower.hpp"
 #include "core/clock/clock_view.hpp"
 #include "core/protocol/second_hearing.hpp"
@@ -62,7 +63,9 @@ struct AxisNotice {
         Homed,
         Fault,
         Reset,
-        CommandRefused
+        CommandRefused,
+        PositionProved,   // the axis is homed by the position that was kept
+        PositionUnproved  // it is not: why
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
@@ -75,15 +78,17 @@ struct AxisOutputs {
     std::vector<DeviceOrder> orders;
     std::vector<ExecutedTrack> tracks;
     std::vector<AxisNotice> notices;
-    ClockView device_clock;  // in machine time: steps and tracks are recorded in the device's own
+    std::optional<KeptPosition> rests;  // homed, after a run: to be kept for the process that comes after this one
+    ClockView device_clock;             // in machine time: steps and tracks are recorded in the device's own
 };
 
 using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;
 
 class AxisController {
 public:
-    /// `identity` is new at every start of the process.
-    AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash);
+    /// `identity` is new at every start of the process. `kept`: what the one before it has left of the position.
+    AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
+                   KeptOrNot kept);
 
     AxisOutputs step(const AxisInputs& inputs);
 
@@ -109,6 +114,8 @@ private:
     };
     enum class Mode : std::uint8_t { Rest, Following, Local };
 
+    void claim_position(const AxisInputs& inputs, AxisOutputs& out);
+    std::optional<KeptPosition> position_to_keep();
     void observe(const DeviceStatus& device, AxisOutputs& out);
     void veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out);
     void veto_for_own_reasons(AxisOutputs& out);
@@ -161,7 +168,6 @@ private:
 
     static constexpr int kMaxTries = 10;
     static constexpr std::size_t kClientsRemembered = 32;
-    static constexpr std::int64_t kMaxFollowingError = 3;  // steps
 
     std::size_t axis_;
     MachineConfig machine_;
@@ -179,9 +185,12 @@ private:
     bool homed_ = false;
     std::int64_t zero_count_ = 0;
     std::int64_t encoder_zero_ = 0;  // of the encoder minus the count, at the homing
-    std::uint64_t run_ = 0;          // the device run begun last
-    FrameNumber recorded_ = 0;       // bodies of the run recorded so far
-    FrameNumber ran_ = 0;            // bodies of the epoch begun so far
+    std::optional<KeptOrNot> kept_;  // until it has been judged
+    FaultCode unproved_ = FaultCode::None;
+    std::uint64_t kept_run_ = 0;  // the position after it has been said
+    std::uint64_t run_ = 0;       // the device run begun last
+    FrameNumber recorded_ = 0;    // bodies of the run recorded so far
+    FrameNumber ran_ = 0;         // bodies of the epoch begun so far
     std::optional<LocalRun> local_;
     std::size_t ring_room_ = 0;  // of the device's segment ring, in this loop
     double last_speed_ = 0;

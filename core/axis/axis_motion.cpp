@@ -9,7 +9,7 @@ namespace lockstep {
 void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     device_ = device;
     ring_room_ = device.free_segments;
-    if (mode_ == Mode::Rest) { run_ = std::max(run_, device.run); }  // a device may have outlived another process
+    if (mode_ == Mode::Rest) { run_ = std::max({run_, device.run, device.run_asked}); }  // for another process, perhaps
     if (mode_ != Mode::Rest && device.run == run_) {
         veto_when_left_behind(device, out);
         record_progress(device, out);

@@ -17,10 +17,12 @@ struct DeviceStatus {
     Position position;
     Velocity velocity;  // 0 at rest
     bool moving = false;
-    std::uint64_t run = 0;  // the run (see BeginRun) the device is in or has ended
-    FrameNumber frame = 0;  // the highest frame of the run whose body has begun; 0: none
-    bool finished = false;  // the run has ended and the axis is at rest
-    bool in_tail = false;   // coming to rest by a tail, or ended in one
+    std::uint64_t power_up = 0;   // tells this power-up from every other, of any device
+    std::uint64_t run = 0;        // the run (see BeginRun) the device is in or has ended
+    std::uint64_t run_asked = 0;  // the one asked for last; another than `run`: it has not been taken yet
+    FrameNumber frame = 0;        // the highest frame of the run whose body has begun; 0: none
+    bool finished = false;        // the run has ended and the axis is at rest
+    bool in_tail = false;         // coming to rest by a tail, or ended in one
     bool limit_min = false;
     bool limit_max = false;
     bool home = false;

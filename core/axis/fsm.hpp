@@ -21,18 +21,19 @@ enum class AxisEvent : std::uint8_t {
     SpeedRises,  // the pulses come faster than before, also out of rest
     SpeedSteady,
     SpeedFalls,
-    MotionEnds,   // at rest, as planned
-    SwitchStops,  // the home switch ended the search or the latch
-    LimitStops,   // a limit switch ended the motion
-    HostStops,    // an emergency stop ended it
-    Zeroed,       // after a stop at the switch: the position is set; homing goes on or parks
-    Released,     // after a limit or emergency stop: back to Initialize, to be homed again
+    MotionEnds,    // at rest, as planned
+    SwitchStops,   // the home switch ended the search or the latch
+    LimitStops,    // a limit switch ended the motion
+    HostStops,     // an emergency stop ended it
+    PositionKept,  // the position that was kept at rest is proved by the device
+    Zeroed,        // after a stop at the switch: the position is set; homing goes on or parks
+    Released,      // after a limit or emergency stop: back to Initialize, to be homed again
     HomingBegins,
     Fails,
     ResetHomed,    // out of Fault, position still known
     ResetUnhomed,  // out of Fault, to be homed again
 };
-inline constexpr std::size_t kAxisEvents = 13;
+inline constexpr std::size_t kAxisEvents = 14;
 
 struct AxisTransition {
     AxisPhase from;
@@ -47,6 +48,7 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Initialize, AxisEvent::LimitStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::Fails, AxisPhase::Fault},
+    AxisTransition{AxisPhase::Initialize, AxisEvent::PositionKept, AxisPhase::Standby},
     // Standby: homed, at rest. Out of rest a speed can only rise.
     AxisTransition{AxisPhase::Standby, AxisEvent::HomingBegins, AxisPhase::Initialize},
     AxisTransition{AxisPhase::Standby, AxisEvent::SpeedRises, AxisPhase::Accelerate},
@@ -98,8 +100,8 @@ constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
 
 constexpr std::string_view name_of(AxisEvent event) {
     constexpr std::array<std::string_view, kAxisEvents> kNames{
-        "SpeedRises", "SpeedSteady", "SpeedFalls",   "MotionEnds", "SwitchStops", "LimitStops",  "HostStops",
-        "Zeroed",     "Released",    "HomingBegins", "Fails",      "ResetHomed",  "ResetUnhomed"};
+        "SpeedRises",   "SpeedSteady", "SpeedFalls", "MotionEnds",   "SwitchStops", "LimitStops", "HostStops",
+        "PositionKept", "Zeroed",      "Released",   "HomingBegins", "Fails",       "ResetHomed", "ResetUnhomed"};
     return kNames[static_cast<std::size_t>(event)];
 }
 

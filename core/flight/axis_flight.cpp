@@ -20,6 +20,8 @@ FlightKind kind_of(AxisNotice::Kind kind) {
         case Kind::Fault: return FlightKind::Fault;
         case Kind::Reset: return FlightKind::Reset;
         case Kind::CommandRefused: return FlightKind::CommandRefused;
+        case Kind::PositionProved:
+        case Kind::PositionUnproved: return FlightKind::PositionClaimed;
     }
     return FlightKind::Fault;
 }

@@ -6,11 +6,11 @@
 namespace lockstep {
 namespace {
 
-constexpr std::array<std::string_view, static_cast<std::size_t>(FlightKind::Incident) + 1> kKinds{
+constexpr auto kKinds = std::to_array<std::string_view>({
 #define X(name, text) text,
     LOCKSTEP_FLIGHT_KINDS(X)
 #undef X
-};
+});
 constexpr std::array<std::string_view, static_cast<std::size_t>(IncidentReason::Ended) + 1> kReasons{
     "fault", "veto", "interrupted", "axis-lost", "owner-lost", "takeover", "asked", "ended"};
 

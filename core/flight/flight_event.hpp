@@ -15,50 +15,51 @@
 namespace lockstep {
 
 // X(name, text name). The text names are the files' and the reports'; none is used again for another thing.
-#define LOCKSTEP_FLIGHT_KINDS(X)                                                                             \
-    /* heard */                                                                                              \
-    X(PeerSilent, "peer-silent")          /* about; lasts: since its last word */                            \
-    X(PeerHeard, "peer-heard")            /* about; lasts: the silence that has ended; 0: its first word */  \
-    X(PeerVeto, "peer-veto")              /* about, epoch, frame */                                          \
-    X(PeerFault, "peer-fault")            /* about, fault */                                                 \
-    X(PeerRestarted, "peer-restarted")    /* about: another process speaks for it now */                     \
-    X(CommandHeard, "command-heard")      /* detail: CommandKind */                                          \
-    X(OrderHeard, "order-heard")          /* detail: AxisCommandKind; count: its number */                   \
-    X(MachinePhaseHeard, "machine-phase") /* about: the coordinator; detail: MachinePhase */                 \
-    /* decided */                                                                                            \
-    X(FrameHeld, "frame-held")         /* epoch, frame; lasts: from now to its start */                      \
-    X(FrameRefused, "frame-refused")   /* epoch, frame, fault */                                             \
-    X(FrameArmed, "frame-armed")       /* epoch, frame */                                                    \
-    X(Vetoed, "vetoed")                /* epoch, frame; detail: VetoReason; count: bit i: axis i lacks */    \
-    X(TailRun, "tail-run")             /* epoch, frame: the frame's tail, from tick on; lasts: until rest */ \
-    X(PulsesStopped, "pulses-stopped") /* by an emergency stop */                                            \
-    X(OwnerFollowed, "owner-followed") /* count: the term's number */                                        \
-    X(EpochBegun, "epoch-begun")       /* epoch */                                                           \
-    X(EpochEnded, "epoch-ended")       /* epoch */                                                           \
-    X(HomingStage, "homing-stage")     /* count: of the homing */                                            \
-    X(Homed, "homed")                                                                                        \
-    X(Fault, "fault") /* fault; about: the coordinator names the axis */                                     \
-    X(Reset, "reset")                                                                                        \
-    X(CommandRefused, "command-refused") /* fault */                                                         \
-    X(AxisSeen, "axis-seen")             /* about */                                                         \
-    X(AxisGone, "axis-gone")             /* about */                                                         \
-    X(Interrupted, "interrupted")        /* frame: the last run; goes on from there */                       \
-    X(Claimed, "claimed")                /* count: the term's number; owns the machine */                    \
-    X(StoodDown, "stood-down")           /* count: the term's number; another owns the machine */            \
-    X(JobCutShort, "job-cut-short")      /* count: near this line */                                         \
-    X(JobBegun, "job-begun")             /* count: its number */                                             \
-    X(JobEnded, "job-ended")             /* count: its number; detail: JobOutcome */                         \
-    /* said */                                                                                               \
-    X(State, "state")          /* detail: phase; epoch, frame: run; count, amount: steps, steps/s; */        \
-                               /* lasts: clock error. Coordinator: frame sent, count: line */                \
-    X(Phase, "phase")          /* the same, where the phase has changed */                                   \
-    X(FrameSent, "frame-sent") /* epoch, frame; lasts: from now to its start */                              \
-    X(OrderSent, "order-sent") /* about; detail: AxisCommandKind; count: its number */                       \
-    /* itself */                                                                                             \
-    X(Started, "started")   /* its first loop */                                                             \
-    X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                            \
-    X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */       \
-    X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */
+#define LOCKSTEP_FLIGHT_KINDS(X)                                                                              \
+    /* heard */                                                                                               \
+    X(PeerSilent, "peer-silent")          /* about; lasts: since its last word */                             \
+    X(PeerHeard, "peer-heard")            /* about; lasts: the silence that has ended; 0: its first word */   \
+    X(PeerVeto, "peer-veto")              /* about, epoch, frame */                                           \
+    X(PeerFault, "peer-fault")            /* about, fault */                                                  \
+    X(PeerRestarted, "peer-restarted")    /* about: another process speaks for it now */                      \
+    X(CommandHeard, "command-heard")      /* detail: CommandKind */                                           \
+    X(OrderHeard, "order-heard")          /* detail: AxisCommandKind; count: its number */                    \
+    X(MachinePhaseHeard, "machine-phase") /* about: the coordinator; detail: MachinePhase */                  \
+    /* decided */                                                                                             \
+    X(FrameHeld, "frame-held")         /* epoch, frame; lasts: from now to its start */                       \
+    X(FrameRefused, "frame-refused")   /* epoch, frame, fault */                                              \
+    X(FrameArmed, "frame-armed")       /* epoch, frame */                                                     \
+    X(Vetoed, "vetoed")                /* epoch, frame; detail: VetoReason; count: bit i: axis i lacks */     \
+    X(TailRun, "tail-run")             /* epoch, frame: the frame's tail, from tick on; lasts: until rest */  \
+    X(PulsesStopped, "pulses-stopped") /* by an emergency stop */                                             \
+    X(OwnerFollowed, "owner-followed") /* count: the term's number */                                         \
+    X(EpochBegun, "epoch-begun")       /* epoch */                                                            \
+    X(EpochEnded, "epoch-ended")       /* epoch */                                                            \
+    X(HomingStage, "homing-stage")     /* count: of the homing */                                             \
+    X(Homed, "homed")                                                                                         \
+    X(Fault, "fault") /* fault; about: the coordinator names the axis */                                      \
+    X(Reset, "reset")                                                                                         \
+    X(CommandRefused, "command-refused") /* fault */                                                          \
+    X(AxisSeen, "axis-seen")             /* about */                                                          \
+    X(AxisGone, "axis-gone")             /* about */                                                          \
+    X(Interrupted, "interrupted")        /* frame: the last run; goes on from there */                        \
+    X(Claimed, "claimed")                /* count: the term's number; owns the machine */                     \
+    X(StoodDown, "stood-down")           /* count: the term's number; another owns the machine */             \
+    X(JobCutShort, "job-cut-short")      /* count: near this line */                                          \
+    X(JobBegun, "job-begun")             /* count: its number */                                              \
+    X(JobEnded, "job-ended")             /* count: its number; detail: JobOutcome */                          \
+    /* said */                                                                                                \
+    X(State, "state")          /* detail: phase; epoch, frame: run; count, amount: steps, steps/s; */         \
+                               /* lasts: clock error. Coordinator: frame sent, count: line */                 \
+    X(Phase, "phase")          /* the same, where the phase has changed */                                    \
+    X(FrameSent, "frame-sent") /* epoch, frame; lasts: from now to its start */                               \
+    X(OrderSent, "order-sent") /* about; detail: AxisCommandKind; count: its number */                        \
+    /* itself */                                                                                              \
+    X(Started, "started")   /* its first loop */                                                              \
+    X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                             \
+    X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */        \
+    X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */ \
+    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,

@@ -89,6 +89,7 @@ struct AxisState {
     Ticks clock_error;                       // its machine time is at most so far off
     Term term;                               // of the owner it follows: the highest it ever has
     bool hears_owner = false;                // within silence_slots
+    std::uint16_t unproved = 0;  // FaultCode: why it did not know its position at its start; 0: it knows it now
     bool operator==(const AxisState&) const = default;
 };
 

@@ -6,7 +6,10 @@ namespace lockstep {
 
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
     RegisterWindow window = RegisterWindow::in_process();
-    return {window, std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now), true};
+    return {window,
+            std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now,
+                                              static_cast<std::uint64_t>(now.value)),
+            true};
 }
 
 std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDevice device) {
@@ -18,7 +21,7 @@ std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDe
 AxisNode::AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver)
     : device_(std::move(device)),
       driver_(std::move(driver)),
-      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash),
+      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, setup.kept),
       time_(setup.machine),
       longest_standstill_(setup.machine.slot_ticks() * rules::silence_slots(setup.machine.timing)) {}
 

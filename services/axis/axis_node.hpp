@@ -44,6 +44,7 @@ public:
         MachineConfig machine;
         Identity identity = 0;
         std::uint64_t config_hash = 0;
+        KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
     };
     using OnStep = std::function<void(StepEdge)>;
 

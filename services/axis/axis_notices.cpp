@@ -24,6 +24,9 @@ void log_notice(const AxisNotice& notice) {
     using Kind = AxisNotice::Kind;
     const std::string number = std::to_string(notice.number);
     switch (notice.kind) {
+        case Kind::PositionProved: return log_info("homed: the device stands where the position was kept");
+        case Kind::PositionUnproved:
+            return log_event(spdlog::level::info, notice.fault, "not homed: " + remedy(notice.fault));
         case Kind::OwnerAdopted: return log_info("follows the owner of term " + number);
         case Kind::EpochBegun: return log_info("epoch " + number + " begun");
         case Kind::EpochEnded: return log_info("epoch " + number + " ended, at rest");

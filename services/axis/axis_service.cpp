@@ -7,6 +7,7 @@
 #include "services/axis/axis_node.hpp"
 #include "services/axis/axis_notices.hpp"
 #include "services/axis/device_window.hpp"
+#include "services/axis/position_file.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/placement.hpp"
 #include "services/flight/flight_recorder.hpp"
@@ -36,6 +37,17 @@ std::expected<AxisDevice, std::string> open_device(const std::string& fpga, cons
     return AxisDevice{std::move(*window), nullptr, true};
 }
 
+void complain_of_disk(const std::string& why) {
+    log_warning("the position is not kept, a new process will not know it: " + why +
+                "; set position_directory to one that can be written");
+}
+
+KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
+    ReadPosition read = read_position(position_file(machine, axis));
+    if (!read.trouble.empty()) { log_warning("the kept position is not believed: " + read.trouble); }
+    return std::move(read.kept);
+}
+
 /// The loop's state: what came, what is said, what is complained about.
 class AxisService {
 public:
@@ -49,6 +61,7 @@ public:
           flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
           flight_(setup.axis, setup.machine, *flight_log_),
           recorder_(setup.machine, setup.axis, setup.identity, *sink_),
+          keeper_(position_file(setup.machine, setup.axis), complain_of_disk),
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
@@ -69,6 +82,7 @@ public:
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
+        if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
@@ -143,6 +157,7 @@ private:
     AxisFlight flight_;
     UserSignal user_signal_;  // a person asks for what was noted
     AxisRecorder recorder_;
+    PositionKeeper keeper_;
     HealthMeter meter_;
     std::vector<Frame> frames_;
     std::vector<AxisState> states_;
@@ -167,7 +182,8 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     StopSignal stop;
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
-    const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine)};
+    const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
+                                kept_position(machine, axis)};
     const std::string fpga = options.fpga.empty() ? machine.axes[axis].device : options.fpga;
     auto device = open_device(fpga, machine.axes[axis], machine.tick_ns, clock.now());
     if (!device) { return fail(device.error()); }

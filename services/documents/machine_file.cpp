@@ -4,6 +4,7 @@
 #include <functional>
 #include <tuple>
 
+#include "services/documents/fnv.hpp"
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/text_file.hpp"
 #include "services/documents/text_source.hpp"
@@ -51,12 +52,6 @@ Diagnostics placed(const Problems& problems, const TextSource& source) {
     std::ranges::stable_sort(diagnostics, {}, [](const Diagnostic& d) { return std::tuple(d.line, d.column); });
     if (diagnostics.size() > kMaxDiagnostics) { diagnostics.resize(kMaxDiagnostics); }
     return diagnostics;
-}
-
-std::uint64_t fnv1a(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const char byte : bytes) { hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U; }
-    return hash;
 }
 
 }  // namespace

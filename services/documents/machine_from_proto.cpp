@@ -172,6 +172,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     }
     draft.machine.network = read_network(message.network());
     draft.machine.record = read_record(message.record());
+    draft.machine.position_directory = message.position_directory();
     draft.machine.coordinator_host = message.coordinator_host();
     draft.machine.real_time = read_real_time(message.real_time());
     draft.machine.coordination = read_method(message.coordination());

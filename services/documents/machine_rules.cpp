@@ -80,10 +80,13 @@ void check_network(const NetworkConfig& network, ProblemList& problems) {
                      "network.lcm_url is \"" + network.lcm_url + "\"; it begins with udpm://, tcpq:// or memq://");
 }
 
+void check_directory(const std::string& key, const std::string& directory, ProblemList& problems) {
+    problems.require(directory.empty() || directory.starts_with('/'), key,
+                     key + " is \"" + directory + "\"; an absolute path, such as /var/lib/lockstep, or leave it out");
+}
+
 void check_record(const RecordConfig& record, ProblemList& problems) {
-    problems.require(record.directory.empty() || record.directory.starts_with('/'), "record.directory",
-                     "record.directory is \"" + record.directory +
-                         "\"; an absolute path, such as /var/log/lockstep, or leave it out");
+    check_directory("record.directory", record.directory, problems);
     problems.require_range("record.size_limit_mb", static_cast<double>(record.size_limit_mb), 1, 1e6);
     problems.require_range("record.flight.memory_kb", static_cast<double>(record.flight.memory_kb), 64, 65536);
     problems.require_range("record.flight.files", record.flight.files, 1, 1000);
@@ -126,6 +129,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_clocks(machine.timing, problems);
     check_network(machine.network, problems);
     check_record(machine.record, problems);
+    check_directory("position_directory", machine.position_directory, problems);
     check_real_time(machine.real_time, problems);
     check_hosts(machine, problems);
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",

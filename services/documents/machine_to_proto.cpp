@@ -88,6 +88,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     write_timing(machine.timing, *message.mutable_timing());
     write_network(machine.network, *message.mutable_network());
     if (machine.record != RecordConfig{}) { write_record(machine.record, *message.mutable_record()); }
+    if (!machine.position_directory.empty()) { message.set_position_directory(machine.position_directory); }
     if (!machine.coordinator_host.empty()) { message.set_coordinator_host(machine.coordinator_host); }
     if (machine.real_time != RealTimeConfig{}) { write_real_time(machine.real_time, *message.mutable_real_time()); }
     message.set_coordination(method_to_proto(machine.coordination));

@@ -1,6 +1,11 @@
 #include "services/documents/text_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -10,6 +15,35 @@ namespace {
 
 std::unexpected<Diagnostic> refusal(std::string message) {
     return std::unexpected(Diagnostic{.message = std::move(message)});
+}
+
+/// A file descriptor that closes itself.
+class File {
+public:
+    File(const std::filesystem::path& path, int flags) : file_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() {
+        if (file_ >= 0) { ::close(file_); }
+    }
+
+    bool write(std::string_view text) const {
+        while (file_ >= 0 && !text.empty()) {
+            const auto written = ::write(file_, text.data(), text.size());
+            if (written < 0 && errno != EINTR) { return false; }
+            text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+        }
+        return file_ >= 0;
+    }
+    bool sync() const { return file_ >= 0 && ::fsync(file_) == 0; }
+
+private:
+    int file_;
+};
+
+bool write_durably(const std::filesystem::path& path, std::string_view text) {
+    const File file(path, O_WRONLY | O_CREAT | O_TRUNC);
+    return file.write(text) && file.sync();
 }
 
 }  // namespace
@@ -41,6 +75,14 @@ std::expected<void, std::string> write_text_file(const std::filesystem::path& pa
     out.close();
     if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
     return {};
+}
+
+std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text) {
+    const std::filesystem::path fresh = path.string() + ".new";
+    const bool is_replaced = write_durably(fresh, text) && ::rename(fresh.c_str(), path.c_str()) == 0 &&
+                             File(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
+    if (is_replaced) { return {}; }
+    return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace lockstep

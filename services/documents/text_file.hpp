@@ -18,4 +18,8 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
 /// In place of what was there. Error: the path, and why it cannot be written.
 std::expected<void, std::string> write_text_file(const std::filesystem::path& path, std::string_view text);
 
+/// Whole or not at all, whatever ends this process or its host: readers find the old text or the new one. The new one
+/// is on the disk when it returns. One writer at a time. Error: the path, and why it cannot be written.
+std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <expected>
 #include <iostream>
+#include <random>
 #include <utility>
 
 #include "services/documents/machine_file.hpp"
@@ -23,6 +24,11 @@ struct Hardware {
     TimeSource time_source;
     RegisterWindow window;
 };
+
+std::uint64_t drawn_number() {
+    std::random_device random;
+    return std::uniform_int_distribution<std::uint64_t>()(random);
+}
 
 std::expected<Hardware, std::string> set_up(const FpgaOptions& options) {
     const auto machine = load_machine_file(options.machine_file);
@@ -52,7 +58,7 @@ int serve_fpga(const FpgaOptions& options) {
     }
     const MachineClock clock(hardware->tick_ns, hardware->time_source);
     const Plant plant(hardware->axis, hardware->tick_ns);
-    SimulatedDevice device(hardware->window, plant, hardware->tick_ns, clock.now());
+    SimulatedDevice device(hardware->window, plant, hardware->tick_ns, clock.now(), drawn_number());
     log_info("device \"" + options.name + options.file + "\" is powered up");
     PeriodicLoop loop(kPeriod);
     loop.run(stop, [&](std::chrono::nanoseconds) { device.advance(clock.now()); });

@@ -56,7 +56,10 @@ void AxisRecorder::publish(step_batch_t& batch) {
 
 void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
-    if (!placed_ && out.state) { place(*out.state); }
+    if (!placed_ && out.state) {
+        place(*out.state);
+        zero_count_ = zero_count;  // as the state has it: a process may begin homed
+    }
     batch_steps();
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,

@@ -24,9 +24,15 @@ fs::path root(const fs::path& of_root, const char* users, const fs::path& below)
     return "/tmp/lockstep-" + std::to_string(geteuid());
 }
 
+fs::path lasting_root() { return root("/var/lib/lockstep", "HOME", ".local/state/lockstep"); }
+
 }  // namespace
 
 fs::path state_root() { return root("/run/lockstep", "XDG_RUNTIME_DIR", "lockstep"); }
+
+fs::path record_directory(const std::string& machine) { return lasting_root() / machine / "record"; }
+
+fs::path position_directory(const std::string& machine) { return lasting_root() / machine / "position"; }
 
 std::vector<fs::path> memory_directories() {
     if (geteuid() != 0) { return {memory_directory()}; }
@@ -39,9 +45,5 @@ std::vector<fs::path> memory_directories() {
 }
 
 fs::path memory_directory() { return "/dev/shm/lockstep-" + std::to_string(geteuid()); }
-
-fs::path record_directory(const std::string& machine) {
-    return root("/var/lib/lockstep", "HOME", ".local/state/lockstep") / machine / "record";
-}
 
 }  // namespace lockstep

@@ -15,6 +15,9 @@ std::filesystem::path state_root();
 /// /var/lib/lockstep for root; else $HOME/.local/state/lockstep; else /tmp/lockstep-UID.
 std::filesystem::path record_directory(const std::string& machine);
 
+/// For the positions that outlive the axes' processes: ROOT/MACHINE/position, with the same ROOT.
+std::filesystem::path position_directory(const std::string& machine);
+
 /// For memory that is to outlive its process, but not the host: never on a disk. /dev/shm/lockstep-UID.
 std::filesystem::path memory_directory();
 

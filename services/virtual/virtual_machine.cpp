@@ -65,7 +65,7 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 void VirtualMachine::power_up() {
     const MachineConfig& machine = options_.machine;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        axes_.push_back({simulated_device(machine.axes[i], machine.tick_ns, device_time(i)), {}, {}, {}, {}});
+        axes_.push_back({.device = simulated_device(machine.axes[i], machine.tick_ns, device_time(i))});
     }
     coordinators_.resize(options_.coordinators);
     coordinator_flights_.resize(options_.coordinators);
@@ -84,7 +84,8 @@ void VirtualMachine::start(std::size_t process) {
         const Identity identity = static_cast<Identity>(now_.value) + process;
         coordinator(process).emplace(options_.machine, identity, options_.config_hash, coordinators_.size() > 1);
     } else {
-        const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash};
+        const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash,
+                                    axes_[process].kept};
         axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
         // A device made here is of this version: attaching cannot fail.
         axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
@@ -286,6 +287,7 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
     axes_[i].node->carry_out(process_time(i), out);
     device(i).advance(device_time(i));  // it acts on its orders
     ask_time(i);
+    if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }
     if (out.state) { multicast(*out.state, i); }
 }
 

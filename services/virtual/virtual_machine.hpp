@@ -41,6 +41,7 @@ struct VirtualOptions {
     NetworkBehaviour network;
     Tick start{1'000'000};
     int loops_per_slot = 2;        // each process's loop, at a phase of its own
+    bool keeps_positions = false;  // axes' positions outlive their processes
     std::size_t coordinators = 1;  // the first to claim owns the machine, the others stand by
     /// By axis; those not here read the machine's time. The coordinator's is the machine's, and the true one. More than
     /// one time asks for a machine whose time_source is Network.
@@ -102,6 +103,7 @@ private:
         std::optional<AxisFlight> flight;
         std::optional<ClockAsker> asker;
         std::vector<ClockExchange> exchanges;  // not used yet
+        KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
     };
     /// When a process's loop runs next; that of a dead one does not.
     struct Process {

@@ -34,7 +34,8 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .clock_error_ticks = state.clock_error.value,
             .term = state.term.number,
             .coordinator = state.term.coordinator,
-            .hears_owner = state.hears_owner};
+            .hears_owner = state.hears_owner,
+            .unproved = state.unproved};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -69,7 +70,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .refused_frames = wire.refused_frames,
                      .clock_error = {wire.clock_error_ticks},
                      .term = {wire.term, wire.coordinator},
-                     .hears_owner = wire.hears_owner};
+                     .hears_owner = wire.hears_owner,
+                     .unproved = wire.unproved};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -66,6 +66,9 @@ proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, cons
     status.set_state(std::string(name_of(state->phase)));
     status.set_homed(state->homed);
     if (state->fault != 0) { *status.mutable_fault() = fault_report(static_cast<FaultCode>(state->fault), axis.name); }
+    if (state->unproved != 0) {
+        *status.mutable_unproved() = fault_report(static_cast<FaultCode>(state->unproved), axis.name);
+    }
     status.set_at_rest(state->at_rest);
     status.set_following_error_steps(state->following_error_steps);
     status.set_refused_frames(state->refused_frames);

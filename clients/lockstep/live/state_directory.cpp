@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "services/documents/text_file.hpp"
 #include "services/runtime/directories.hpp"
 
 namespace lockstep {
@@ -19,15 +20,6 @@ namespace fs = std::filesystem;
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Whole or not at all.
-bool replace_file(const fs::path& path, const std::string& text) {
-    const fs::path fresh = path.string() + ".new";
-    const bool is_written = static_cast<bool>(std::ofstream(fresh, std::ios::binary) << text << std::flush);
-    std::error_code error;
-    if (is_written) { fs::rename(fresh, path, error); }
-    return is_written && !error;
 }
 
 }  // namespace
@@ -61,12 +53,13 @@ bool StateDirectory::lock() const {
 }
 
 std::expected<void, std::string> StateDirectory::write_machine_file(const std::string& text) const {
-    if (replace_file(machine_file(), text)) { return {}; }
-    return std::unexpected("cannot write " + machine_file().string() + "; is there space on its disk?");
+    const auto written = replace_text_file(machine_file(), text);
+    if (!written) { return std::unexpected(written.error() + "; is there space on its disk?"); }
+    return {};
 }
 
 void StateDirectory::record(const std::vector<ProcessRecord>& processes) const {
-    (void)replace_file(processes_file(), to_text(processes));
+    (void)replace_text_file(processes_file(), to_text(processes));
 }
 
 std::vector<ProcessRecord> StateDirectory::recorded() const { return records_from_text(text_of(processes_file())); }

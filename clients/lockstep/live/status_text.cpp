@@ -55,6 +55,21 @@ std::string clock_line(const proto::StatusReport& status) {
     return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
 }
 
+/// Why axes are not homed, where there is a reason that is not seen at once.
+std::string unproved_lines(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (!axis.has_unproved() || axis.unproved().number() == static_cast<unsigned>(FaultCode::PositionNotKept)) {
+            continue;
+        }
+        const proto::FaultReport& why = axis.unproved();
+        text +=
+            wrapped(axis.name() + " is not homed, " + why.name() + ": " + why.cause() + "; " + why.remedy(), 80, "  ") +
+            "\n";
+    }
+    return text;
+}
+
 /// A directory is not broken over lines: it is to be copied.
 std::string incidents_text(const proto::Incidents& incidents) {
     return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
@@ -74,7 +89,7 @@ std::string status_text(const proto::StatusReport& status) {
     std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
-    text += clock_line(status);
+    text += clock_line(status) + unproved_lines(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
     for (const proto::AxisStatus& axis : status.axes()) {
         const bool is_said = status.has_fault() && status.fault().number() == axis.fault().number() &&

@@ -1,6 +1,7 @@
 #include "tests/integration/cli/own_machine.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -102,6 +103,18 @@ void OwnMachine::bring_up_and_home() const {
     bring_up();
     const Ran home = run_lockstep({"home"});
     ASSERT_EQ(home.code, 0) << home.out << home.err;
+}
+
+void OwnMachine::record() {
+    log_ = write("run.lcm", "");
+    logger_.emplace("/usr/bin/lcm-logger", Words{"--force", "--quiet", "--lcm-url=" + lcm_url_, log_});
+}
+
+void OwnMachine::expect_verified() {
+    logger_->signal(SIGTERM);
+    (void)logger_->wait();
+    const Ran verified = run_lockstep({"verify", log_});
+    EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
 }
 
 proto::StatusReport OwnMachine::status() const {

@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "clients/lockstep/live/state_directory.hpp"
@@ -25,6 +26,10 @@ protected:
 
     void bring_up(const Words& more = {}) const;
     void bring_up_and_home() const;
+    /// Records from now on.
+    void record();
+    /// What was recorded is, step by step, as planned.
+    void expect_verified();
     proto::StatusReport status() const;
     /// Until the machine is in this phase; false if it is not within the bound.
     bool becomes(const std::string& phase) const;
@@ -41,6 +46,8 @@ private:
     std::filesystem::path folder_;
     std::string file_;
     std::string lcm_url_;
+    std::string log_;
+    std::optional<Command> logger_;
     pid_t guard_ = 0;
     int guard_pipe_ = -1;
 };

@@ -19,8 +19,7 @@ protected:
     void SetUp() override {
         OwnMachine::SetUp();
         bring_up({"--standby"});
-        log_ = write("run.lcm", "");
-        logger_.emplace("/usr/bin/lcm-logger", Words{"--force", "--quiet", "--lcm-url=" + lcm_url(), log_});
+        record();
         const Ran home = run_lockstep({"home"});
         ASSERT_EQ(home.code, 0) << home.out << home.err;
     }
@@ -36,15 +35,6 @@ protected:
         const proto::StatusReport report = status();
         for (const auto& axis : report.axes()) { EXPECT_TRUE(axis.at_rest() && axis.homed()) << axis.name(); }
     }
-    void expect_verified() {
-        logger_->signal(SIGTERM);
-        (void)logger_->wait();
-        const Ran verified = run_lockstep({"verify", log_});
-        EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
-    }
-
-    std::optional<Command> logger_;
-    std::string log_;
 };
 
 TEST_F(TwoCoordinators, AKilledOwnerIsReplacedAtRestAndTheMachineMovesOnWithoutHoming) {

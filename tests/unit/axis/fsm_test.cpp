@@ -12,11 +12,12 @@ namespace {
 using P = AxisPhase;
 
 // Rows: states, in the order Initialize, Standby, Accelerate, Cruise, Decelerate, Stop, Fault.
-// Columns: SpeedRises, SpeedSteady, SpeedFalls, MotionEnds, SwitchStops, LimitStops, HostStops, Zeroed, Released,
-// HomingBegins, Fails, ResetHomed, ResetUnhomed. A dash: the event means nothing there.
+// Columns: SpeedRises, SpeedSteady, SpeedFalls, MotionEnds, SwitchStops, LimitStops, HostStops, PositionKept, Zeroed,
+// Released, HomingBegins, Fails, ResetHomed, ResetUnhomed. A dash: the event means nothing there.
 constexpr std::array<std::string_view, 7> kExpected{
-    "- - - - T T T - - - F - -", "A - - - - T T - - I F - -", "- C D S - T T - - - F - -", "A - D S - T T - - - F - -",
-    "A C - S - T T - - - F - -", "- - - - - - - S I I F - -", "- - - - - - - - - - - S I",
+    "- - - - T T T S - - - F - -", "A - - - - T T - - - I F - -", "- C D S - T T - - - - F - -",
+    "A - D S - T T - - - - F - -", "A C - S - T T - - - - F - -", "- - - - - - - - S I I F - -",
+    "- - - - - - - - - - - - S I",
 };
 
 char letter(std::optional<P> phase) {

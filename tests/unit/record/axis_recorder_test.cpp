@@ -45,6 +45,14 @@ TEST_F(TheRecord, BeginsWhereADeviceStandsThatRanBefore) {
     EXPECT_EQ(sink.batches[0].position_before, 400);
 }
 
+TEST_F(TheRecord, BeginsInMachineCoordinatesWithAnAxisThatIsHomedFromTheStart) {
+    recorder.loop(says(400, 100), -3920, 0);
+    recorder.step({Tick{200}, +1});
+    recorder.finish();
+    ASSERT_EQ(sink.batches.size(), 1U);
+    EXPECT_EQ(sink.batches[0].position_before, 400);
+}
+
 TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
     recorder.step({Tick{80}, +1});
     recorder.step({Tick{90}, +1});

@@ -40,7 +40,8 @@ AxisState RandomMessages::axis_state() {
             .refused_frames = bits(),
             .clock_error = {between(0, std::int64_t{1} << 62)},
             .term = term(),
-            .hears_owner = coin()};
+            .hears_owner = coin(),
+            .unproved = fault()};
 }
 
 AxisHealth RandomMessages::axis_health() {

@@ -1,0 +1,92 @@
+#include "services/axis/position_file.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "services/documents/position_document.hpp"
+#include "services/documents/text_file.hpp"
+#include "services/runtime/directories.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr off_t kMostBytes = 4096;
+
+ReadPosition unreadable(const std::filesystem::path& path, const std::string& why) {
+    return {std::unexpected(FaultCode::PositionUnreadable), path.string() + ": " + why};
+}
+
+/// Empty: nothing speaks against reading it.
+std::string refusal_of(const struct stat& file) {
+    if (!S_ISREG(file.st_mode)) { return "this is not a regular file; remove it"; }
+    if (file.st_uid != geteuid() && file.st_uid != 0) {
+        return "it belongs to user " + std::to_string(file.st_uid) + "; remove it";
+    }
+    if ((file.st_mode & (S_IWGRP | S_IWOTH)) != 0) { return "others may write it; chmod go-w, or remove it"; }
+    if (file.st_size > kMostBytes) {
+        return "it has " + std::to_string(file.st_size) + " bytes, at most " + std::to_string(kMostBytes) +
+               " are read; remove it";
+    }
+    return {};
+}
+
+}  // namespace
+
+std::filesystem::path position_file(const MachineConfig& machine, std::size_t axis) {
+    const std::filesystem::path directory = machine.position_directory.empty()
+                                                ? position_directory(machine.name)
+                                                : std::filesystem::path(machine.position_directory);
+    return directory / (machine.axes[axis].name + ".textproto");
+}
+
+ReadPosition read_position(const std::filesystem::path& path) {
+    struct stat file {};
+    if (::stat(path.c_str(), &file) != 0 && errno == ENOENT) {
+        return {std::unexpected(FaultCode::PositionNotKept), {}};
+    }
+    if (const std::string why = refusal_of(file); !why.empty()) { return unreadable(path, why); }
+    const auto text = read_text_file(path);
+    if (!text) { return unreadable(path, text.error().message); }
+    const auto kept = position_from_text(*text);
+    if (!kept) { return unreadable(path, kept.error()); }
+    return {*kept, {}};
+}
+
+PositionKeeper::PositionKeeper(std::filesystem::path path, Complain complain)
+    : path_(std::move(path)), complain_(complain), thread_([this](const std::stop_token& stop) { serve(stop); }) {
+    std::error_code said_by_writing;
+    std::filesystem::create_directories(path_.parent_path(), said_by_writing);
+}
+
+PositionKeeper::~PositionKeeper() {
+    thread_.request_stop();
+    thread_.join();
+}
+
+void PositionKeeper::keep(KeptPosition position) {
+    {
+        const std::scoped_lock lock(mutex_);
+        next_ = std::move(position);
+    }
+    news_.notify_one();
+}
+
+void PositionKeeper::serve(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (news_.wait(lock, stop, [this] { return next_.has_value(); })) {
+        const KeptPosition position = *std::exchange(next_, std::nullopt);
+        lock.unlock();
+        write(position);
+        lock.lock();
+    }
+}
+
+void PositionKeeper::write(const KeptPosition& position) {
+    const auto written = replace_text_file(path_, position_text(position));
+    if (!written && !failed_) { complain_(written.error()); }
+    failed_ = !written;
+}
+
+}  // namespace lockstep
