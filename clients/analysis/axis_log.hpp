@@ -37,8 +37,7 @@ public:
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
     /// The steps to come are told to this object too, which must outlive the log's end.
-    void tell(StepListener& listener) { stream_.listen(listener); }
-    void tell(StepMerge& merge, std::size_t lane) { statistics_.tell(merge, lane); }
+    void tell(MeasuredListener& listener, std::size_t lane) { statistics_.tell(listener, lane); }
     void take(StepBatch batch) { stream_.take(std::move(batch)); }
     void take(const PositionSample& sample);
     void take(const LateStep& step) {

@@ -20,7 +20,7 @@ void Recorder::on_steps(const step_batch_t& message, LogPlace place) {
     auto batch = to_batch(message);
     if (!batch) { return on_damage(place, batch.error()); }
     log->take(in_machine_time(std::move(*batch)));
-    merge_.settle();
+    merge_.settle([this](std::size_t lane, const MeasuredStep& step) { moves_.take(lane, step); });
 }
 
 void Recorder::on_position(const axis_position_t& message, LogPlace place) {
@@ -102,9 +102,10 @@ AxisLog* Recorder::axis(const std::string& machine, const std::string& name, Log
     auto& log = axes_[name];
     if (!log) {
         log = std::make_unique<AxisLog>(name);
-        log->tell(skew_.steps_of(name));
         const std::size_t lane = merge_.add_lane();
-        log->tell(merge_, lane);
+        lanes_.push_back(name);
+        log->tell(*this, lane);
+        skew_.add(name);
         moves_.name_lane(lane, name);
         if (options_.csv_dir) { note_error(log->write_csv(*options_.csv_dir)); }
     }
@@ -148,6 +149,11 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
     }
     moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), analysis_.tick_at(message.utime),
                  *analysis_.config, JobMoves(std::move(asked), on_a_line));
+}
+
+void Recorder::on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) {
+    merge_.take(lane, steps);
+    skew_.take(lanes_[lane], steps, clock_error);
 }
 
 void Recorder::on_late(const std::string& axis, std::span<const LateStep> steps) {
@@ -219,7 +225,7 @@ Analysis Recorder::finish() {
     analysis_.step_skew = skew_.finish();
     for (auto& [name, log] : axes_) { analysis_.axes.push_back(std::move(log)); }
     axes_.clear();
-    merge_.finish();
+    merge_.finish([this](std::size_t lane, const MeasuredStep& step) { moves_.take(lane, step); });
     for (Event& event : events_.events()) {
         const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });
         if (job != analysis_.jobs.end()) { event.job = job->job; }

@@ -16,7 +16,7 @@
 
 namespace lockstep::analysis {
 
-class Recorder final : public LogListener {
+class Recorder final : public LogListener, private MeasuredListener {
 public:
     explicit Recorder(const AnalysisOptions& options) : options_(options), machine_(options.machine) {}
     Recorder(const Recorder&) = delete;
@@ -41,6 +41,7 @@ private:
     JobLog* job(const job_t& message);
     void begin_job(const job_t& message, JobLog& job, LogPlace place);
     std::optional<Program> read_documents(const job_t& message, LogPlace place);
+    void on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) override;
     void on_late(const std::string& axis, std::span<const LateStep> steps);
     bool is_during(Tick tick, const JobLog& job) const;
     void keep_asked_way(const Program& program);
@@ -52,9 +53,10 @@ private:
     std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
     EventLog events_;
     MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
-    StepMerge merge_{moves_};
+    StepMerge merge_;
     SkewMeter skew_{[this](const std::string& axis, std::span<const LateStep> steps) { on_late(axis, steps); }};
     std::map<std::string, std::unique_ptr<AxisLog>> axes_;
+    std::vector<std::string> lanes_;  // the axes by number, as they were first heard of
     Analysis analysis_;
     std::string latest_program_;
     std::size_t moves_kept_ = 0;

@@ -78,16 +78,6 @@ StepMaker::StepMaker(Run run) : run_(std::move(run)), engine_(run_.start, run_.f
     commanded_.other_from = run_.commanded_start();
 }
 
-const StepEdge* StepMaker::next() {
-    if (passed_ == made_.size()) { make_more(); }
-    return passed_ < made_.size() ? &made_[passed_] : nullptr;
-}
-
-void StepMaker::pass() {
-    count_ += made_[passed_].direction;
-    ++passed_;
-}
-
 void StepMaker::begin_piece() {
     const std::size_t i = begun_++;
     const std::size_t commanded = run_.commanded_ticks.size();

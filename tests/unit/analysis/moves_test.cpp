@@ -1,6 +1,8 @@
 // Each move of a job is measured by itself, and whether all was good is said.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <fstream>
 #include <sstream>
 
@@ -108,26 +110,22 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
     EXPECT_EQ(report.unread(0).reason(), "not a step_batch_t of this version on LOCKSTEP_MILL_X_STEPS");
 }
 
-struct Told final : MergedStepListener {
-    std::vector<std::int64_t> ticks;
-    void on_step(std::size_t, const MeasuredStep& step) override { ticks.push_back(step.tick.value); }
-};
-
 TEST(StepMerge, TellsTheStepsOfAllAxesInTheOrderOfTime) {
-    Told told;
-    StepMerge merge(told);
+    std::vector<std::int64_t> told;
+    const auto tell = [&](std::size_t, const MeasuredStep& step) { told.push_back(step.tick.value); };
+    StepMerge merge;
     const std::size_t x = merge.add_lane();
     const std::size_t y = merge.add_lane();
-    for (int i = 0; i < 100; ++i) { merge.take(x, {.tick = {i * 10}}); }
-    for (int i = 0; i < 100; ++i) { merge.take(y, {.tick = {i * 7 + 3}}); }
-    merge.settle();
-    EXPECT_TRUE(told.ticks.empty()) << "an earlier one may still come";
-    merge.take(x, {.tick = Tick{500} + StepMerge::kPatience});
-    merge.settle();
-    EXPECT_EQ(told.ticks.size(), 50U + 71U);
-    merge.finish();
-    EXPECT_EQ(told.ticks.size(), 201U);
-    EXPECT_TRUE(std::ranges::is_sorted(told.ticks));
+    for (int i = 0; i < 100; ++i) { merge.take(x, std::array{MeasuredStep{.tick = {i * 10}}}); }
+    for (int i = 0; i < 100; ++i) { merge.take(y, std::array{MeasuredStep{.tick = {i * 7 + 3}}}); }
+    merge.settle(tell);
+    EXPECT_TRUE(told.empty()) << "an earlier one may still come";
+    merge.take(x, std::array{MeasuredStep{.tick = Tick{500} + StepMerge::kPatience}});
+    merge.settle(tell);
+    EXPECT_EQ(told.size(), 50U + 71U);
+    merge.finish(tell);
+    EXPECT_EQ(told.size(), 201U);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
 }
 
 }  // namespace
