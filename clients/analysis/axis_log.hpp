@@ -25,6 +25,17 @@ struct PositionSample {
     double velocity_mm_per_s = 0;
 };
 
+/// How late an axis's steps were, against the ticks commanded: ticks.
+struct LateFigures {
+    TickHistogram amounts;
+    Course course;
+
+    void add(const LateStep& step) {
+        amounts.add(step.late);
+        course.add({step.commanded + step.late, static_cast<double>(step.late.value)});
+    }
+};
+
 class AxisLog {
 public:
     static constexpr std::string_view kPositionsHeader = "tick,position_steps,position_mm,velocity_mm_per_s";
@@ -40,10 +51,7 @@ public:
     void tell(MeasuredListener& listener, std::size_t lane) { statistics_.tell(listener, lane); }
     void take(StepBatch batch) { stream_.take(std::move(batch)); }
     void take(const PositionSample& sample);
-    void take(const LateStep& step) {
-        late_.add(step.late);
-        late_course_.add({step.commanded + step.late, static_cast<double>(step.late.value)});
-    }
+    void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     /// Call once, at the end. The error is that of a file that was not written whole.
     std::expected<void, std::string> finish();
@@ -52,8 +60,8 @@ public:
     const StreamCounts& counts() const { return stream_.counts(); }
     const AxisStatistics& statistics() const { return statistics_; }
     /// How far its steps were from the ticks commanded, and over time, signed: ticks.
-    const TickHistogram& late() const { return late_; }
-    std::vector<Sample> late_course() const { return late_course_.samples(); }
+    const TickHistogram& late() const { return late_.amounts; }
+    std::vector<Sample> late_course() const { return late_.course.samples(); }
     /// The least time before its start at which a frame came, over time: ms.
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
@@ -68,8 +76,7 @@ private:
     std::string name_;
     AxisStatistics statistics_;
     Trace trace_;
-    TickHistogram late_;
-    Course late_course_;
+    LateFigures late_;
     Course slack_;
     std::unique_ptr<StepCsv> step_csv_;
     std::unique_ptr<CsvFile> position_csv_;

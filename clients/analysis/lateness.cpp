@@ -38,10 +38,15 @@ void Lateness::finish() {
 }
 
 void Lateness::settle() {
-    const auto is_over = [&](const Run& run) {
-        return last_tick_ && *last_tick_ - (run.commanded_start() + run.ticks()) > kPatience;
-    };
-    while (runs_.size() > kMaxWaiting || (!runs_.empty() && is_over(runs_.front()))) { compare_first(); }
+    while (runs_.size() > kMaxWaiting || (!runs_.empty() && last_tick_ && *last_tick_ - first_end() > kPatience)) {
+        compare_first();
+    }
+}
+
+/// The first run lasts no longer than until the next begins: it may have been cut.
+Tick Lateness::first_end() const {
+    const Tick end = runs_.front().commanded_start() + runs_.front().ticks();
+    return runs_.size() > 1 ? std::min(end, runs_[1].commanded_start()) : end;
 }
 
 void Lateness::compare_first() {

@@ -52,6 +52,7 @@ private:
     };
 
     void settle();
+    Tick first_end() const;
     void compare_first();
     std::vector<LateStep> compare(StepMaker maker);
 
