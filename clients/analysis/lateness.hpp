@@ -59,7 +59,7 @@ private:
     OnRun on_run_;
     std::vector<SeenStep> seen_;
     std::size_t compared_ = 0;  // of them; those behind are of no run yet
-    std::deque<Run> runs_;       // by their starts
+    std::deque<Run> runs_;      // by their starts
     std::optional<Tick> last_tick_;
 };
 

@@ -10,8 +10,8 @@
 
 #include "clients/analysis/job_moves.hpp"
 #include "clients/analysis/lateness.hpp"
-#include "clients/analysis/plane_trace.hpp"
 #include "clients/analysis/measured_step.hpp"
+#include "clients/analysis/plane_trace.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::analysis {
