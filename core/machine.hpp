@@ -40,6 +40,8 @@ struct PlantConfig {
 
 struct AxisConfig {
     std::string name;
+    std::string host;            // where it runs; empty: wherever it is started
+    std::string device = "sim";  // simulated in its process; "shm:NAME", of lockstep-fpga; "uio:PATH", a mapped one
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
     double max_velocity_mm_s = 0;
@@ -84,6 +86,13 @@ struct RecordConfig {
     bool operator==(const RecordConfig&) const = default;
 };
 
+/// What the machine's processes ask of the scheduler of their host.
+struct RealTimeConfig {
+    int priority = 0;       // of SCHED_FIFO, with memory locked and touched beforehand; 0: nothing is asked
+    std::vector<int> cpus;  // the processors that they may run on; empty: all
+    bool operator==(const RealTimeConfig&) const = default;
+};
+
 struct MachineConfig {
     std::string name;
     std::int64_t tick_ns = 1000;
@@ -91,6 +100,8 @@ struct MachineConfig {
     NetworkConfig network;
     RecordConfig record;
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
+    std::string coordinator_host;                  // where it runs; empty: wherever it is started
+    RealTimeConfig real_time;
     std::vector<AxisConfig> axes;
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

@@ -21,7 +21,7 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
     if (recorder) { recorder->loop(out, node.controller().zero_count(), node.lost_captures()); }
 }
 
-void MachineRecorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {
+void MachineRecorder::on_coordinator(std::size_t /*process*/, Tick now, const CoordinatorOutputs& out) {
     const bool owns = out.state && out.state->phase != MachinePhase::Standby;
     if (owns && out.state->term.coordinator != owner_) {
         owner_ = out.state->term.coordinator;

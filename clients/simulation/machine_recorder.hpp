@@ -17,7 +17,7 @@ public:
 
     void on_step(std::size_t axis, StepEdge step) override;
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
-    void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
+    void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
 
     /// At the end: what is still in hand.
     void finish();

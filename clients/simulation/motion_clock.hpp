@@ -9,7 +9,7 @@ namespace lockstep {
 
 class MotionClock final : public VirtualObserver {
 public:
-    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const JobEvent& event : out.jobs) {
             if (event.kind == JobEvent::Kind::Begun) { begin_job(); }
             if (event.kind == JobEvent::Kind::EpochBegun) { begin_epoch(event); }

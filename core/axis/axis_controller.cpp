@@ -84,7 +84,7 @@ void AxisController::stop_now(AxisOutputs& out) {
 bool AxisController::follows(const MachineState& state, Slot now, AxisOutputs& out) {
     if (state.phase == MachinePhase::Standby) { return false; }
     if (is_from_owner(state.term)) { return true; }
-    const bool believed = claimant_.again(state.term, state.stamp);
+    const bool believed = claimants_.again(state.term, state.stamp);
     if (!believed || !rules::may_follow(state.term, owner_, hears_owner(now), at_rest())) { return false; }
     adopt(state.term, now, out);
     return true;

@@ -190,7 +190,7 @@ private:
     std::optional<Slot> state_slot_;
     Term owner_;  // the highest ever followed
     Slot owner_heard_ = 0;
-    SecondHearing<Term> claimant_;
+    TermHearing claimants_;
     std::map<Identity, std::uint64_t> stops_taken_;  // the newest emergency stop of each client
     std::uint64_t command_taken_ = 0;
     std::uint64_t command_done_ = 0;

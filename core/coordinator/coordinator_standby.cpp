@@ -14,11 +14,11 @@ void Coordinator::change_owner(CoordinatorOutputs& out) {
 }
 
 /// It says nothing that moves. A command heard now was another's: should it come again, nobody knows whether it was
-/// begun.
+/// begun. An emergency stop may be done twice.
 void Coordinator::stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& out) {
     for (const Command& command : inputs.commands) {
         const FaultText* why = find_fault(FaultCode::CoordinatorChanged);
-        if (is_old(command)) { continue; }
+        if (is_old(command) || command.kind == CommandKind::EmergencyStop) { continue; }
         note_command(command, refused(command, why->code, std::string(why->cause) + "; " + std::string(why->remedy)));
     }
     for (std::size_t i = 0; i < views_.size(); ++i) {

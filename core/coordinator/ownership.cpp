@@ -17,7 +17,7 @@ void Ownership::hear(const MachineState& other, Slot now) {
     }
     known_.hear(other.term, other.stamp);
     const bool known = other_owner_ && other_owner_->term == other.term;
-    if (!known && !stranger_.again(other.term, other.stamp)) { return; }
+    if (!known && !strangers_.again(other.term, other.stamp)) { return; }
     other_owner_ = other;
     heard_ = now;
 }
@@ -47,10 +47,16 @@ void Ownership::forgive_own_stall(Slot slot) {
     judged_ = slot;
 }
 
-bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) const {
-    return silent(slot, hears_elder(slot) ? kHeadStart : 0) && std::ranges::all_of(axes, [&](const AxisView& axis) {
-               return !axis.present(slot, timing_) || (axis.state->at_rest && !axis.state->hears_owner);
-           });
+bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) {
+    const bool vacant = silent(slot) && std::ranges::all_of(axes, [&](const AxisView& axis) {
+                            return !axis.present(slot, timing_) || (axis.state->at_rest && !axis.state->hears_owner);
+                        });
+    if (!vacant) {
+        vacant_.reset();
+        return false;
+    }
+    vacant_ = vacant_.value_or(slot);
+    return slot - *vacant_ >= (hears_elder(slot) ? kHeadStart : 0);
 }
 
 bool Ownership::must_stand_down(Slot slot, std::span<const AxisView> axes) const {

@@ -26,8 +26,8 @@ public:
 
     /// Once a slot, after all that was heard. Claims a term above all others where no owner was heard for
     /// silence_slots, at least since the start, and every axis that is heard is at rest and hears none either; of two
-    /// that wait the elder goes first. Stands down where an axis follows a higher term; and, while not all axes follow
-    /// it, before another's higher claim, or when all that are heard have long had another owner.
+    /// that wait for this the elder goes first. Stands down where an axis follows a higher term; and, while not all
+    /// axes follow it, before another's higher claim, or when all that are heard have long had another owner.
     Change judge(Tick now, Slot slot, std::span<const AxisView> axes);
 
     bool owns() const { return own_.has_value(); }
@@ -42,14 +42,12 @@ public:
     bool hears_other_owner(Slot now) const { return other_owner_ && !silent(now); }
 
 private:
-    bool silent(Slot now, Slot longer = 0) const {
-        return now - heard_.value_or(now) > rules::silence_slots(timing_) + longer;
-    }
+    bool silent(Slot now) const { return now - heard_.value_or(now) > rules::silence_slots(timing_); }
     bool hears_elder(Slot now) const { return elder_heard_ && now - *elder_heard_ <= rules::silence_slots(timing_); }
     void forgive_own_stall(Slot slot);
     static constexpr Slot kHeadStart = 4 * rules::kHopSlots;  // of the elder: its claim is heard before the other's
 
-    bool may_claim(Slot slot, std::span<const AxisView> axes) const;
+    bool may_claim(Slot slot, std::span<const AxisView> axes);
     bool must_stand_down(Slot slot, std::span<const AxisView> axes) const;
 
     Identity self_;
@@ -59,8 +57,9 @@ private:
     HighestTerm known_;            // of all that speak
     HighestTerm followed_;         // by an axis
     std::optional<MachineState> other_owner_;
-    SecondHearing<Term> stranger_;     // who speaks as an owner and is not believed yet
+    TermHearing strangers_;            // who speak as owners and are not believed yet
     std::optional<Slot> heard_;        // an owner; or when it began to listen
+    std::optional<Slot> vacant_;       // since when nothing else is in the way of a claim
     std::optional<Slot> elder_heard_;  // who stands by for longer than this one
     std::optional<Slot> judged_;
 };

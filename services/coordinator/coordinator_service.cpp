@@ -12,6 +12,8 @@
 #include "services/runtime/clock.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
+#include "services/runtime/real_time.hpp"
+#include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
@@ -150,7 +152,7 @@ int fail(const std::string& why) {
 
 int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
     StopSignal stop;
-    if (options.priority > 0) { log_info(try_real_time(options.priority)); }
+    for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
@@ -158,12 +160,16 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
                                options.standby);
     log_info("coordinator of machine " + machine.name + " is up");
 
+    ServiceManager manager;
+    manager.ready("coordinator of machine " + machine.name);
     PeriodicLoop periodic(loop_period(machine));
     bool alone = true;
-    periodic.run(stop, [&](nanoseconds) {
+    periodic.run(stop, [&](nanoseconds begun) {
+        manager.alive(begun);
         alone = alone && service.loop();
         if (!alone) { stop.request(); }
     });
+    manager.stopping();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
              std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
     if (alone) { return kServiceDone; }

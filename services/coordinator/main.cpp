@@ -11,8 +11,6 @@ int main(int argc, char** argv) {
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
-    app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
-        ->check(CLI::Range(0, 99));
     app.add_flag("--standby", options.standby,
                  "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
                  "give it to both of two");

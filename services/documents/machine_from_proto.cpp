@@ -71,6 +71,10 @@ RecordConfig read_record(const proto::Record& message) {
     };
 }
 
+RealTimeConfig read_real_time(const proto::RealTime& message) {
+    return {.priority = message.priority(), .cpus = {message.cpus().begin(), message.cpus().end()}};
+}
+
 /// Written without std::clamp, whose order of limits a file may break.
 double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
@@ -137,6 +141,8 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
         reader.refuse("method", "method is " + std::to_string(message.method()) + "; it is one of " + kMethodNames);
     }
     axis.method = read_method(message.method());
+    axis.host = message.host();
+    axis.device = message.has_device() ? message.device() : axis.device;
     axis.homing = read_homing(message.homing(), axis);
     axis.plant = read_plant(message.plant(), axis);
     return axis;
@@ -156,6 +162,8 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     }
     draft.machine.network = read_network(message.network());
     draft.machine.record = read_record(message.record());
+    draft.machine.coordinator_host = message.coordinator_host();
+    draft.machine.real_time = read_real_time(message.real_time());
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {

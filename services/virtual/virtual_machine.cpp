@@ -249,7 +249,7 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
     const Mail mail = collect(network_, now_, here);
     CoordinatorOutputs out = coordinator(here)->step({now_, mail.axes, mail.machine, mail.commands});
-    for (VirtualObserver* observer : observers_) { observer->on_coordinator(now_, out); }
+    for (VirtualObserver* observer : observers_) { observer->on_coordinator(here, now_, out); }
     return out;
 }
 

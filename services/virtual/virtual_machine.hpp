@@ -27,7 +27,8 @@ public:
     virtual void on_step(std::size_t /*axis*/, StepEdge /*step*/) {}
     /// After an axis's loop; `node` is as it is then.
     virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
-    virtual void on_coordinator(Tick /*now*/, const CoordinatorOutputs& /*out*/) {}
+    /// After a coordinator's loop.
+    virtual void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& /*out*/) {}
     /// When a fault begins, and when it has ended.
     virtual void on_fault(Tick /*now*/, const VirtualFault& /*fault*/, bool /*begins*/) {}
 };

@@ -13,14 +13,15 @@ namespace {
 double outage_seconds(const Scenario& scenario) {
     const ProtocolTiming& t = scenario.machine.timing;
     double slots = 0;
-    const auto add = [&](const std::optional<PlannedFault>& planned) {
-        if (!planned) { return; }
-        slots +=
-            static_cast<double>(planned->fault.lasts.value) / static_cast<double>(scenario.machine.slot_ticks().value);
-        slots += 4 * static_cast<double>(rules::silence_slots(t));
+    const auto add = [&](const std::vector<PlannedFault>& faults) {
+        for (const PlannedFault& planned : faults) {
+            slots += static_cast<double>(planned.fault.lasts.value) /
+                     static_cast<double>(scenario.machine.slot_ticks().value);
+            slots += 4 * static_cast<double>(rules::silence_slots(t));
+        }
     };
-    add(scenario.homing_fault);
-    for (const Task& task : scenario.tasks) { add(task.fault); }
+    add(scenario.homing_faults);
+    for (const Task& task : scenario.tasks) { add(task.faults); }
     const double asking_s = scenario.clocks.empty() ? 0 : 4 * ClockAsker::kPeriod_s;  // for the time, in vain at first
     return slots * static_cast<double>(t.slot_us) * 1e-6 + asking_s;
 }
@@ -34,9 +35,10 @@ Bench::Bench(const Scenario& scenario, Played& played)
            .seed = scenario.seed,
            .network = scenario.network,
            .start = scenario.power_up,
+           .coordinators = scenario.coordinators,
            .clocks = scenario.clocks}),
       recorder_(played.recording),
-      watch_(scenario.machine.axes.size()),
+      watch_(vm_),
       placer_(vm_),
       claims_(vm_, played.recording),
       coverage_(scenario.machine, played.coverage),

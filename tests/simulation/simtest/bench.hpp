@@ -38,8 +38,8 @@ public:
     /// Commands and waits for the answer, repeating itself where messages may be lost. Null: the run is over.
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
     const Reply* turn(const Overrides& overrides);
-    /// The fault that the next job meets.
-    void plan(const std::optional<PlannedFault>& fault) { placer_.plan(fault); }
+    /// The faults that the next job meets.
+    void plan(const std::vector<PlannedFault>& faults) { placer_.plan(faults); }
     /// No further fault begins. Goes on until none is left and every axis has rested for long enough to rest for good.
     void settle(double seconds);
     std::uint64_t send_program(Program program);
@@ -58,7 +58,11 @@ private:
     const Reply* await_reply(std::uint64_t sequence);
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of whoever is asked
 
-    bool may_lose() const { return lossy() || vm_.faults_pending(); }
+    /// Whoever has taken over may have heard a command while it stood by, and answers it when it comes again.
+    bool may_lose() const {
+        const bool taken_over = scenario_.coordinators > 1 && watch_.disturbed();
+        return lossy() || vm_.faults_pending() || taken_over;
+    }
 
     const Scenario& scenario_;
     Played& played_;

@@ -71,6 +71,7 @@ Violations check_all(const Recording& recording) {
     if (violations.empty()) { append(violations, check_together(recording)); }
     append(violations, check_frames(recording));
     append(violations, check_stops(recording));
+    append(violations, check_owners(recording));
     return violations;
 }
 

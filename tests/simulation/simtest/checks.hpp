@@ -36,6 +36,11 @@ Violations check_frames(const Recording& recording);
 Violations check_stops(const Recording& recording);
 inline constexpr int kCeaseSlots = 6;  // two messages, each with a loop at both ends, and a slot of the coordinator
 
+/// Owners: what moves the axes is one owner's at a time. No axis moves but for the owner that it follows, an owner
+/// begins nothing before all axes follow it, one that has been followed by another never comes back, and terms never
+/// fall. No frame is run twice, or other than it was sent. Nobody takes over from an owner that is well.
+Violations check_owners(const Recording& recording);
+
 Violations check_all(const Recording& recording);
 
 }  // namespace lockstep::simtest

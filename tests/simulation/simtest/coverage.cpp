@@ -13,11 +13,13 @@ constexpr std::string_view kPhases = "machine phases";
 constexpr std::string_view kEnds = "epoch ends";
 constexpr std::string_view kIntents = "intents";
 constexpr std::string_view kInjected = "injected";
+constexpr std::string_view kOwnership = "ownership";
 constexpr std::string_view kAltered = "altered messages";
 
 constexpr std::array kCheckNames{"armed when due",        "armed late",
                                  "vetoed when due",       "vetoed late",
                                  "too late, next vetoed", "vetoed early, for its own reasons"};
+constexpr std::array kOwnershipNames{"claimed", "stood down", "job cut short by a takeover"};
 constexpr std::array kInjectedNames{"freeze of an axis that must not stop the machine",
                                     "freeze of the coordinator that must not stop the machine",
                                     "longer freeze of an axis",
@@ -40,7 +42,7 @@ std::string row_name(const AxisTransition& row) {
 }
 
 std::string_view injected_name(const VirtualFault& fault, const MachineConfig& machine) {
-    const std::size_t coordinator = fault.process == machine.axes.size() ? 1 : 0;
+    const std::size_t coordinator = fault.process >= machine.axes.size() ? 1 : 0;
     if (fault.in_loop) { return kInjectedNames[12 + coordinator]; }
     switch (fault.kind) {
         case VirtualFault::Kind::SetClock: return kInjectedNames[fault.set_by > Ticks{} ? 14 : 15];
@@ -60,6 +62,7 @@ Coverage::Coverage() {
     for (const std::string_view name : kMachinePhaseNames) { hit(kPhases, name, 0); }
     for (const std::string_view name : kEpochEndNames) { hit(kEnds, name, 0); }
     for (const std::string_view name : kIntentNames) { hit(kIntents, name, 0); }
+    for (const std::string_view name : kOwnershipNames) { hit(kOwnership, name, 0); }
     for (const std::string_view name : kInjectedNames) { hit(kInjected, name, 0); }
     for (std::size_t way = 1; way < kAlterations; ++way) { hit(kAltered, name_of(static_cast<Alteration>(way)), 0); }
 #define LOCKSTEP_DECLARE(name, number, text, cause, remedy) hit(kFaults, text, 0);
@@ -133,14 +136,16 @@ void CoverageWatch::take_check(std::size_t axis, Slot now, FrameNumber k, bool a
     coverage_.hit(kChecks, kCheckNames[now < due ? 5 : (now == due ? 2 : 3)]);
 }
 
-void CoverageWatch::on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) {
+void CoverageWatch::on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) {
     for (const JobEvent& job : out.jobs) {
         if (job.kind == JobEvent::Kind::EpochBegun) { starts_[job.epoch] = job.start; }
     }
     for (const CoordinatorNotice& notice : out.notices) {
-        if (notice.kind == CoordinatorNotice::Kind::Phase) {
-            coverage_.hit(kPhases, kMachinePhaseNames[notice.number]);
-        }
+        using Kind = CoordinatorNotice::Kind;
+        if (notice.kind == Kind::Phase) { coverage_.hit(kPhases, kMachinePhaseNames[notice.number]); }
+        if (notice.kind == Kind::Claimed) { coverage_.hit(kOwnership, kOwnershipNames[0]); }
+        if (notice.kind == Kind::StoodDown) { coverage_.hit(kOwnership, kOwnershipNames[1]); }
+        if (notice.kind == Kind::JobCutShort) { coverage_.hit(kOwnership, kOwnershipNames[2]); }
         if (notice.fault != FaultCode::None) { coverage_.hit(kFaults, name_of(notice.fault)); }
     }
     for (const Reply& reply : out.replies) {

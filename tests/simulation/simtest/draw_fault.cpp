@@ -77,7 +77,7 @@ std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine,
     PlannedFault planned{.fault = *event};
     planned.epoch = draw.chance(0.8) ? 0 : 1;
     planned.frame = draw.chance(0.4) ? 1 + draw.index(3) : 1 + static_cast<FrameNumber>(draw.magnitude(1, 100));
-    planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kEdges));
+    planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
     planned.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
     // The one slot of a frame in which a process can be cut off with its word heard and the others' not.
     const bool cut_off = event->kind == Kind::Cut && !event->peer && event->outgoing && event->incoming;

@@ -3,6 +3,7 @@
 #include "tests/simulation/simtest/draw_fault.hpp"
 #include "tests/simulation/simtest/draw_machine.hpp"
 #include "tests/simulation/simtest/draw_program.hpp"
+#include "tests/simulation/simtest/draw_takeover.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
 
 namespace lockstep::simtest {
@@ -84,29 +85,20 @@ Interrupt draw_interrupt(Draw& draw, const MachineConfig& machine) {
 }
 
 Task draw_task(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
-    Task task{.program = draw_program(draw, machine), .before = {}, .interrupts = {}, .fault = {}};
+    Task task{.program = draw_program(draw, machine), .before = {}, .interrupts = {}, .faults = {}};
     while (draw.chance(0.3)) { task.before.push_back(wrong_when_idle(draw, machine)); }
     for (int n = 0; n < 5 && draw.chance(0.6); ++n) { task.interrupts.push_back(draw_interrupt(draw, machine)); }
-    task.fault = draw_fault(draw, machine, faults);
+    if (const auto fault = draw_fault(draw, machine, faults)) { task.faults.push_back(*fault); }
     // Half of the faults meet a job that nobody interrupts.
-    if (task.fault && draw.chance(0.5)) { task.interrupts.clear(); }
+    if (!task.faults.empty() && draw.chance(0.5)) { task.interrupts.clear(); }
     return task;
 }
 
 /// Each kind is there in half of the runs, so that each is seen alone, and in company.
 FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
     const auto kept = [&draw](bool kind) { return kind && draw.chance(0.5); };
-    return {kept(faults.delay),
-            kept(faults.reorder),
-            kept(faults.duplicate),
-            kept(faults.loss),
-            kept(faults.freeze),
-            kept(faults.crash),
-            kept(faults.partition),
-            kept(faults.corrupt),
-            kept(faults.stall),
-            kept(faults.clock),
-            false};
+    return {kept(faults.delay), kept(faults.reorder),   kept(faults.duplicate), kept(faults.loss),  kept(faults.freeze),
+            kept(faults.crash), kept(faults.partition), kept(faults.corrupt),   kept(faults.stall), kept(faults.clock)};
 }
 
 /// Feed and rapid turned up to three times in each job. Drawn by itself: what else a seed means does not hang on it.
@@ -120,6 +112,21 @@ void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
             const auto place = draw.index(task.interrupts.size() + 1);
             task.interrupts.insert(task.interrupts.begin() + static_cast<std::ptrdiff_t>(place), turn);
         }
+    }
+}
+
+/// A second coordinator, and jobs and homings that meet a takeover. Drawn by itself, as overrides. Where other kinds
+/// are there, some jobs keep the faults that were drawn of those.
+void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scenario& scenario) {
+    Draw draw(seed ^ 0x0a0b0c0d0e0f0102U);
+    if (mixed && draw.chance(0.6)) { return; }
+    scenario.coordinators = 2;
+    if (!others.breaks_processes()) { scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}}); }
+    if (draw.chance(0.25)) { scenario.homing_faults = draw_takeover_of_homing(draw, scenario.machine); }
+    for (std::size_t n = 0; n + 1 < scenario.tasks.size(); ++n) {
+        Task& task = scenario.tasks[n];
+        if (!task.faults.empty() && draw.chance(0.3)) { continue; }
+        task.faults = draw_takeover(draw, scenario.machine);
     }
 }
 
@@ -155,13 +162,17 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optiona
         scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
     if (draw.chance(0.05)) { scenario.homing_emergency_s = draw.magnitude(0.001, 1); }
-    if (draw.chance(0.2)) { scenario.homing_fault = draw_homing_fault(draw, scenario.machine, faults); }
+    if (draw.chance(0.2)) {
+        const auto fault = draw_homing_fault(draw, scenario.machine, faults);
+        if (fault) { scenario.homing_faults.push_back(*fault); }
+    }
     for (std::int64_t n = draw.whole(1, 2); n > 0; --n) {
         scenario.tasks.push_back(draw_task(draw, scenario.machine, faults));
     }
     // Whatever went wrong before, the machine is then as good as new.
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
+    if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }
     return scenario;
 }
 

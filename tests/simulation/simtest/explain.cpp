@@ -49,7 +49,7 @@ constexpr std::array kExplanations{
 };
 
 bool is_coordinator(const VirtualFault& fault, const MachineConfig& machine) {
-    return fault.process == machine.axes.size();
+    return fault.process >= machine.axes.size();
 }
 
 Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {

@@ -1,8 +1,9 @@
-// Puts planned faults into a machine's schedule as soon as what they wait for has begun.
+// Puts planned faults into a machine's schedule as soon as what they wait for has come.
 #pragma once
 
-#include <cmath>
-#include <optional>
+#include <deque>
+#include <map>
+#include <vector>
 
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
@@ -11,48 +12,31 @@ namespace lockstep::simtest {
 
 class FaultPlacer : public VirtualObserver {
 public:
-    explicit FaultPlacer(VirtualMachine& vm) : vm_(vm) {}
+    explicit FaultPlacer(VirtualMachine& vm) : vm_(vm), at_rest_(vm.machine().axes.size(), true) {}
 
-    /// Of the job that begins next. Nothing: none.
-    void plan(const std::optional<PlannedFault>& fault) {
-        planned_ = fault;
+    /// Of the job that begins next, in this order. Those of the job before that have not been placed are dropped.
+    void plan(const std::vector<PlannedFault>& faults) {
+        planned_.assign(faults.begin(), faults.end());
         epochs_ = 0;
     }
 
-    void on_coordinator(Tick now, const CoordinatorOutputs& out) override {
-        for (const JobEvent& job : out.jobs) {
-            const bool homes = job.kind == JobEvent::Kind::Begun && job.job_kind == JobKind::Home;
-            if (planned_ && homes) { place(now); }
-            if (planned_ && job.kind == JobEvent::Kind::EpochBegun && epochs_++ == planned_->epoch) {
-                place(job.start + slots(frame_slots()));
-            }
-        }
-    }
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
 
 private:
-    /// Of the edge, from the start of the epoch.
-    double frame_slots() const {
-        const ProtocolTiming& t = vm_.machine().timing;
-        const double start = static_cast<double>(planned_->frame - 1) * t.frame_slots;
-        switch (planned_->edge) {
-            case PlannedFault::Edge::FirstSend: return start - t.send_ahead_slots;
-            case PlannedFault::Edge::Evidence: return start - t.check_slots() - 1 - t.freshness_slots;
-            case PlannedFault::Edge::Check: return start - t.check_slots();
-            case PlannedFault::Edge::LastCheck: return start - 4;
-            case PlannedFault::Edge::Start: return start;
-        }
-        return start;
-    }
-    Ticks slots(double n) const { return {std::llround(n * static_cast<double>(vm_.machine().slot_ticks().value))}; }
-    void place(Tick from) {
-        VirtualFault fault = planned_->fault;
-        fault.at = std::max(vm_.now() + Ticks{1}, from + slots(planned_->slots));
-        planned_.reset();
-        vm_.schedule(fault);
-    }
+    void take_job_event(const JobEvent& job, Tick now);
+    void reach(PlannedFault::Edge edge, Tick now);
+    void place(Tick from);
+    double frame_slots(const PlannedFault& planned) const;
+    std::size_t victim_of(const PlannedFault& planned) const;
+    Ticks slots(double n) const;
 
     VirtualMachine& vm_;
-    std::optional<PlannedFault> planned_;
+    std::deque<PlannedFault> planned_;
+    std::vector<bool> at_rest_;  // by axis, as last said
+    std::map<std::size_t, Tick> crashed_until_;
+    Tick last_;                 // when the fault placed last begins
+    std::size_t followed_ = 0;  // axes that have followed another owner since
     int epochs_ = 0;
 };
 

@@ -6,36 +6,12 @@
 
 #include "tests/simulation/simtest/checks.hpp"
 #include "tests/simulation/simtest/claims.hpp"
+#include "tests/simulation/simtest/judges_rig.hpp"
 #include "tests/simulation/simtest/play.hpp"
 #include "tests/simulation/simtest/run.hpp"
 
 namespace lockstep::simtest {
 namespace {
-
-AxisConfig axis(const std::string& name) {
-    AxisConfig a{.name = name, .steps_per_mm = 200};
-    a.start_velocity_mm_s = 5;
-    a.max_velocity_mm_s = 200;
-    a.max_accel_mm_s2 = a.max_decel_mm_s2 = 1000;
-    a.position_max_mm = 100;
-    a.homing = {
-        .search_velocity_mm_s = 5, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = 0, .park_mm = 10};
-    a.plant = {.start_position_mm = 1, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 8};
-    return a;
-}
-
-/// One job of two axes: 8 mm and 4 mm in a line, which at 1000 mm/s^2 peaks below half the greatest speed, and a
-/// corner.
-Scenario two_axes() {
-    Scenario scenario{.seed = 7};
-    scenario.machine = {.name = "two", .axes = {axis("X"), axis("Y")}};
-    scenario.machine.timing = {
-        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 6};
-    Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {}, .blocks = {}};
-    program.blocks = {{1, LinearMove{{18, 14}, 0, true}}, {2, LinearMove{{18, 20}, 0, true}}};
-    scenario.tasks = {{program, {}, {}, {}}};
-    return scenario;
-}
 
 class Judges : public testing::Test {
 protected:
@@ -60,9 +36,6 @@ protected:
         AxisRecord& record = recording.axes[i];
         while (record.steps.back().tick > record.tracks.back().start) { record.steps.pop_back(); }
         record.tracks.pop_back();
-    }
-    static bool has(const Violations& violations, const std::string& rule) {
-        return std::ranges::any_of(violations, [&](const Violation& v) { return v.rule == rule; });
     }
 
     Recording recording;
@@ -217,7 +190,7 @@ TEST_F(Judges, ObjectWhereAxesPartedAndTheMachineWentOn) {
     cut_off(1);
     drop_last_frame_of(1);
     const auto [number, epoch] = *recording.epochs.rbegin();
-    SentEpoch next{epoch.writer, {{1, epoch.frames.at(1)}}};
+    SentEpoch next{epoch.writer, {}, {{1, epoch.frames.at(1)}}};
     next.frames.at(1).start = recording.ended;
     recording.epochs[number + 1] = next;
     EXPECT_TRUE(has(check_frames(recording), "frames"));

@@ -30,6 +30,8 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults clock
   override   no fault: feed and rapid are turned while jobs run:
                                                      lockstep-simtest --faults override,loss
+  standby    a second coordinator stands by, and takeovers go wrong:
+                                                     lockstep-simtest --faults standby --axes 2
   mixed      a half of the other kinds named, in each run:
                                                      lockstep-simtest --faults mixed,loss,clock
 
@@ -61,7 +63,7 @@ int main(int argc, char** argv) {
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
-                               "corrupt", "stall", "clock", "override", "mixed", "all"}));
+                               "corrupt", "stall", "clock", "override", "standby", "mixed", "all"}));
     app.footer(kKinds);
     app.add_flag("--json", options.json, "the figures as JSON");
     app.add_flag("--trace", options.trace, "what happens in a run, a line for each event");

@@ -44,13 +44,14 @@ void play_all(const Scenario& scenario, Bench& bench) {
     const double listening = (3 * scenario.machine.timing.freshness_slots + 30) * bench.slot_s();
     (void)bench.await([&] { return bench.watch().phase() == MachinePhase::Idle; }, listening, "power-up");
     for (const WrongCommand& wrong : scenario.before_homing) { play_refusal(bench, wrong, at); }
-    bench.plan(scenario.homing_fault);
+    bench.plan(scenario.homing_faults);
     if (!bench.over()) { play_homing(bench, at, scenario.homing_emergency_s); }
+    bench.plan({});
     make_ready(bench, at);
     check_slides(bench, at);
     for (const Task& task : scenario.tasks) {
         for (const WrongCommand& wrong : task.before) { play_refusal(bench, wrong, at); }
-        bench.plan(task.fault);
+        bench.plan(task.faults);
         if (!bench.over()) { JobPlayer(bench, task, at).play(); }
         bench.plan({});
         make_ready(bench, at);

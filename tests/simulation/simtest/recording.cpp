@@ -24,6 +24,8 @@ Track track_of(const ExecutedTrack& executed, FrameNumber armed) {
         track.ticks += piece.ticks;
         at += gone(piece);
     }
+    track.from = executed.from;
+    track.to = {at};
     track.net_steps = pulses_at(at) - pulses_at(executed.from.raw);
     track.cut = executed.cut;
     track.armed = armed;
@@ -61,8 +63,13 @@ Ticks AxisRecord::bound_at(Tick truth) const {
     return later == bounds.begin() ? Ticks{} : std::prev(later)->error;
 }
 
+Followed AxisRecord::followed_at(Tick truth) const {
+    const auto later = std::ranges::upper_bound(followed, truth, {}, &Followed::at);
+    return later == followed.begin() ? Followed{} : *std::prev(later);
+}
+
 void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
-    if (out.state) { recording_.axes[axis].bounds.push_back({now, out.state->clock_error}); }
+    if (out.state) { take_state(axis, *out.state, now); }
     for (const ExecutedTrack& executed : out.tracks) {
         recording_.axes[axis].tracks.push_back(track_of(executed, armed_[axis]));
     }
@@ -71,6 +78,14 @@ void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisN
         const auto* arm = std::get_if<device::Arm>(&order);
         if (arm != nullptr) { armed_[axis] = std::max(armed_[axis], arm->number); }
     }
+}
+
+void Recorder::take_state(std::size_t axis, const AxisState& state, Tick now) {
+    AxisRecord& record = recording_.axes[axis];
+    record.bounds.push_back({now, state.clock_error});
+    const Followed last = record.followed_at(now);
+    if (last.process == state.identity && last.term == state.term) { return; }
+    record.followed.push_back({now, state.identity, state.term});
 }
 
 void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node) {
@@ -89,34 +104,45 @@ void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const Axi
     }
 }
 
-void Recorder::on_coordinator(Tick now, const CoordinatorOutputs& out) {
-    for (const Frame& frame : out.frames) { keep(frame); }
-    for (const CoordinatorNotice& notice : out.notices) {
-        if (notice.kind == CoordinatorNotice::Kind::EpochBegun) { recording_.epochs_begun.push_back(now); }
-        if (notice.kind == CoordinatorNotice::Kind::Interrupted) { recording_.interruptions.push_back(now); }
-        if (notice.kind != CoordinatorNotice::Kind::Fault) { continue; }
-        recording_.machine_faults.push_back(now);
-        recording_.fault = notice.fault;
-        if (!explains(recording_, notice.fault)) {
-            recording_.troubles.push_back("coordinator: fault " + std::string(name_of(notice.fault)));
-        }
-    }
+void Recorder::on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) {
+    for (const Frame& frame : out.frames) { keep(frame, now); }
+    for (const AxisCommand& order : out.axis_commands) { keep(order, now); }
+    for (const CoordinatorNotice& notice : out.notices) { take_notice(process, notice, now); }
     if (out.must_quit) { recording_.troubles.push_back("coordinator: another one is heard"); }
 }
 
-void Recorder::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
+void Recorder::take_notice(std::size_t process, const CoordinatorNotice& notice, Tick now) {
+    using Kind = CoordinatorNotice::Kind;
+    if (notice.kind == Kind::EpochBegun) { recording_.epochs_begun.push_back(now); }
+    if (notice.kind == Kind::Interrupted) { recording_.interruptions.push_back(now); }
+    if (notice.kind == Kind::Claimed) { recording_.claims.push_back({now, process}); }
+    if (notice.kind != Kind::Fault) { return; }
+    recording_.machine_faults.push_back(now);
+    recording_.fault = notice.fault;
+    if (!explains(recording_, notice.fault)) {
+        recording_.troubles.push_back("coordinator: fault " + std::string(name_of(notice.fault)));
+    }
+}
+
+void Recorder::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (!begins) { return; }
     recording_.faults.push_back(fault);
     const std::size_t i = fault.process;
     if (fault.kind != VirtualFault::Kind::Crash || i >= recording_.axes.size()) { return; }
     AxisRecord& axis = recording_.axes[i];
     const bool some = !axis.tracks.empty() && axis.tracks.back().epoch == epoch_[i];
-    axis.lost.push_back({axis.tracks.size(), epoch_[i], some ? axis.tracks.back().frame : 0, armed_[i]});
+    axis.lost.push_back({now, axis.tracks.size(), epoch_[i], some ? axis.tracks.back().frame : 0, armed_[i]});
     epoch_[i] = 0;
 }
 
-void Recorder::keep(const Frame& frame) {
-    SentEpoch& epoch = recording_.epochs.try_emplace(frame.epoch, SentEpoch{frame.term, {}}).first->second;
+void Recorder::keep(const AxisCommand& order, Tick now) {
+    auto& given = recording_.axes[order.axis].orders;
+    const bool known = std::ranges::any_of(given, [&](const GivenOrder& g) { return g.order == order; });
+    if (!known) { given.push_back({now, order}); }
+}
+
+void Recorder::keep(const Frame& frame, Tick now) {
+    SentEpoch& epoch = recording_.epochs.try_emplace(frame.epoch, SentEpoch{frame.term, now, {}}).first->second;
     if (epoch.writer != frame.term) {
         recording_.troubles.push_back("epoch " + std::to_string(frame.epoch) + " has two writers");
     }

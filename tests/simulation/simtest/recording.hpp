@@ -21,6 +21,8 @@ struct Track {
     bool tail = false;
     Tick start;
     Ticks ticks;
+    Position from;
+    Position to;
     std::int64_t net_steps = 0;  // what its pieces amount to
     bool cut = false;            // ended early: at a switch
     FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
@@ -36,10 +38,24 @@ struct PublishedBound {
 
 /// A process ended in the middle of a run: its device ran on, and nobody says what.
 struct LostRun {
+    Tick at;
     std::size_t tracks = 0;  // recorded before
     Epoch epoch = 0;         // 0: a move of the axis on its own, or none
     FrameNumber recorded = 0;
     FrameNumber armed = 0;
+};
+
+/// From then on an axis says that it follows this owner; a process made anew follows nobody at first.
+struct Followed {
+    Tick at;
+    Identity process = 0;
+    Term term;
+};
+
+/// An order to an axis, as its owner first gave it.
+struct GivenOrder {
+    Tick at;
+    AxisCommand order;
 };
 
 struct AxisRecord {
@@ -49,12 +65,16 @@ struct AxisRecord {
     std::vector<Track> tracks{};
     std::vector<LostRun> lost{};
     std::vector<PublishedBound> bounds{};
+    std::vector<Followed> followed{};  // by time
+    std::vector<GivenOrder> orders{};  // by time
 
     /// In true time, which is machine time.
     Tick truth(const StepEdge& step) const;
 
     /// Published last before that instant.
     Ticks bound_at(Tick truth) const;
+    /// Said last at or before that instant.
+    Followed followed_at(Tick truth) const;
 };
 
 /// One axis's share of a frame as sent: where its body begins and ends, and where its tail does.
@@ -77,7 +97,14 @@ struct SentFrame {
 /// All frames of an epoch, and who sent them.
 struct SentEpoch {
     Term writer;
+    Tick first_sent;
     std::map<FrameNumber, SentFrame> frames;
+};
+
+/// A coordinator takes the machine to be its own.
+struct Claim {
+    Tick at;
+    std::size_t process = 0;
 };
 
 /// A job, from its first frame to its end: which of the axes' steps are its.
@@ -106,6 +133,7 @@ struct Recording {
     std::map<Epoch, SentEpoch> epochs;
     std::vector<VirtualFault> faults;  // as they began
     std::vector<Emergency> emergencies;
+    std::vector<Claim> claims;
     std::vector<Tick> epochs_begun;     // the coordinator sets out, and may not come to send a frame
     std::vector<Tick> interruptions;    // the coordinator says that a motion was interrupted by nobody's wish
     std::vector<Tick> machine_faults;   // the coordinator enters Fault, or is about to
@@ -132,12 +160,15 @@ public:
 
     void on_step(std::size_t axis, StepEdge step) override { recording_.axes[axis].steps.push_back(step); }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
-    void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
+    void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
 private:
     void take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node);
-    void keep(const Frame& frame);
+    void take_state(std::size_t axis, const AxisState& state, Tick now);
+    void take_notice(std::size_t process, const CoordinatorNotice& notice, Tick now);
+    void keep(const Frame& frame, Tick now);
+    void keep(const AxisCommand& order, Tick now);
 
     Recording& recording_;
     std::vector<Epoch> epoch_;        // the axes are in; 0: none

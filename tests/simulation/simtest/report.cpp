@@ -65,8 +65,9 @@ void print_text(const Tally& t) {
 FaultKinds Options::kinds() const {
     const auto has = [this](const char* name) { return std::ranges::find(faults, name) != faults.end(); };
     if (has("all")) { return FaultKinds::all(); }
-    return {has("delay"),     has("reorder"), has("duplicate"), has("loss"),  has("freeze"), has("crash"),
-            has("partition"), has("corrupt"), has("stall"),     has("clock"), has("mixed"),  has("override")};
+    return {has("delay"), has("reorder"),   has("duplicate"), has("loss"),  has("freeze"),
+            has("crash"), has("partition"), has("corrupt"),   has("stall"), has("clock"),
+            has("mixed"), has("override"),  has("standby")};
 }
 
 void Tally::add(const Verdict& verdict) {

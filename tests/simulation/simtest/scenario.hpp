@@ -30,10 +30,11 @@ struct FaultKinds {
     bool clock = false;
     bool mixed = false;  // each kind is there in half of the runs only
     bool override = false;
+    bool standby = false;  // a second coordinator, and faults about takeovers
 
-    bool breaks_processes() const { return freeze || crash || partition || stall || clock; }
+    bool breaks_processes() const { return freeze || crash || partition || stall || clock || standby; }
     static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true};
+        return {true, true, true, true, true, true, true, true, true, true, true, true, true};
     }
 };
 
@@ -46,13 +47,31 @@ struct WrongCommand {
 
 /// A fault of a process or a link, placed by what the protocol is doing then.
 struct PlannedFault {
-    enum class Edge : std::uint8_t { FirstSend, Evidence, Check, LastCheck, Start };
-    static constexpr std::size_t kEdges = 5;
-    VirtualFault fault;  // `at` is filled in when the epoch, or the homing, has begun
+    /// Of a frame of the job (in homing: of its beginning, whichever); or of what follows the planned fault before:
+    /// itself, a coordinator's claim, the first and the last axis to follow it, all axes at rest.
+    enum class Edge : std::uint8_t {
+        FirstSend,
+        Evidence,
+        Check,
+        LastCheck,
+        Start,
+        Before,
+        Claim,
+        FirstFollows,
+        LastFollows,
+        Rest
+    };
+    static constexpr std::size_t kFrameEdges = 5;
+    /// Whom it meets: the process that the fault names, or the coordinator that owns the machine then, or the other.
+    enum class Victim : std::uint8_t { Process, Owner, Other };
+    VirtualFault fault;  // `at` is filled in when the edge comes
     int epoch = 0;       // of the job, counted from 0
     FrameNumber frame = 1;
-    Edge edge = Edge::Start;  // of that frame
-    double slots = 0;         // after the edge; in homing: after its beginning
+    Edge edge = Edge::Start;
+    double slots = 0;  // after the edge
+    Victim victim = Victim::Process;
+
+    bool is_of_frame() const { return static_cast<std::size_t>(edge) < kFrameEdges; }
 };
 
 /// What happens while a job is in motion.
@@ -70,7 +89,7 @@ struct Task {
     Program program;  // start_mm is filled in when it is given
     std::vector<WrongCommand> before;
     std::vector<Interrupt> interrupts;
-    std::optional<PlannedFault> fault;
+    std::vector<PlannedFault> faults;  // in the order in which they are placed
 };
 
 struct Scenario {
@@ -79,9 +98,10 @@ struct Scenario {
     NetworkBehaviour network;
     Tick power_up{1'000'000};
     std::vector<AxisClocks> clocks;  // none: one clock for all
+    std::size_t coordinators = 1;
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
-    std::optional<PlannedFault> homing_fault;
+    std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 
     /// Messages may be lost, one way or another.

@@ -19,7 +19,8 @@ std::string text_of(const AxisNotice& notice) {
 }
 
 std::string text_of(const CoordinatorNotice& notice) {
-    constexpr std::array kNames{"phase", "fault", "axis seen", "axis gone", "interrupted", "epoch begun"};
+    constexpr std::array kNames{"phase",       "fault",   "axis seen",  "axis gone",    "interrupted",
+                                "epoch begun", "claimed", "stood down", "job cut short"};
     const auto kind = static_cast<std::size_t>(notice.kind);
     const std::string name = kind < kNames.size() ? kNames[kind] : "notice " + std::to_string(kind);
     const bool phase = notice.kind == CoordinatorNotice::Kind::Phase && notice.number < kMachinePhaseNames.size();
@@ -35,7 +36,8 @@ std::string text_of(const Reply& reply) {
 }  // namespace
 
 std::string Trace::process(std::size_t number) const {
-    return number < machine_.axes.size() ? machine_.axes[number].name : "coordinator";
+    if (number < machine_.axes.size()) { return machine_.axes[number].name; }
+    return number == machine_.axes.size() ? "coordinator" : "standby";
 }
 
 void Trace::line(Tick now, const std::string& who, const std::string& what) const {
@@ -61,11 +63,12 @@ void Trace::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode
     }
 }
 
-void Trace::on_coordinator(Tick now, const CoordinatorOutputs& out) {
-    for (const CoordinatorNotice& notice : out.notices) { line(now, "coordinator", text_of(notice)); }
-    for (const Reply& reply : out.replies) { line(now, "coordinator", text_of(reply)); }
+void Trace::on_coordinator(std::size_t number, Tick now, const CoordinatorOutputs& out) {
+    const std::string who = process(number);
+    for (const CoordinatorNotice& notice : out.notices) { line(now, who, text_of(notice)); }
+    for (const Reply& reply : out.replies) { line(now, who, text_of(reply)); }
     for (const Frame& frame : out.frames) {
-        line(now, "coordinator",
+        line(now, who,
              "sends frame " + std::to_string(frame.number) + " for tick " + std::to_string(frame.start.value));
     }
 }

@@ -10,7 +10,7 @@ public:
     explicit Trace(const MachineConfig& machine) : machine_(machine) {}
 
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
-    void on_coordinator(Tick now, const CoordinatorOutputs& out) override;
+    void on_coordinator(std::size_t number, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
 private:

@@ -98,6 +98,17 @@ TEST(Ownership, OfTwoThatWaitTheElderGoesFirst) {
     EXPECT_EQ(younger.look_for(10, elder_waits), Change::Claimed) << "but the elder may be unable to";
 }
 
+TEST(Ownership, OfTwoThatHaveWaitedForAxesToComeToRestTheElderGoesFirst) {
+    Scene younger;
+    const auto wait = [&](bool at_rest) {
+        younger.axes_follow(kOther, false, at_rest);
+        younger.ownership.hear({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);
+    };
+    ASSERT_EQ(younger.look_for(3 * kSilence, [&] { wait(false); }), Change::None);
+    EXPECT_EQ(younger.look_for(5, [&] { wait(true); }), Change::None);
+    EXPECT_EQ(younger.look_for(10, [&] { wait(true); }), Change::Claimed);
+}
+
 TEST(Ownership, MovesNothingBeforeEveryAxisSaysThatItFollows) {
     Scene scene;
     (void)scene.look_for(2 * kSilence, [] {});
@@ -143,6 +154,18 @@ TEST(Ownership, OfTwoClaimsTheLowerGivesWay) {
                              }),
               Change::StoodDown)
         << "the same number, of a later process";
+}
+
+TEST(Ownership, OfTwoClaimsTheLowerGivesWayThoughAxesStillNameTheOwnerBefore) {
+    Scene scene;
+    (void)scene.look_for(2 * kSilence, [] {});
+    const Term own = scene.ownership.term();
+    const auto all_speak = [&] {
+        scene.axes_follow(kOther, false);
+        scene.owner_says({own.number + 1, 9});
+        scene.axes_follow({kOther.number - 1, 2}, false);
+    };
+    EXPECT_EQ(scene.look_for(2, all_speak), Change::StoodDown);
 }
 
 TEST(Ownership, ClaimedInVainIsGivenUp) {

@@ -31,7 +31,7 @@ class TrueTime : public VirtualObserver {
 public:
     TrueTime(const VirtualOptions& options, VirtualMachine& vm) : options_(options) { vm.observe(*this); }
 
-    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const Frame& frame : out.frames) { sent_.emplace(std::pair{frame.epoch, frame.number}, frame); }
     }
     void on_step(std::size_t axis, StepEdge step) override {

@@ -41,7 +41,7 @@ protected:
 /// How often the coordinator has begun anew.
 class Epochs : public VirtualObserver {
 public:
-    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const JobEvent& job : out.jobs) { begun += job.kind == JobEvent::Kind::EpochBegun ? 1 : 0; }
     }
     int begun = 0;

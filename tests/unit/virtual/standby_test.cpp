@@ -12,7 +12,7 @@ using Kind = VirtualFault::Kind;
 /// What each axis ran, of whom, and what each coordinator said of itself.
 class Owners : public VirtualObserver {
 public:
-    void on_coordinator(Tick /*now*/, const CoordinatorOutputs& out) override {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const CoordinatorNotice& notice : out.notices) {
             claims += notice.kind == CoordinatorNotice::Kind::Claimed ? 1 : 0;
             stood_down += notice.kind == CoordinatorNotice::Kind::StoodDown ? 1 : 0;
@@ -220,6 +220,20 @@ TEST_F(Standby, DoesNotDoACommandThatTheOwnerMayHaveBegun) {
     EXPECT_EQ(static_cast<FaultCode>(last->fault), FaultCode::CoordinatorChanged);
     wait(0.5);
     EXPECT_EQ(counts(), at);
+}
+
+/// Axes stop by themselves; whoever takes over must not refuse to say so.
+TEST_F(Standby, TakesAnEmergencyStopThatTheOwnerNeverAnswered) {
+    start_job();
+    befall(Kind::Crash, owner, 100);
+    wait(0.001);
+    const auto asked = vm.command(CommandKind::EmergencyStop);
+    ASSERT_TRUE(vm.advance_until([&] { return vm.owner() == other && vm.state()->term > term; }, ticks(3)));
+    vm.repeat_command();
+    wait(0.1);
+    ASSERT_NE(vm.reply_to(asked), nullptr);
+    EXPECT_EQ(vm.reply_to(asked)->status, ReplyStatus::Accepted) << vm.reply_to(asked)->text;
+    EXPECT_EQ(fault(), FaultCode::EmergencyStopped);
 }
 
 }  // namespace

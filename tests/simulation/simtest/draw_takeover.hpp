@@ -1,0 +1,18 @@
+// Faults about who owns a machine of two coordinators: what silences the owner, and what then goes wrong in the
+// takeover.
+#pragma once
+
+#include <vector>
+
+#include "tests/simulation/simtest/draw.hpp"
+#include "tests/simulation/simtest/scenario.hpp"
+
+namespace lockstep::simtest {
+
+/// For a job, in the order in which they are placed.
+std::vector<PlannedFault> draw_takeover(Draw& draw, const MachineConfig& machine);
+
+/// For a homing.
+std::vector<PlannedFault> draw_takeover_of_homing(Draw& draw, const MachineConfig& machine);
+
+}  // namespace lockstep::simtest

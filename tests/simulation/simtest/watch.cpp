@@ -1,0 +1,49 @@
+#include "tests/simulation/simtest/watch.hpp"
+
+namespace lockstep::simtest {
+
+void Watch::on_coordinator(std::size_t process, Tick /*now*/, const CoordinatorOutputs& out) {
+    for (const Reply& reply : out.replies) { phase_at_command_.try_emplace(reply.sequence, phase()); }
+    for (const CoordinatorNotice& notice : out.notices) { take_notice(process, notice); }
+    for (const JobEvent& job : out.jobs) { take_job(process, job); }
+}
+
+/// Another one has taken the job's machine over when it has heard all axes follow it: then it waits no more.
+void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
+    using Kind = CoordinatorNotice::Kind;
+    if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
+    if (notice.kind == Kind::StoodDown && process == job_of_) { cut_short(JobOutcome::Stopped); }
+    if (notice.kind != Kind::Phase) { return; }
+    phases_[process] = static_cast<MachinePhase>(notice.number);
+    if (process != job_of_ && phases_[process] == MachinePhase::Idle) { cut_short(JobOutcome::Stopped); }
+}
+
+void Watch::take_job(std::size_t process, const JobEvent& job) {
+    if (job.kind == JobEvent::Kind::Begun) {
+        job_of_ = process;
+        outcome_.reset();
+    }
+    if (job.kind == JobEvent::Kind::Ended && process == job_of_) { outcome_ = job.outcome; }
+}
+
+void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
+    if (begins) { disturbed_ = now; }
+    moved_ = now;
+    if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process < axes_.size()) { return; }
+    phases_.erase(fault.process);
+    if (fault.process == job_of_) { cut_short(JobOutcome::Failed); }
+}
+
+void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
+    if (!out.state) { return; }
+    axes_[axis] = *out.state;
+    if (!out.state->at_rest || out.state->velocity != Velocity{}) { moved_ = now; }
+}
+
+MachinePhase Watch::phase() const {
+    const auto owner = vm_.owner();
+    const auto phase = owner ? phases_.find(*owner) : phases_.end();
+    return phase == phases_.end() ? MachinePhase::Waiting : phase->second;
+}
+
+}  // namespace lockstep::simtest
