@@ -11,6 +11,7 @@
 #include "clients/analysis/axis_statistics.hpp"
 #include "clients/analysis/csv.hpp"
 #include "clients/analysis/lateness.hpp"
+#include "clients/analysis/message_numbers.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/analysis/tick_histogram.hpp"
 #include "clients/analysis/trace.hpp"
@@ -53,6 +54,8 @@ public:
     void take(const PositionSample& sample);
     void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
+    MessageNumbers& position_numbers() { return position_numbers_; }
+    MessageNumbers& figure_numbers() { return figure_numbers_; }
     /// Call once, at the end. The error is that of a file that was not written whole.
     std::expected<void, std::string> finish();
 
@@ -66,6 +69,9 @@ public:
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
+    /// Messages between the first and the last in the log.
+    std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
+    std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
     /// As the axis's own messages have it; none where they do not tell.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
     /// How far the last position message is from the last step recorded before it: what the log ends too early for,
@@ -80,6 +86,8 @@ private:
     Course slack_;
     std::unique_ptr<StepCsv> step_csv_;
     std::unique_ptr<CsvFile> position_csv_;
+    MessageNumbers position_numbers_;
+    MessageNumbers figure_numbers_;  // of health messages
     std::int64_t positions_ = 0;
     std::optional<PositionSample> last_position_;
     std::optional<double> steps_per_mm_;

@@ -10,7 +10,7 @@ namespace lockstep::analysis {
 namespace {
 
 bool is_countable_run(const run_t& m) {
-    return is_countable(m.sequence) && m.sequence >= 0 && is_countable(m.start_tick) && is_countable(m.start_count) &&
+    return is_message_number(m.sequence) && is_countable(m.start_tick) && is_countable(m.start_count) &&
            is_countable(m.stop_count) && is_countable(m.zero_count) && is_countable(m.ahead) &&
            is_countable(m.clock_error) && m.clock_error >= 0;
 }

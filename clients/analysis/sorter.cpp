@@ -18,9 +18,10 @@ void Sorter::on_steps(const step_batch_t& message, LogPlace place) {
 void Sorter::on_position(const axis_position_t& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
-    if (!is_countable(message.tick) || !is_countable(message.position_steps)) {
+    if (!is_countable(message.tick) || !is_countable(message.position_steps) || !is_message_number(message.sequence)) {
         return on_damage(place, "a position with numbers that no machine counts to");
     }
+    of->log->position_numbers().add(message.incarnation, message.sequence);
     listener_.on_position(message);
     of->log->take(
         PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
@@ -28,9 +29,12 @@ void Sorter::on_position(const axis_position_t& message, LogPlace place) {
 
 void Sorter::on_health(const axis_health_t& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
-    if (of == nullptr || message.setpoints <= 0) { return; }
-    if (!is_countable(message.tick)) { return on_damage(place, "figures with numbers that no machine counts to"); }
-    of->log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms});
+    if (of == nullptr) { return; }
+    if (!is_countable(message.tick) || !is_message_number(message.sequence)) {
+        return on_damage(place, "figures with numbers that no machine counts to");
+    }
+    of->log->figure_numbers().add(message.incarnation, message.sequence);
+    if (message.setpoints > 0) { of->log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms}); }
 }
 
 void Sorter::on_run(const run_t& message, LogPlace place) {
@@ -44,9 +48,10 @@ void Sorter::on_run(const run_t& message, LogPlace place) {
 
 void Sorter::on_job(const job_t& message, LogPlace place) {
     if (!is_ours(message.machine)) { return; }
-    if (!is_countable(message.utime) || !is_countable(message.start_tick)) {
-        return on_damage(place, "a job with times that no machine counts to");
+    if (!is_countable(message.utime) || !is_countable(message.start_tick) || !is_message_number(message.sequence)) {
+        return on_damage(place, "a job with numbers that no machine counts to");
     }
+    job_numbers_.add(message.coordinator, message.sequence);
     listener_.on_job(message, place);
 }
 
@@ -97,6 +102,7 @@ void Sorter::give(Analysis& analysis) {
     analysis.machine = machine_.value_or("");
     analysis.foreign = std::move(foreign_);
     analysis.runs = runs_;
+    analysis.missing_job_events = job_numbers_.missing_within();
 }
 
 }  // namespace lockstep::analysis

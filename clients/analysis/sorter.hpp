@@ -11,6 +11,7 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/log_read.hpp"
+#include "clients/analysis/message_numbers.hpp"
 #include "clients/analysis/sorted_log.hpp"
 
 namespace lockstep::analysis {
@@ -52,6 +53,7 @@ private:
     std::map<std::string, Lane> lanes_;
     std::map<std::string, std::uint64_t> foreign_;
     std::uint64_t runs_ = 0;
+    MessageNumbers job_numbers_;
     std::optional<std::string> write_error_;
 };
 

@@ -99,7 +99,7 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
         auto writer = LogWriter::open(log).value();
         const std::vector<std::uint8_t> unknown(100, 7);
         for (int i = 0; i < 10; ++i) { writer.write("LOCKSTEP_MILL_X_STEPS", i, unknown); }
-        writer.write_message("LOCKSTEP_MILL_Z_POSITION", 11, to_lcm(test::two_axes(), AxisState{}));
+        writer.write_message("LOCKSTEP_MILL_Z_POSITION", 11, to_lcm(test::two_axes(), AxisState{}, {}));
         ASSERT_TRUE(writer.flush());
     }
     const auto report = to_report(analyze_log(log).value());
@@ -108,6 +108,26 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
     EXPECT_EQ(report.unread(0).first_byte(), 0U);
     EXPECT_EQ(report.unread(0).bytes(), report.unread(0).last_byte() + 1);
     EXPECT_EQ(report.unread(0).reason(), "not a step_batch_t of this version on LOCKSTEP_MILL_X_STEPS");
+}
+
+/// Positions and events of jobs are numbered, so that their loss is known, whatever steps say.
+TEST_F(Moves, OfWhichEventsWereLostAreDoubtful) {
+    {
+        test::LogMaker maker(log);
+        maker.position(0, 1000, 0);
+        maker.job("begun", 1000, {});
+        maker.lose(3);
+        maker.position(0, 90'000, 0);
+        maker.job("ended", 90'000, {}, "done");
+    }
+    const auto report = to_report(analyze_log(log).value());
+    EXPECT_EQ(report.missing_job_events(), 3);
+    EXPECT_EQ(report.axes(0).missing_positions(), 3);
+    EXPECT_EQ(report.axes(0).missing_figures(), 0);
+    EXPECT_EQ(report.verdict(), "doubtful");
+    EXPECT_EQ(report.findings(0).text(), "3 events of jobs not in the log: what was asked may not all be known");
+    ASSERT_EQ(report.notes_size(), 1);
+    EXPECT_EQ(report.notes(0), "X: 3 messages of positions missing");
 }
 
 TEST(StepMerge, TellsTheStepsOfAllAxesInTheOrderOfTime) {
