@@ -65,6 +65,7 @@ void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_typ
     const auto& b = second.second;
     if (a.empty() || b.empty()) { return; }
     Amounts& amounts = skews_[{first.first, second.first}];
+    auto same = amounts.times.end();  // the amount found last: most are the same
     const LateStep* newest_a = nullptr;
     const LateStep* newest_b = nullptr;
     for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
@@ -73,7 +74,9 @@ void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_typ
         if (is_a) { newest_a = &a[i++]; }
         if (is_b) { newest_b = &b[j++]; }
         if (newest_a == nullptr || newest_b == nullptr) { continue; }
-        ++amounts.times[amount(newest_a->late - newest_b->late)];
+        const Ticks found = amount(newest_a->late - newest_b->late);
+        if (same == amounts.times.end() || same->first != found) { same = amounts.times.try_emplace(found).first; }
+        ++same->second;
         amounts.error = std::max(amounts.error, newest_a->error + newest_b->error);
     }
 }
