@@ -78,11 +78,20 @@ struct NetworkConfig {
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 };
 
+/// The flight recorder: what each process noted last, kept for the time after a fault.
+struct FlightConfig {
+    bool kept = true;
+    std::int64_t memory_kb = 1024;
+    int files = 20;  // of each process
+    bool operator==(const FlightConfig&) const = default;
+};
+
 /// The logs that the axes and the coordinator keep by themselves, each on the board it runs on.
 struct RecordConfig {
     bool own_logs = true;
     std::string directory;  // empty: where the host keeps such files
     std::int64_t size_limit_mb = 256;
+    FlightConfig flight;
     bool operator==(const RecordConfig&) const = default;
 };
 

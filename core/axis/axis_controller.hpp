@@ -66,7 +66,8 @@ struct AxisNotice {
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // a term, an epoch, a frame, a stage: as the kind says
+    std::uint64_t number = 0;               // a term, an epoch, a frame, a stage: as the kind says
+    std::optional<FailedCheck> check = {};  // Vetoed: why
 };
 
 struct AxisOutputs {
@@ -109,7 +110,8 @@ private:
     enum class Mode : std::uint8_t { Rest, Following, Local };
 
     void observe(const DeviceStatus& device, AxisOutputs& out);
-    void veto_when_left_behind(const DeviceStatus& device);
+    void veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out);
+    void veto_for_own_reasons(AxisOutputs& out);
     void record_progress(const DeviceStatus& device, AxisOutputs& out);
     void record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out);
     void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, AxisOutputs& out);

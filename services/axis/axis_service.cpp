@@ -9,6 +9,7 @@
 #include "services/documents/machine_file.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
+#include "services/flight/flight_recorder.hpp"
 #include "services/record/axis_recorder.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
@@ -18,6 +19,7 @@
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
+#include "services/runtime/user_signal.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -50,9 +52,12 @@ public:
           node_(std::move(node)),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
+          flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
+          flight_(setup.axis, setup.machine, *flight_log_),
           recorder_(setup.machine, setup.axis, setup.identity, *sink_),
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
+        node_.note_in(flight_);
         if (setup.machine.timing.time_source != TimeSource::Network) { return; }
         const ClockAsker asker(static_cast<std::uint32_t>(setup.axis), setup.identity, setup.machine.tick_ns);
         clock_client_ = std::make_unique<ClockClient>(bus_.participant, asker, [clock] { return clock.now(); });
@@ -65,6 +70,7 @@ public:
     bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
         hear();
         const Tick now = clock_.now();
+        if (user_signal_.take()) { flight_log_->incident(node_.now(), IncidentReason::Asked); }
         const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
@@ -139,6 +145,9 @@ private:
     AxisNode node_;
     AxisBus bus_;
     std::unique_ptr<RecordSink> sink_;
+    std::unique_ptr<FlightLog> flight_log_;
+    AxisFlight flight_;
+    UserSignal user_signal_;  // a person asks for what was noted
     AxisRecorder recorder_;
     HealthMeter meter_;
     std::vector<Frame> frames_;

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Example: lockstep-axis --machine machine.textproto --axis X\n"
+        "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

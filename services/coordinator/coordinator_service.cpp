@@ -1,12 +1,14 @@
 #include "services/coordinator/coordinator_service.hpp"
 
-#include <array>
 #include <iostream>
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
+#include "core/flight/coordinator_flight.hpp"
+#include "core/protocol/names.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/flight/flight_recorder.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
@@ -15,6 +17,7 @@
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
+#include "services/runtime/user_signal.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -22,12 +25,6 @@ namespace lockstep {
 namespace {
 
 using std::chrono::nanoseconds;
-
-std::string_view phase_name(std::uint64_t phase) {
-    constexpr std::array<std::string_view, 9> kNames{"Waiting", "Idle",     "Homing", "Running", "Holding",
-                                                     "Paused",  "Stopping", "Fault",  "Standby"};
-    return phase < kNames.size() ? kNames[phase] : "unknown";
-}
 
 class CoordinatorService {
 public:
@@ -38,6 +35,8 @@ public:
           coordinator_(machine, identity, config_hash(machine), to_stand_by),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
+          flight_log_(open_flight(machine, "", identity)),
+          flight_(machine, *flight_log_),
           recorder_(machine, identity, *sink_) {
         if (machine.timing.time_source != TimeSource::Network) { return; }
         clock_server_ = std::make_unique<ClockServer>(bus_.participant, [clock = clock_] { return clock.now(); });
@@ -47,7 +46,10 @@ public:
     bool loop() {
         hear();
         const Tick now = clock_.now();
-        const CoordinatorOutputs out = coordinator_.step({now, states_, others_, commands_});
+        if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
+        const CoordinatorInputs in{now, states_, others_, commands_};
+        const CoordinatorOutputs out = coordinator_.step(in);
+        flight_.take(in, out);
         for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
         if (out.state) { (void)bus_.machine.write(*out.state); }
         for (const AxisCommand& command : out.axis_commands) { (void)bus_.axis_commands.write(command); }
@@ -83,7 +85,8 @@ private:
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
-            case Kind::Phase: return log_info("machine is " + std::string(phase_name(notice.number)));
+            case Kind::Phase:
+                return log_info("machine is " + std::string(name_of(static_cast<MachinePhase>(notice.number))));
             case Kind::AxisSeen: return log_info("axis " + axis_name(notice.number) + " is heard");
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -135,6 +138,9 @@ private:
     CoordinatorBus bus_;
     std::unique_ptr<ClockServer> clock_server_;  // where axes ask for the time
     std::unique_ptr<RecordSink> sink_;
+    std::unique_ptr<FlightLog> flight_log_;
+    CoordinatorFlight flight_;
+    UserSignal user_signal_;  // a person asks for what was noted
     JobRecorder recorder_;
     ProgramInbox inbox_;
     std::vector<AxisState> states_;

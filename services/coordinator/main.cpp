@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"
         "  lockstep-coordinator --machine machine.textproto --standby\n"
+        "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

@@ -62,12 +62,22 @@ NetworkConfig read_network(const proto::Network& message) {
     };
 }
 
+FlightConfig read_flight(const proto::Flight& message) {
+    const FlightConfig preset;
+    return {
+        .kept = message.has_kept() ? message.kept() : preset.kept,
+        .memory_kb = message.has_memory_kb() ? message.memory_kb() : preset.memory_kb,
+        .files = message.has_files() ? message.files() : preset.files,
+    };
+}
+
 RecordConfig read_record(const proto::Record& message) {
     const RecordConfig preset;
     return {
         .own_logs = message.has_own_logs() ? message.own_logs() : preset.own_logs,
         .directory = message.directory(),
         .size_limit_mb = message.has_size_limit_mb() ? message.size_limit_mb() : preset.size_limit_mb,
+        .flight = read_flight(message.flight()),
     };
 }
 

@@ -85,6 +85,8 @@ void check_record(const RecordConfig& record, ProblemList& problems) {
                      "record.directory is \"" + record.directory +
                          "\"; an absolute path, such as /var/log/lockstep, or leave it out");
     problems.require_range("record.size_limit_mb", static_cast<double>(record.size_limit_mb), 1, 1e6);
+    problems.require_range("record.flight.memory_kb", static_cast<double>(record.flight.memory_kb), 64, 65536);
+    problems.require_range("record.flight.files", record.flight.files, 1, 1000);
 }
 
 void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {

@@ -23,10 +23,17 @@ void write_network(const NetworkConfig& network, proto::Network& message) {
     message.set_lcm_url(network.lcm_url);
 }
 
+void write_flight(const FlightConfig& flight, proto::Flight& message) {
+    message.set_kept(flight.kept);
+    message.set_memory_kb(flight.memory_kb);
+    message.set_files(flight.files);
+}
+
 void write_record(const RecordConfig& record, proto::Record& message) {
     message.set_own_logs(record.own_logs);
     if (!record.directory.empty()) { message.set_directory(record.directory); }
     message.set_size_limit_mb(record.size_limit_mb);
+    if (record.flight != FlightConfig{}) { write_flight(record.flight, *message.mutable_flight()); }
 }
 
 void write_real_time(const RealTimeConfig& real_time, proto::RealTime& message) {

@@ -28,6 +28,18 @@ fs::path root(const fs::path& of_root, const char* users, const fs::path& below)
 
 fs::path state_root() { return root("/run/lockstep", "XDG_RUNTIME_DIR", "lockstep"); }
 
+std::vector<fs::path> memory_directories() {
+    if (geteuid() != 0) { return {memory_directory()}; }
+    std::vector<fs::path> all;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/dev/shm", error)) {
+        if (entry.path().filename().string().starts_with("lockstep-")) { all.push_back(entry.path()); }
+    }
+    return all;
+}
+
+fs::path memory_directory() { return "/dev/shm/lockstep-" + std::to_string(geteuid()); }
+
 fs::path record_directory(const std::string& machine) {
     return root("/var/lib/lockstep", "HOME", ".local/state/lockstep") / machine / "record";
 }

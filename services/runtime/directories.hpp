@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace lockstep {
 
@@ -13,5 +14,11 @@ std::filesystem::path state_root();
 /// For the logs that they keep by themselves: ROOT/MACHINE/record. ROOT is $LOCKSTEP_STATE where that is set; else
 /// /var/lib/lockstep for root; else $HOME/.local/state/lockstep; else /tmp/lockstep-UID.
 std::filesystem::path record_directory(const std::string& machine);
+
+/// For memory that is to outlive its process, but not the host: never on a disk. /dev/shm/lockstep-UID.
+std::filesystem::path memory_directory();
+
+/// Those of all users whom this one may read: root all there are, others their own.
+std::vector<std::filesystem::path> memory_directories();
 
 }  // namespace lockstep

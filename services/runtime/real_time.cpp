@@ -78,4 +78,9 @@ std::vector<std::string> ask_for_real_time(const RealTimeConfig& wanted) {
     return lines;
 }
 
+void leave_real_time() {
+    const sched_param normal{.sched_priority = 0};
+    (void)sched_setscheduler(0, SCHED_OTHER, &normal);
+}
+
 }  // namespace lockstep

@@ -12,4 +12,7 @@ namespace lockstep {
 /// Each line says what was granted, or what was not, what that costs, and the remedy. Where nothing is asked: none.
 std::vector<std::string> ask_for_real_time(const RealTimeConfig& wanted);
 
+/// This thread need not be in time: it goes back to the normal scheduler.
+void leave_real_time();
+
 }  // namespace lockstep
