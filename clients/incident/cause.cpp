@@ -15,7 +15,7 @@ namespace {
 /// What shows first that something is wrong.
 bool is_symptom(const FlightEvent& event) {
     switch (event.kind) {
-        case FlightKind::Vetoed:
+        case FlightKind::Vetoed: return static_cast<VetoReason>(event.detail) != VetoReason::Own;
         case FlightKind::Fault:
         case FlightKind::PeerFault:
         case FlightKind::FrameRefused:
@@ -40,7 +40,8 @@ std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& sympt
     const FlightPeer self = incident.processes[symptom.process].who;
     if (event.kind != FlightKind::Vetoed) { return {event.about == FlightPeer{} ? self : event.about}; }
     switch (static_cast<VetoReason>(event.detail)) {
-        case VetoReason::TooLate: return {self};
+        case VetoReason::TooLate:
+        case VetoReason::Own: return {self};
         case VetoReason::NotHeld: return {kFlightCoordinator, self};
         case VetoReason::NoEvidence: break;
     }

@@ -22,6 +22,7 @@ std::string veto_words(const Incident& incident, const FlightEvent& event) {
     switch (static_cast<VetoReason>(event.detail)) {
         case VetoReason::TooLate: return "it looked too late itself";
         case VetoReason::NotHeld: return "it has not got it";
+        case VetoReason::Own: return "it is at fault or stopped";
         case VetoReason::NoEvidence:
             return "nothing fresh from " + axes_named(incident.machine, event.count) + " says that it is held there";
     }

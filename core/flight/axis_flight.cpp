@@ -101,13 +101,11 @@ void AxisFlight::take_order(Tick now, const DeviceOrder& order) {
 void AxisFlight::take_tracks(const AxisOutputs& out) {
     for (const ExecutedTrack& track : out.tracks) {
         if (!track.tail || track.epoch == 0) { continue; }
-        Ticks lasts;
-        for (const Piece& piece : track.pieces) { lasts += piece.ticks; }
         log_.add({.tick = track.start,
                   .kind = FlightKind::TailRun,
                   .epoch = track.epoch,
                   .frame = track.frame,
-                  .lasts = lasts});
+                  .lasts = total_ticks(track.pieces)});
     }
 }
 
@@ -123,13 +121,15 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     if (is_of_epoch || is_of_frame) { event.epoch = epoch_; }
     if (is_of_frame) { event.frame = notice.number; }
     if (!is_of_epoch && !is_of_frame) { event.count = static_cast<std::int64_t>(notice.number); }
+    const bool vetoed = notice.kind == Kind::Vetoed;
+    if (vetoed) { event.detail = static_cast<std::uint8_t>(VetoReason::Own); }
     if (notice.check) {
         event.detail = static_cast<std::uint8_t>(reason_of(*notice.check));
         event.count = notice.check->lacking;
     }
     log_.add(event);
     if (notice.kind == Kind::Fault) { log_.incident(now, IncidentReason::Fault); }
-    if (notice.kind == Kind::Vetoed) { log_.incident(now, IncidentReason::Veto); }
+    if (vetoed && notice.check) { log_.incident(now, IncidentReason::Veto); }
     if (notice.kind == Kind::EpochEnded) { end_epoch(now); }
     if (notice.kind == Kind::OwnerAdopted && std::exchange(has_owner_, true)) {
         log_.incident(now, IncidentReason::Takeover);
