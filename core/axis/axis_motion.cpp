@@ -73,15 +73,18 @@ void AxisController::record(const HeldFrame& frame, bool tail, std::optional<std
     out.tracks.push_back(std::move(r));
 }
 
-/// The three moving states follow the speed of the pulses themselves. Out of rest it rises, however slow it is.
+/// The three moving states follow the speed of the pulses themselves. Out of rest it rises, however slow it is; an axis
+/// that others move without stands by.
 void AxisController::follow_speed(const DeviceStatus& device) {
-    constexpr double kSteady = 0x1p-40;  // steps per tick: what rounding makes of a constant speed
+    constexpr double kSteady = 0x1p-40;  // steps per tick: what rounding makes of a constant speed, 0 too
     const double speed = std::abs(device.velocity.steps_per_tick());
     const double change = speed - last_speed_;
-    const bool rested = last_speed_ == 0;
+    const bool rested = last_speed_ <= kSteady;
     last_speed_ = speed;
-    if (phase_ == AxisPhase::Initialize || device.finished || speed == 0) { return; }
-    if (!rested && std::abs(change) <= kSteady) {
+    if (phase_ == AxisPhase::Initialize || device.finished) { return; }
+    if (speed <= kSteady) {
+        if (mode_ == Mode::Following) { happen(AxisEvent::MotionEnds); }
+    } else if (!rested && std::abs(change) <= kSteady) {
         happen(AxisEvent::SpeedSteady);
     } else {
         happen(change > 0 ? AxisEvent::SpeedRises : AxisEvent::SpeedFalls);

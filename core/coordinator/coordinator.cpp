@@ -47,6 +47,7 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     for (std::size_t i = 0; i < orders_.size(); ++i) {
         if (orders_[i] && !order_done(i)) { out.axis_commands.push_back(*orders_[i]); }
     }
+    if (moving_ && job_) { note_progress(); }
     out.state = state();
     return out;
 }
@@ -170,17 +171,32 @@ MachineState Coordinator::state() const {
     return s;
 }
 
-/// The part of the job's time that is behind it, by what is planned of it now.
-void Coordinator::say_progress(MachineState& state) const {
-    const Path& path = runner_.path();
-    const Subticks into = std::clamp(subticks(now_ - runner_.start()), Subticks{}, path.duration());
-    Subticks left = path.duration() - into;
+Subticks Coordinator::into_path() const {
+    return std::clamp(subticks(now_ - runner_.start()), Subticks{}, runner_.path().duration());
+}
+
+/// By what is planned of it now.
+Subticks Coordinator::left_of_job() const {
+    Subticks left = runner_.path().duration() - into_path();
     for (std::size_t i = job_->leg + 1; i < job_->legs.size(); ++i) { left = left + job_->legs[i].duration; }
-    const auto done = static_cast<double>((job_->run + into).value);
-    const auto open = static_cast<double>(left.value);
-    state.line = path.moves[path.move_at(into)].line;
-    state.remaining_s = open / kSubticksPerTick / machine_.ticks_per_second();
-    state.progress = std::clamp(done / std::max(1.0, done + open), 0.0, 1.0);
+    return left;
+}
+
+/// Of what was left a slot ago, the share that has been done since: as long as the plan stays, that adds up to the
+/// share of its time; where what is left is planned anew, it goes on from there.
+void Coordinator::note_progress() {
+    const Subticks done = job_->run + into_path();
+    if (done <= job_->counted) { return; }
+    const auto since = static_cast<double>((done - job_->counted).value);
+    const auto left = static_cast<double>(left_of_job().value);
+    job_->progress = std::min(1.0, job_->progress + (1 - job_->progress) * since / (since + left));
+    job_->counted = done;
+}
+
+void Coordinator::say_progress(MachineState& state) const {
+    state.line = runner_.path().moves[runner_.path().move_at(into_path())].line;
+    state.remaining_s = static_cast<double>(left_of_job().value) / kSubticksPerTick / machine_.ticks_per_second();
+    state.progress = job_->progress;
 }
 
 }  // namespace lockstep

@@ -105,6 +105,8 @@ private:
         std::vector<Leg> legs;
         std::size_t leg = 0;
         Subticks run;            // epochs done
+        double progress = 0;     // 0 ... 1: never falls, though what is left is planned anew
+        Subticks counted;        // of its run, in `progress`
         std::uint32_t axes = 0;  // homing: which
         int sequence = 0;        // homing: the group in progress
         PathPlace resume;        // held or interrupted: where it goes on
@@ -155,6 +157,9 @@ private:
     bool in_motion() const { return moving_ || in_own_move(); }
     double planned_seconds(std::size_t axis, std::int64_t steps, Ticks asked) const;
     void say_progress_of_own(MachineState& state) const;
+    Subticks into_path() const;
+    Subticks left_of_job() const;
+    void note_progress();
     void say_progress(MachineState& state) const;
     void time_legs();
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,

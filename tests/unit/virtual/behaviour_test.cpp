@@ -46,6 +46,18 @@ TEST_F(Rig, OneThingAtATime) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{9000, 9000}));
 }
 
+TEST_F(Rig, AnAxisThatOthersMoveWithoutStandsBy) {
+    home();
+    ASSERT_EQ(run(program_of({{25, 5}, {25, 85}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.3);
+    EXPECT_EQ(vm.axis_states()[0]->phase, AxisPhase::Cruise);
+    EXPECT_EQ(vm.axis_states()[1]->phase, AxisPhase::Standby) << "not moved yet";
+    wait(1);
+    EXPECT_EQ(vm.axis_states()[0]->phase, AxisPhase::Standby) << "its moves are done";
+    EXPECT_EQ(vm.axis_states()[1]->phase, AxisPhase::Cruise);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
+}
+
 TEST_F(Rig, NothingToHoldResumeOrStopIsSaid) {
     home();
     EXPECT_EQ(why(ask(CommandKind::Hold)), FaultCode::NothingToDo);

@@ -42,6 +42,25 @@ TEST_F(Overridden, ALowerFeedIsReachedSoonAndTheMoveEndsInTheSamePlace) {
     EXPECT_EQ(fault(), FaultCode::None);
 }
 
+TEST_F(Overridden, ProgressNeverFallsWhileWhatRemainsIsEstimatedAnew) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 5}, {85, 85}}, 40)).status, ReplyStatus::Accepted);
+    wait(1);
+    const double before = vm.state()->progress;
+    const double remaining_s = vm.state()->remaining_s;
+    EXPECT_NEAR(before, 0.25, 0.02) << "of 160 mm at 40 mm/s";
+    ASSERT_EQ(turn({.feed_percent = 25}).status, ReplyStatus::Accepted);
+    wait(0.1);
+    EXPECT_GT(vm.state()->remaining_s, 3 * remaining_s);
+    double latest = before;
+    while (vm.state()->phase == MachinePhase::Running && !HasFailure()) {
+        EXPECT_GE(vm.state()->progress, latest);
+        latest = vm.state()->progress;
+        wait(0.05);
+    }
+    EXPECT_GT(latest, 0.95);
+}
+
 TEST_F(Overridden, AHigherFeedIsReachedSoonButNeverBeyondAnAxissLimits) {
     home();
     ASSERT_EQ(run(program_of({{95, 5}}, 30)).status, ReplyStatus::Accepted);
