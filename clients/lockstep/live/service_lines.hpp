@@ -15,7 +15,8 @@ enum class FpgaKind { Sim, Shared };  // in the axis's process; in a process of 
 /// What of it there is a choice about.
 struct Layout {
     FpgaKind fpga = FpgaKind::Sim;
-    bool standby = false;  // a second coordinator stands by
+    bool standby = false;    // a second coordinator stands by
+    bool continues = false;  // and goes on with a program in motion when it takes over
 };
 
 struct ServiceLine {
