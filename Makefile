@@ -1,8 +1,8 @@
-# make demo | make test | make build: each does what it needs before, and can be run again.
+# make demo | make test | make build | make package: each does what it needs before, and can be run again.
 BUILD ?= build
 JOBS  ?= $(shell nproc)
 
-.PHONY: build test demo bench clean
+.PHONY: build test demo bench package clean
 
 build:
 	@deploy/install-dependencies
@@ -16,6 +16,10 @@ test: build
 
 demo: build
 	@deploy/demo $(BUILD)
+
+# lockstep_*.deb and lockstep-dev_*.deb, in the build directory.
+package: build
+	@cd $(BUILD) && cpack --config CPackConfig.cmake
 
 bench: build
 	@$(BUILD)/bin/lockstep-bench

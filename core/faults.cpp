@@ -20,6 +20,12 @@ const FaultText* find_fault(FaultCode code) {
     return found == kFaults.end() ? nullptr : found;
 }
 
+const FaultText* find_fault(std::string_view name) {
+    const auto* found =
+        std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultText& f) { return f.name == name; });
+    return found == kFaults.end() ? nullptr : found;
+}
+
 std::string_view name_of(FaultCode code) {
     if (code == FaultCode::None) { return "none"; }
     const FaultText* text = find_fault(code);

@@ -86,6 +86,9 @@ struct FaultText {
 /// Null for None and for numbers that are not in the table.
 const FaultText* find_fault(FaultCode code);
 
+/// By its stable name; null where there is none such.
+const FaultText* find_fault(std::string_view name);
+
 /// "not-homed" and the like; "none" for None, "unknown" outside the table.
 std::string_view name_of(FaultCode code);
 

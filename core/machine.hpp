@@ -40,6 +40,8 @@ struct PlantConfig {
 
 struct AxisConfig {
     std::string name;
+    std::string host;            // where it runs; empty: wherever it is started
+    std::string device = "sim";  // simulated in its process; "shm:NAME", of lockstep-fpga; "uio:PATH", a mapped one
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
     double max_velocity_mm_s = 0;
@@ -76,12 +78,28 @@ struct NetworkConfig {
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 };
 
+/// The flight recorder: what each process noted last, kept for the time after a fault.
+struct FlightConfig {
+    bool kept = true;
+    std::int64_t memory_kb = 1024;
+    int files = 20;  // of each process
+    bool operator==(const FlightConfig&) const = default;
+};
+
 /// The logs that the axes and the coordinator keep by themselves, each on the board it runs on.
 struct RecordConfig {
     bool own_logs = true;
     std::string directory;  // empty: where the host keeps such files
     std::int64_t size_limit_mb = 256;
+    FlightConfig flight;
     bool operator==(const RecordConfig&) const = default;
+};
+
+/// What the machine's processes ask of the scheduler of their host.
+struct RealTimeConfig {
+    int priority = 0;       // of SCHED_FIFO, with memory locked and touched beforehand; 0: nothing is asked
+    std::vector<int> cpus;  // the processors that they may run on; empty: all
+    bool operator==(const RealTimeConfig&) const = default;
 };
 
 struct MachineConfig {
@@ -92,6 +110,8 @@ struct MachineConfig {
     RecordConfig record;
     std::string position_directory;  // where axes keep their positions; empty: where the host keeps such files
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
+    std::string coordinator_host;                  // where it runs; empty: wherever it is started
+    RealTimeConfig real_time;
     std::vector<AxisConfig> axes;
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

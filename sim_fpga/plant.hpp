@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/machine.hpp"
 #include "core/step/segment.hpp"
@@ -25,6 +26,9 @@ struct PlantInputs {
     bool home = false;
     constexpr bool operator==(const PlantInputs&) const = default;
 };
+
+/// The switches by what they read.
+using PlantContact = bool PlantInputs::*;
 
 class Plant {
 public:
@@ -40,14 +44,21 @@ public:
     }
     /// A hand on the slide: moves it without pulses.
     void push(std::int64_t steps) { slide_ += steps; }
+    /// A switch that is stuck reads so wherever the slide is; nothing: as it should again.
+    void stick(PlantContact contact, std::optional<bool> reads) {
+        stuck_closed_.*contact = reads == true;
+        stuck_open_.*contact = reads == false;
+    }
 
     /// Where the slide truly is, in whole steps since power-up.
     std::int64_t encoder() const { return slide_; }
     double position_mm() const;
     PlantInputs inputs() const {
-        return {.limit_min = slide_ <= limit_min_at_,
-                .limit_max = slide_ >= limit_max_at_,
-                .home = home_toward_min_ ? slide_ <= home_at_ : slide_ >= home_at_};
+        const PlantInputs closed{.limit_min = slide_ <= limit_min_at_,
+                                 .limit_max = slide_ >= limit_max_at_,
+                                 .home = home_toward_min_ ? slide_ <= home_at_ : slide_ >= home_at_};
+        const auto read = [&](PlantContact one) { return (closed.*one || stuck_closed_.*one) && !(stuck_open_.*one); };
+        return {read(&PlantInputs::limit_min), read(&PlantInputs::limit_max), read(&PlantInputs::home)};
     }
 
 private:
@@ -61,6 +72,8 @@ private:
     std::int64_t limit_max_at_;  // closed at and above
     std::int64_t home_at_;       // closed at and beyond
     bool home_toward_min_;
+    PlantInputs stuck_closed_;
+    PlantInputs stuck_open_;
 
     double max_acceleration_;  // A, steps per tick^2
     double max_gap_;           // max_jump + sqrt(2 A), steps per tick

@@ -84,6 +84,19 @@ std::expected<RegisterWindow, std::string> RegisterWindow::open_shared(const std
     return file < 0 ? system_error(what, "open it (is its device running?)") : map(file, what, {});
 }
 
+std::expected<RegisterWindow, std::string> RegisterWindow::create_file(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0660);
+    if (file < 0) { return system_error(path.string(), "make it"); }
+    // Emptied, so that nothing of an earlier device is left; locked before, so that nobody's is taken away.
+    if (!lock(file) || ::ftruncate(file, 0) != 0 ||
+        ::ftruncate(file, static_cast<off_t>(registers::kWindowBytes)) != 0) {
+        const auto error = system_error(path.string(), "lock and size it (is another device using it?)");
+        ::close(file);
+        return error;
+    }
+    return map(file, path.string(), {});
+}
+
 std::expected<RegisterWindow, std::string> RegisterWindow::open_file(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDWR | O_SYNC | O_CLOEXEC);
     return file < 0 ? system_error(path.string(), "open it") : map(file, path.string(), {});

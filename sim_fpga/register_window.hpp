@@ -28,6 +28,9 @@ public:
     static std::expected<RegisterWindow, std::string> create_shared(const std::string& name);
     /// Attaches to what create_shared made, here or in another process.
     static std::expected<RegisterWindow, std::string> open_shared(const std::string& name);
+    /// The same in a file of this path, which stays when this process ends. The error also where a living process has
+    /// it.
+    static std::expected<RegisterWindow, std::string> create_file(const std::filesystem::path& path);
     /// Attaches to a file or device that can be mapped read-write from its start. Error also where a file is too short.
     static std::expected<RegisterWindow, std::string> open_file(const std::filesystem::path& path);
 

@@ -15,6 +15,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_up(app, action);
     add_status(app, action);
     add_watch(app, action);
+    add_flight(app, action);
     add_spy(app, action);
     add_home(app, action);
     add_move(app, action);

@@ -25,6 +25,7 @@ void add_up(CLI::App& app, Action& action);
 void add_down(CLI::App& app, Action& action);
 void add_status(CLI::App& app, Action& action);
 void add_watch(CLI::App& app, Action& action);
+void add_flight(CLI::App& app, Action& action);
 void add_spy(CLI::App& app, Action& action);
 void add_home(CLI::App& app, Action& action);
 void add_move(CLI::App& app, Action& action);

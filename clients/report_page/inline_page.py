@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes one page of an HTML file and what it refers to, as a C++ string.
 
-Usage: inline_page.py PAGE.html FOLDER... OUT.cpp    Scripts and styles are looked for beside the page and in FOLDER.
+Usage: inline_page.py NAME PAGE.html FOLDER... OUT.cpp    NAME is the string's. Scripts and styles are looked for beside the page and in FOLDER.
 """
 import pathlib
 import re
@@ -16,7 +16,8 @@ def read(name, folders):
 
 
 def main():
-    page, *more, out = map(pathlib.Path, sys.argv[1:])
+    name = sys.argv[1]
+    page, *more, out = map(pathlib.Path, sys.argv[2:])
     folders = [page.parent, *more]
     text = page.read_text()
     text = re.sub(r'<link rel="stylesheet" href="([^"]+)">',
@@ -24,7 +25,7 @@ def main():
     text = re.sub(r'<script src="([^"]+)"></script>',
                   lambda found: f"<script>\n{read(found[1], folders)}</script>", text)
     out.write_text('#include "clients/report_page/page_template.hpp"\n\nnamespace lockstep::analysis {\n\n'
-                   f'const std::string_view kPageTemplate = R"page({text})page";\n\n}}\n')
+                   f'const std::string_view {name} = R"page({text})page";\n\n}}\n')
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// The report page before its data are put in: made of the files in web/ when the command is built.
+// The pages before their data are put in: made of the files in web/ when the command is built.
 #pragma once
 
 #include <string_view>
@@ -6,6 +6,7 @@
 namespace lockstep::analysis {
 
 /// Places for data are named between at signs: @TITLE@ and so on.
-extern const std::string_view kPageTemplate;
+extern const std::string_view kPageTemplate;      // of a log
+extern const std::string_view kIncidentTemplate;  // of an incident
 
 }  // namespace lockstep::analysis

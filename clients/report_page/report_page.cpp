@@ -1,13 +1,13 @@
 #include "clients/report_page/report_page.hpp"
 
 #include <fstream>
-#include <map>
 
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/verdict.hpp"
 #include "clients/analysis/words.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/report_page/page_charts.hpp"
+#include "clients/report_page/page_parts.hpp"
 #include "clients/report_page/page_template.hpp"
 #include "services/documents/report_json.hpp"
 #include "services/documents/text_file.hpp"
@@ -18,14 +18,6 @@ namespace {
 constexpr std::string_view kMark = R"(<meta name="generator" content="lockstep analyze">)";
 constexpr std::size_t kMarkWithin = 1024;  // bytes of the page
 
-/// JSON that may stand within a page: no tag begins or ends in it.
-std::string within_page(std::string json) {
-    std::string out;
-    out.reserve(json.size());
-    for (const char c : json) { c == '<' ? void(out += "\\u003c") : out.push_back(c); }
-    return out;
-}
-
 std::string findings_list(const std::vector<Finding>& found) {
     std::string out;
     for (const Finding& finding : found) {
@@ -33,24 +25,6 @@ std::string findings_list(const std::vector<Finding>& found) {
             "<li class=\"" + std::string(name_of(finding.grade)) + "\">" + drawing::escape_xml(finding.text) + "</li>";
     }
     return out;
-}
-
-/// The template with each @NAME@ replaced by its text, once over: what is put in is not looked at again.
-std::string filled(std::string_view page, const std::map<std::string_view, std::string>& texts) {
-    std::string out;
-    for (;;) {
-        const std::size_t from = page.find('@');
-        const std::size_t to = from == page.npos ? page.npos : page.find('@', from + 1);
-        const auto text = to == page.npos ? texts.end() : texts.find(page.substr(from + 1, to - from - 1));
-        if (to == page.npos) { return out.append(page); }
-        if (text == texts.end()) {
-            out.append(page.substr(0, to));
-            page.remove_prefix(to);
-            continue;
-        }
-        out.append(page.substr(0, from)).append(text->second);
-        page.remove_prefix(to + 1);
-    }
 }
 
 }  // namespace
@@ -73,6 +47,11 @@ bool may_replace(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
     return beginning.find(kMark) != std::string::npos;
+}
+
+std::string in_the_way(const std::filesystem::path& path) {
+    return path.string() +
+           ": is there already and is no report, so it is left as it is; name another file with --html FILE";
 }
 
 std::expected<void, std::string> write_html(const Analysis& analysis, const std::filesystem::path& path) {

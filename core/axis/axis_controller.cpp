@@ -25,7 +25,7 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     observe(inputs.device, out);
     if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
         homed_ = false;
-        follower_.veto_for_own_reasons(slot);
+        veto_for_own_reasons(out);
         fail(FaultCode::DeviceFault, out);
     }
     hear(inputs, out);
@@ -35,7 +35,8 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
         const auto veto_before = follower_.veto();
         for (DeviceOrder& order : follower_.decide(slot)) { out.orders.push_back(std::move(order)); }
         if (follower_.veto() != veto_before) {
-            out.notices.push_back({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
+            out.notices.push_back(
+                {AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
         }
     }
     out.rests = position_to_keep();
@@ -106,7 +107,15 @@ bool AxisController::is_news(const Command& request) {
 void AxisController::stop_now(AxisOutputs& out) {
     if (mode_ == Mode::Rest) { return; }
     out.orders.emplace_back(device::StopNow{});
+    veto_for_own_reasons(out);
+}
+
+void AxisController::veto_for_own_reasons(AxisOutputs& out) {
+    const auto before = follower_.veto();
     follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
+    if (follower_.veto() != before) {
+        out.notices.push_back({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
+    }
 }
 
 /// One owner at a time, and never a lower term than before: another is followed only when the last one has been silent

@@ -54,8 +54,6 @@ struct ExecutedTrack {
 /// What happened, for the log.
 struct AxisNotice {
     enum class Kind : std::uint8_t {
-        PositionProved,    // the axis is homed by the position that was kept
-        PositionUnproved,  // it is not: why
         OwnerAdopted,
         EpochBegun,
         EpochEnded,
@@ -65,11 +63,14 @@ struct AxisNotice {
         Homed,
         Fault,
         Reset,
-        CommandRefused
+        CommandRefused,
+        PositionProved,   // the axis is homed by the position that was kept
+        PositionUnproved  // it is not: why
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // a term, an epoch, a frame, a stage: as the kind says
+    std::uint64_t number = 0;               // a term, an epoch, a frame, a stage: as the kind says
+    std::optional<FailedCheck> check = {};  // Vetoed: why
 };
 
 struct AxisOutputs {
@@ -116,7 +117,8 @@ private:
     void claim_position(const AxisInputs& inputs, AxisOutputs& out);
     std::optional<KeptPosition> position_to_keep();
     void observe(const DeviceStatus& device, AxisOutputs& out);
-    void veto_when_left_behind(const DeviceStatus& device);
+    void veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out);
+    void veto_for_own_reasons(AxisOutputs& out);
     void record_progress(const DeviceStatus& device, AxisOutputs& out);
     void record_end(const HeldFrame& frame, const DeviceStatus& device, AxisOutputs& out);
     void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, AxisOutputs& out);

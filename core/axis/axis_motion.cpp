@@ -11,7 +11,7 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     ring_room_ = device.free_segments;
     if (mode_ == Mode::Rest) { run_ = std::max({run_, device.run, device.run_asked}); }  // for another process, perhaps
     if (mode_ != Mode::Rest && device.run == run_) {
-        veto_when_left_behind(device);
+        veto_when_left_behind(device, out);
         record_progress(device, out);
         follow_speed(device);
         if (device.finished) { end_run(device, out); }
@@ -25,9 +25,9 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
 
 /// The device has fallen to a tail, perhaps while this process stalled with a frame decided on: others may be running
 /// it. What this axis holds from here on must be no evidence to them.
-void AxisController::veto_when_left_behind(const DeviceStatus& device) {
+void AxisController::veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out) {
     const bool fell = device.in_tail || (device.finished && !follower_.is_complete(device.frame));
-    if (mode_ == Mode::Following && fell) { follower_.veto_for_own_reasons(rules::slot_of(now_, slot_)); }
+    if (mode_ == Mode::Following && fell) { veto_for_own_reasons(out); }
 }
 
 /// Records each body when the next has begun, and the last with its tail when the run has ended.
@@ -73,14 +73,15 @@ void AxisController::record(const HeldFrame& frame, bool tail, std::optional<std
     out.tracks.push_back(std::move(r));
 }
 
-/// The three moving states follow the speed of the pulses themselves.
+/// The three moving states follow the speed of the pulses themselves. Out of rest it rises, however slow it is.
 void AxisController::follow_speed(const DeviceStatus& device) {
     constexpr double kSteady = 0x1p-40;  // steps per tick: what rounding makes of a constant speed
     const double speed = std::abs(device.velocity.steps_per_tick());
     const double change = speed - last_speed_;
+    const bool rested = last_speed_ == 0;
     last_speed_ = speed;
     if (phase_ == AxisPhase::Initialize || device.finished || speed == 0) { return; }
-    if (std::abs(change) <= kSteady) {
+    if (!rested && std::abs(change) <= kSteady) {
         happen(AxisEvent::SpeedSteady);
     } else {
         happen(change > 0 ? AxisEvent::SpeedRises : AxisEvent::SpeedFalls);
@@ -103,7 +104,7 @@ void AxisController::end_run(const DeviceStatus& device, AxisOutputs& out) {
         end_local(device, out);
     } else if (device.stopped_by_limit) {
         homed_ = false;
-        follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
+        veto_for_own_reasons(out);
         happen(AxisEvent::LimitStops);
         fail(FaultCode::LimitHit, out);
     }

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/protocol/messages.hpp"
+#include "core/protocol/names.hpp"
 
 namespace lockstep {
 
@@ -49,11 +49,9 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::Fails, AxisPhase::Fault},
     AxisTransition{AxisPhase::Initialize, AxisEvent::PositionKept, AxisPhase::Standby},
-    // Standby: homed, at rest.
+    // Standby: homed, at rest. Out of rest a speed can only rise.
     AxisTransition{AxisPhase::Standby, AxisEvent::HomingBegins, AxisPhase::Initialize},
     AxisTransition{AxisPhase::Standby, AxisEvent::SpeedRises, AxisPhase::Accelerate},
-    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedSteady, AxisPhase::Cruise},
-    AxisTransition{AxisPhase::Standby, AxisEvent::SpeedFalls, AxisPhase::Decelerate},
     AxisTransition{AxisPhase::Standby, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Standby, AxisEvent::LimitStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Standby, AxisEvent::Fails, AxisPhase::Fault},
@@ -98,12 +96,6 @@ constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent e
 constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
     const auto row = find_transition(from, event);
     return row ? std::optional(kAxisTransitions[*row].to) : std::nullopt;
-}
-
-constexpr std::string_view name_of(AxisPhase phase) {
-    constexpr std::array<std::string_view, 7> kNames{"Initialize", "Standby", "Accelerate", "Cruise",
-                                                     "Decelerate", "Stop",    "Fault"};
-    return kNames[static_cast<std::size_t>(phase)];
 }
 
 constexpr std::string_view name_of(AxisEvent event) {

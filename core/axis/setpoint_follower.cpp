@@ -66,11 +66,18 @@ std::optional<Slot> SetpointFollower::start_slot(FrameNumber k) const {
     return frame == nullptr ? std::nullopt : std::optional(rules::slot_of(frame->start, slot_));
 }
 
-bool SetpointFollower::every_other_holds(FrameNumber k, Slot start) const {
+/// The other axes of which there is no evidence that they hold the frame, as bits.
+std::uint32_t SetpointFollower::lacking(FrameNumber k, Slot start) const {
+    std::uint32_t lacking = 0;
     for (std::size_t i = 0; i < axes_; ++i) {
-        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { return false; }
+        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { lacking |= std::uint32_t{1} << i; }
     }
-    return true;
+    return lacking;
+}
+
+void SetpointFollower::refuse(FrameNumber veto, const FailedCheck& check) {
+    if (!veto_ || veto < *veto_) { failed_check_ = check; }
+    add_veto(veto);
 }
 
 std::vector<DeviceOrder> SetpointFollower::decide(Slot now) {
@@ -82,13 +89,14 @@ std::vector<DeviceOrder> SetpointFollower::decide(Slot now) {
         const rules::CheckTime time = rules::check_time(now, *start, timing_);
         if (time == rules::CheckTime::Early) { break; }
         checked_ = k;
-        if (time == rules::CheckTime::TooLate) {
-            add_veto(rules::veto_when_too_late(k));
+        const FailedCheck check{time == rules::CheckTime::TooLate, held_ >= k, lacking(k, *start)};
+        if (check.too_late) {
+            refuse(rules::veto_when_too_late(k), check);
             unarmed = rules::merge(unarmed, k);
-        } else if (rules::may_arm(k, {held_, veto_, every_other_holds(k, *start)})) {
+        } else if (rules::may_arm(k, {held_, veto_, check.lacking == 0})) {
             orders.emplace_back(device::Arm{k});
         } else {
-            add_veto(rules::veto_when_failed(k));
+            refuse(rules::veto_when_failed(k), check);
         }
         if (k > held_) { break; }
     }

@@ -28,6 +28,13 @@ struct HeldFrame {
     }
 };
 
+/// Why a frame was not armed.
+struct FailedCheck {
+    bool too_late = false;      // the check was
+    bool held = false;          // by this axis
+    std::uint32_t lacking = 0;  // bit i: nothing fresh of axis i says that it holds the frame
+};
+
 class SetpointFollower {
 public:
     /// `axis` of `axes`, by their places in the configuration.
@@ -60,11 +67,14 @@ public:
     Epoch epoch() const { return epoch_; }
     FrameNumber held() const { return held_; }
     std::optional<FrameNumber> veto() const { return veto_; }
+    /// The check that has lowered the veto last.
+    const FailedCheck& failed_check() const { return failed_check_; }
     const HeldFrame* find(FrameNumber number) const;
 
 private:
     void begin(Epoch epoch);
-    bool every_other_holds(FrameNumber k, Slot start) const;
+    std::uint32_t lacking(FrameNumber k, Slot start) const;
+    void refuse(FrameNumber veto, const FailedCheck& check);
     std::optional<Slot> start_slot(FrameNumber k) const;
     void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }
 
@@ -82,6 +92,7 @@ private:
     FrameNumber held_ = 0;
     FrameNumber checked_ = 0;  // every frame up to this one is decided
     std::optional<FrameNumber> veto_;
+    FailedCheck failed_check_;
     std::optional<FrameNumber> device_veto_;  // what the device has been told
     MotionPoint end_;                         // of the last body held
     Tick end_tick_;

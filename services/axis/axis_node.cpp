@@ -58,15 +58,17 @@ void AxisNode::drain(const OnStep& on_step, const ClockView& machine_time) {
 
 AxisOutputs AxisNode::control(const AxisMail& mail) {
     const DeviceStatus status = time_.in_machine_time(status_);
-    AxisOutputs out = controller_.step({.now = time_.now(),
-                                        .device = status,
-                                        .device_failed = std::exchange(failed_, false),
-                                        .frames = mail.frames,
-                                        .peers = mail.peers,
-                                        .coordinator = mail.coordinator,
-                                        .commands = mail.commands,
-                                        .requests = mail.requests,
-                                        .clock_error = time_.error()});
+    const AxisInputs in{.now = time_.now(),
+                        .device = status,
+                        .device_failed = std::exchange(failed_, false),
+                        .frames = mail.frames,
+                        .peers = mail.peers,
+                        .coordinator = mail.coordinator,
+                        .commands = mail.commands,
+                        .requests = mail.requests,
+                        .clock_error = time_.error()};
+    AxisOutputs out = controller_.step(in);
+    if (flight_ != nullptr) { flight_->take(in, out); }
     if (meter_ != nullptr) {
         meter_->look(time_.now(), status);
         meter_->take(out);

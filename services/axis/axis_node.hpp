@@ -11,6 +11,7 @@
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device_time.hpp"
 #include "core/axis/health_meter.hpp"
+#include "core/flight/axis_flight.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -62,6 +63,8 @@ public:
 
     /// From the next step on every loop is measured. `meter` outlives the node.
     void measure(HealthMeter& meter) { meter_ = &meter; }
+    /// From the next step on what is decided is noted. `flight` outlives the node.
+    void note_in(AxisFlight& flight) { flight_ = &flight; }
     /// What it is said of the device: orders refused and looks that failed, and steps whose time was not kept.
     std::uint64_t troubles() const { return troubles_; }
     std::uint64_t lost_captures() const { return driver_.lost_captures(); }
@@ -94,6 +97,7 @@ private:
     std::string trouble_;
     std::uint64_t troubles_ = 0;
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
+    AxisFlight* flight_ = nullptr;  // null: nothing is noted
     bool failed_ = false;           // since the controller was last told
 };
 

@@ -8,12 +8,19 @@
 #include "services/axis/axis_notices.hpp"
 #include "services/axis/position_file.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/documents/names.hpp"
+#include "services/documents/placement.hpp"
+#include "services/flight/flight_recorder.hpp"
 #include "services/record/axis_recorder.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/host_name.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
+#include "services/runtime/real_time.hpp"
+#include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
+#include "services/runtime/user_signal.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -25,12 +32,14 @@ using std::chrono::nanoseconds;
 std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis,
                                                    std::int64_t tick_ns, Tick now) {
     constexpr std::string_view kShared = "shm:";
+    constexpr std::string_view kMapped = "uio:";
     if (fpga == "sim") { return simulated_device(axis, tick_ns, now); }
-    if (!fpga.starts_with(kShared)) {
-        return std::unexpected("--fpga " + fpga + " is neither \"sim\" nor \"shm:NAME\"");
+    if (!is_device_name(fpga)) {
+        return std::unexpected("the device \"" + fpga + "\" is none of sim, shm:NAME and uio:PATH");
     }
-    auto window = RegisterWindow::open_shared(fpga.substr(kShared.size()));
-    if (!window) { return std::unexpected(window.error() + "; start it: lockstep-fpga --name NAME"); }
+    auto window = fpga.starts_with(kShared) ? RegisterWindow::open_shared(fpga.substr(kShared.size()))
+                                            : RegisterWindow::open_file(fpga.substr(kMapped.size()));
+    if (!window) { return std::unexpected("device " + fpga + ": " + window.error()); }
     return AxisDevice{std::move(*window), nullptr, true};
 }
 
@@ -55,10 +64,13 @@ public:
           node_(std::move(node)),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
+          flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
+          flight_(setup.axis, setup.machine, *flight_log_),
           recorder_(setup.machine, setup.axis, setup.identity, *sink_),
           keeper_(position_file(setup.machine, setup.axis), complain_of_disk),
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
+        node_.note_in(flight_);
         if (setup.machine.timing.time_source != TimeSource::Network) { return; }
         const ClockAsker asker(static_cast<std::uint32_t>(setup.axis), setup.identity, setup.machine.tick_ns);
         clock_client_ = std::make_unique<ClockClient>(bus_.participant, asker, [clock] { return clock.now(); });
@@ -71,6 +83,7 @@ public:
     bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
         hear();
         const Tick now = clock_.now();
+        if (user_signal_.take()) { flight_log_->incident(node_.now(), IncidentReason::Asked); }
         const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
                                            [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { (void)bus_.state.write(*out.state); }
@@ -146,6 +159,9 @@ private:
     AxisNode node_;
     AxisBus bus_;
     std::unique_ptr<RecordSink> sink_;
+    std::unique_ptr<FlightLog> flight_log_;
+    AxisFlight flight_;
+    UserSignal user_signal_;  // a person asks for what was noted
     AxisRecorder recorder_;
     PositionKeeper keeper_;
     HealthMeter meter_;
@@ -170,11 +186,12 @@ int fail(const std::string& why) {
 
 int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis) {
     StopSignal stop;
-    if (options.priority > 0) { log_info(try_real_time(options.priority)); }
+    for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
     const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
                                 kept_position(machine, axis)};
-    auto device = open_device(options.fpga, machine.axes[axis], machine.tick_ns, clock.now());
+    const std::string fpga = options.fpga.empty() ? machine.axes[axis].device : options.fpga;
+    auto device = open_device(fpga, machine.axes[axis], machine.tick_ns, clock.now());
     if (!device) { return fail(device.error()); }
     auto node = AxisNode::attach(setup, std::move(*device));
     if (!node) { return fail(node.error()); }
@@ -182,14 +199,18 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     if (!bus) { return fail(bus.error()); }
     AxisService service(setup, clock, std::move(*node), std::move(*bus),
                         open_record(machine, machine.axes[axis].name, options.record));
-    log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + options.fpga);
+    log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + fpga);
 
+    ServiceManager manager;
+    manager.ready("axis " + machine.axes[axis].name + " of machine " + machine.name);
     PeriodicLoop periodic(loop_period(machine));
     bool alone = true;
     periodic.run(stop, [&](nanoseconds begun) {
+        manager.alive(begun);
         alone = alone && service.loop(begun, periodic.skipped_periods());
         if (!alone) { stop.request(); }
     });
+    manager.stopping();
     service.finish();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
              std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
@@ -204,27 +225,26 @@ int serve_axis(const AxisServiceOptions& options) {
         std::cerr << to_text(options.machine_file.string(), machine.error());
         return kServiceBadInput;
     }
-    const auto named = std::find_if(machine->axes.begin(), machine->axes.end(),
-                                    [&](const AxisConfig& a) { return a.name == options.axis; });
-    if (named == machine->axes.end()) {
-        std::cerr << options.machine_file.string() << ": has no axis " << options.axis << "; it has:";
-        for (const AxisConfig& axis : machine->axes) { std::cerr << ' ' << axis.name; }
-        std::cerr << '\n';
+    const auto axis = axis_to_run(*machine, options.axis, host_name());
+    if (!axis) {
+        std::cerr << options.machine_file.string() << ": " << axis.error() << '\n';
         return kServiceBadInput;
     }
+    const AxisConfig& config = machine->axes[*axis];
+    const bool simulated = (options.fpga.empty() ? config.device : options.fpga) == "sim";
     if (options.clock_error != ClockError{} && machine->timing.time_source != TimeSource::Network) {
         std::cerr << "--clock-error: the machine's time_source is not NETWORK; nothing would correct the clock\n";
         return kServiceBadInput;
     }
-    if (options.clock_error != ClockError{} && options.fpga != "sim") {
+    if (options.clock_error != ClockError{} && !simulated) {
         std::cerr << "--clock-error needs --fpga sim: lockstep-fpga keeps the right time\n";
         return kServiceBadInput;
     }
-    if (auto log = open_log({"axis", options.axis, options.log_file}); !log) {
+    if (auto log = open_log({"axis", config.name, options.log_file}); !log) {
         std::cerr << log.error() << '\n';
         return kServiceBadInput;
     }
-    return run(options, *machine, static_cast<std::size_t>(named - machine->axes.begin()));
+    return run(options, *machine, *axis);
 }
 
 }  // namespace lockstep

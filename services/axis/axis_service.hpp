@@ -9,9 +9,9 @@
 namespace lockstep {
 
 struct AxisServiceOptions : ServiceOptions {
-    std::string axis;          // its name in the file
-    ClockError clock_error;    // of this process's clock and of the device simulated in it, for tests
-    std::string fpga = "sim";  // "sim": simulated in this process; "shm:NAME": of lockstep-fpga
+    std::string axis;        // its name in the file; empty: the one that is placed on this host
+    ClockError clock_error;  // of this process's clock and of the device simulated in it, for tests
+    std::string fpga;        // as AxisConfig::device, instead of it; empty: by it
 };
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause

@@ -11,12 +11,12 @@ int main(int argc, char** argv) {
     lockstep::AxisServiceOptions options;
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
-    app.add_option("--axis", options.axis, "the axis's name in that file")->required();
-    app.add_option("--fpga", options.fpga, "the device: sim (in this process) or shm:NAME (of lockstep-fpga)")
-        ->capture_default_str();
+    app.add_option("--axis", options.axis,
+                   "the axis's name in that file; else the one that the file places on this host");
+    app.add_option("--fpga", options.fpga,
+                   "the device, instead of the file's: sim (in this process), shm:NAME (of lockstep-fpga) or uio:PATH "
+                   "(memory-mapped, such as uio:/dev/uio0)");
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
-    app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
-        ->check(CLI::Range(0, 99));
     std::string clock_error;
     app.add_option("--clock-error", clock_error,
                    "for tests: makes this process's clock, and the device simulated in it, wrong: "
@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Example: lockstep-axis --machine machine.textproto --axis X\n"
+        "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

@@ -1,18 +1,23 @@
 #include "services/coordinator/coordinator_service.hpp"
 
-#include <array>
 #include <iostream>
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
+#include "core/flight/coordinator_flight.hpp"
+#include "core/protocol/names.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/flight/flight_recorder.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
+#include "services/runtime/real_time.hpp"
+#include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
+#include "services/runtime/user_signal.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -20,12 +25,6 @@ namespace lockstep {
 namespace {
 
 using std::chrono::nanoseconds;
-
-std::string_view phase_name(std::uint64_t phase) {
-    constexpr std::array<std::string_view, 9> kNames{"Waiting", "Idle",     "Homing", "Running", "Holding",
-                                                     "Paused",  "Stopping", "Fault",  "Standby"};
-    return phase < kNames.size() ? kNames[phase] : "unknown";
-}
 
 class CoordinatorService {
 public:
@@ -36,6 +35,8 @@ public:
           coordinator_(machine, identity, config_hash(machine), standby),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
+          flight_log_(open_flight(machine, "", identity)),
+          flight_(machine, *flight_log_),
           recorder_(machine, identity, *sink_) {
         if (machine.timing.time_source != TimeSource::Network) { return; }
         clock_server_ = std::make_unique<ClockServer>(bus_.participant, [clock = clock_] { return clock.now(); });
@@ -45,7 +46,10 @@ public:
     bool loop() {
         hear();
         const Tick now = clock_.now();
-        const CoordinatorOutputs out = coordinator_.step({now, states_, others_, commands_});
+        if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
+        const CoordinatorInputs in{now, states_, others_, commands_};
+        const CoordinatorOutputs out = coordinator_.step(in);
+        flight_.take(in, out);
         // First where frames come to rest, then the frames: a standby knows of every frame that axes may have.
         if (out.state) { (void)bus_.machine.write(*out.state); }
         for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
@@ -82,7 +86,8 @@ private:
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
-            case Kind::Phase: return log_info("machine is " + std::string(phase_name(notice.number)));
+            case Kind::Phase:
+                return log_info("machine is " + std::string(name_of(static_cast<MachinePhase>(notice.number))));
             case Kind::AxisSeen: return log_info("axis " + axis_name(notice.number) + " is heard");
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -138,6 +143,9 @@ private:
     CoordinatorBus bus_;
     std::unique_ptr<ClockServer> clock_server_;  // where axes ask for the time
     std::unique_ptr<RecordSink> sink_;
+    std::unique_ptr<FlightLog> flight_log_;
+    CoordinatorFlight flight_;
+    UserSignal user_signal_;  // a person asks for what was noted
     JobRecorder recorder_;
     ProgramInbox inbox_;
     std::vector<AxisState> states_;
@@ -155,7 +163,7 @@ int fail(const std::string& why) {
 
 int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
     StopSignal stop;
-    if (options.priority > 0) { log_info(try_real_time(options.priority)); }
+    for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
@@ -163,12 +171,16 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
                                options.standby ? std::optional(options.on_takeover) : std::nullopt);
     log_info("coordinator of machine " + machine.name + " is up");
 
+    ServiceManager manager;
+    manager.ready("coordinator of machine " + machine.name);
     PeriodicLoop periodic(loop_period(machine));
     bool alone = true;
-    periodic.run(stop, [&](nanoseconds) {
+    periodic.run(stop, [&](nanoseconds begun) {
+        manager.alive(begun);
         alone = alone && service.loop();
         if (!alone) { stop.request(); }
     });
+    manager.stopping();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
              std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
     if (alone) { return kServiceDone; }

@@ -20,8 +20,6 @@ int main(int argc, char** argv) {
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
-    app.add_option("--priority", options.priority, "of SCHED_FIFO, 1 to 99; 0 leaves the scheduler as it is")
-        ->check(CLI::Range(0, 99));
     CLI::Option* standby = app.add_flag(
         "--standby", options.standby,
         "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
@@ -36,6 +34,7 @@ int main(int argc, char** argv) {
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"
         "  lockstep-coordinator --machine machine.textproto --standby --on-takeover continue\n"
+        "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

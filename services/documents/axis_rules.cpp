@@ -37,6 +37,7 @@ public:
         check_homing_places();
         check_plant();
         check_method();
+        check_place();
         return problems_.take();
     }
 
@@ -190,6 +191,13 @@ private:
         problems_.require(suits.has_value(), "method",
                           "method is " + std::string(stepgen::name_of(axis_.method)) + "; " +
                               (suits ? "" : suits.error()) + "; change the limits, or choose another method");
+    }
+
+    void check_place() {
+        problems_.require(axis_.host.empty() || is_host_name(axis_.host), "host",
+                          "host is \"" + axis_.host + "\"; the name of a host: letters, digits, - and .");
+        problems_.require(is_device_name(axis_.device), "device",
+                          "device is \"" + axis_.device + "\"; sim, shm:NAME or uio:PATH, such as uio:/dev/uio0");
     }
 
     double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }

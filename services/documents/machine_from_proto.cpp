@@ -62,13 +62,27 @@ NetworkConfig read_network(const proto::Network& message) {
     };
 }
 
+FlightConfig read_flight(const proto::Flight& message) {
+    const FlightConfig preset;
+    return {
+        .kept = message.has_kept() ? message.kept() : preset.kept,
+        .memory_kb = message.has_memory_kb() ? message.memory_kb() : preset.memory_kb,
+        .files = message.has_files() ? message.files() : preset.files,
+    };
+}
+
 RecordConfig read_record(const proto::Record& message) {
     const RecordConfig preset;
     return {
         .own_logs = message.has_own_logs() ? message.own_logs() : preset.own_logs,
         .directory = message.directory(),
         .size_limit_mb = message.has_size_limit_mb() ? message.size_limit_mb() : preset.size_limit_mb,
+        .flight = read_flight(message.flight()),
     };
+}
+
+RealTimeConfig read_real_time(const proto::RealTime& message) {
+    return {.priority = message.priority(), .cpus = {message.cpus().begin(), message.cpus().end()}};
 }
 
 /// Written without std::clamp, whose order of limits a file may break.
@@ -137,6 +151,8 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
         reader.refuse("method", "method is " + std::to_string(message.method()) + "; it is one of " + kMethodNames);
     }
     axis.method = read_method(message.method());
+    axis.host = message.host();
+    axis.device = message.has_device() ? message.device() : axis.device;
     axis.homing = read_homing(message.homing(), axis);
     axis.plant = read_plant(message.plant(), axis);
     return axis;
@@ -157,6 +173,8 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.network = read_network(message.network());
     draft.machine.record = read_record(message.record());
     draft.machine.position_directory = message.position_directory();
+    draft.machine.coordinator_host = message.coordinator_host();
+    draft.machine.real_time = read_real_time(message.real_time());
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {

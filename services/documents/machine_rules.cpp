@@ -5,6 +5,7 @@
 #include "core/coordinator/lai_path.hpp"
 #include "core/protocol/rules.inc"
 #include "services/documents/names.hpp"
+#include "services/documents/placement.hpp"
 #include "services/documents/problem_list.hpp"
 
 namespace lockstep {
@@ -87,6 +88,32 @@ void check_directory(const std::string& key, const std::string& directory, Probl
 void check_record(const RecordConfig& record, ProblemList& problems) {
     check_directory("record.directory", record.directory, problems);
     problems.require_range("record.size_limit_mb", static_cast<double>(record.size_limit_mb), 1, 1e6);
+    problems.require_range("record.flight.memory_kb", static_cast<double>(record.flight.memory_kb), 64, 65536);
+    problems.require_range("record.flight.files", record.flight.files, 1, 1000);
+}
+
+void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {
+    constexpr int kMaxCpu = 1023;  // of a cpu_set_t
+    problems.require_range("real_time.priority", real_time.priority, 0, 99);
+    for (const int cpu : real_time.cpus) {
+        problems.require(cpu >= 0 && cpu <= kMaxCpu, "real_time",
+                         "real_time.cpus has " + std::to_string(cpu) + "; processors are numbered from 0 to " +
+                             std::to_string(kMaxCpu));
+    }
+}
+
+/// Hosts that differ have clocks that differ, and nothing to say to each other over lo.
+void check_hosts(const MachineConfig& machine, ProblemList& problems) {
+    problems.require(
+        machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
+        "coordinator_host is \"" + machine.coordinator_host + "\"; the name of a host: letters, digits, - and .");
+    const std::vector<std::string> hosts = hosts_of(machine);
+    if (hosts.size() < 2) { return; }
+    const std::string several = "the machine is on several hosts, such as " + hosts[0] + " and " + hosts[1];
+    problems.require(machine.timing.time_source != TimeSource::Shared, "timing.time_source",
+                     "timing.time_source is SHARED, one host's clock, but " + several + "; NETWORK or PTP");
+    problems.require(machine.network.interface != "lo", "network.interface",
+                     "network.interface is lo, but " + several + "; name the interface that joins them");
 }
 
 }  // namespace
@@ -103,6 +130,8 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_network(machine.network, problems);
     check_record(machine.record, problems);
     check_directory("position_directory", machine.position_directory, problems);
+    check_real_time(machine.real_time, problems);
+    check_hosts(machine, problems);
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
                      "the machine has " + std::to_string(machine.axes.size()) +
                          " axes; write one axis { ... } for each, 1 to " + std::to_string(kMaxAxes));

@@ -23,10 +23,22 @@ void write_network(const NetworkConfig& network, proto::Network& message) {
     message.set_lcm_url(network.lcm_url);
 }
 
+void write_flight(const FlightConfig& flight, proto::Flight& message) {
+    message.set_kept(flight.kept);
+    message.set_memory_kb(flight.memory_kb);
+    message.set_files(flight.files);
+}
+
 void write_record(const RecordConfig& record, proto::Record& message) {
     message.set_own_logs(record.own_logs);
     if (!record.directory.empty()) { message.set_directory(record.directory); }
     message.set_size_limit_mb(record.size_limit_mb);
+    if (record.flight != FlightConfig{}) { write_flight(record.flight, *message.mutable_flight()); }
+}
+
+void write_real_time(const RealTimeConfig& real_time, proto::RealTime& message) {
+    message.set_priority(real_time.priority);
+    for (const int cpu : real_time.cpus) { message.add_cpus(cpu); }
 }
 
 void write_homing(const HomingConfig& homing, proto::Homing& message) {
@@ -61,6 +73,8 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_position_min_mm(axis.position_min_mm);
     message.set_position_max_mm(axis.position_max_mm);
     message.set_method(method_to_proto(axis.method));
+    if (!axis.host.empty()) { message.set_host(axis.host); }
+    if (axis.device != AxisConfig{}.device) { message.set_device(axis.device); }
     write_homing(axis.homing, *message.mutable_homing());
     write_plant(axis.plant, *message.mutable_plant());
 }
@@ -75,6 +89,8 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     write_network(machine.network, *message.mutable_network());
     if (machine.record != RecordConfig{}) { write_record(machine.record, *message.mutable_record()); }
     if (!machine.position_directory.empty()) { message.set_position_directory(machine.position_directory); }
+    if (!machine.coordinator_host.empty()) { message.set_coordinator_host(machine.coordinator_host); }
+    if (machine.real_time != RealTimeConfig{}) { write_real_time(machine.real_time, *message.mutable_real_time()); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     return message;

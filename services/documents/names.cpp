@@ -20,6 +20,20 @@ bool is_axis_name(std::string_view name) { return is_name(name, kMaxAxisName, "_
 
 bool is_machine_name(std::string_view name) { return is_name(name, kMaxMachineName, "_-"); }
 
+bool is_host_name(std::string_view name) {
+    constexpr std::size_t kLongest = 253;
+    const auto may_stand = [](char c) { return is_letter(c) || is_digit(c) || c == '-' || c == '.'; };
+    return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, may_stand) &&
+           !std::string_view("-.").contains(name.front());
+}
+
+bool is_device_name(std::string_view name) {
+    constexpr std::string_view kShared = "shm:";
+    constexpr std::string_view kMapped = "uio:/";
+    if (name.starts_with(kShared)) { return name.size() > kShared.size() && !name.contains('/'); }
+    return name == "sim" || (name.starts_with(kMapped) && name.size() > kMapped.size());
+}
+
 bool same_name(std::string_view one, std::string_view other) {
     return std::ranges::equal(one, other, {}, small, small);
 }

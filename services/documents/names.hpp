@@ -13,6 +13,10 @@ inline constexpr std::size_t kMaxMachineName = 24;
 bool is_axis_name(std::string_view name);
 /// The same with - too, at most kMaxMachineName.
 bool is_machine_name(std::string_view name);
+/// Letters, digits, - and ., at most 253, as RFC 1123 has them.
+bool is_host_name(std::string_view name);
+/// sim; or shm:NAME and uio:PATH, PATH an absolute one.
+bool is_device_name(std::string_view name);
 /// Whether they differ in capitals at most.
 bool same_name(std::string_view one, std::string_view other);
 

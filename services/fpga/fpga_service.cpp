@@ -37,7 +37,8 @@ std::expected<Hardware, std::string> set_up(const FpgaOptions& options) {
     if (axis == machine->axes.end()) {
         return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\"");
     }
-    auto window = RegisterWindow::create_shared(options.name);
+    auto window =
+        options.file.empty() ? RegisterWindow::create_shared(options.name) : RegisterWindow::create_file(options.file);
     if (!window) { return std::unexpected(window.error()); }
     return Hardware{*axis, machine->tick_ns, machine->timing.time_source, std::move(*window)};
 }
@@ -58,7 +59,7 @@ int serve_fpga(const FpgaOptions& options) {
     const MachineClock clock(hardware->tick_ns, hardware->time_source);
     const Plant plant(hardware->axis, hardware->tick_ns);
     SimulatedDevice device(hardware->window, plant, hardware->tick_ns, clock.now(), drawn_number());
-    log_info("device \"" + options.name + "\" is powered up");
+    log_info("device \"" + options.name + options.file + "\" is powered up");
     PeriodicLoop loop(kPeriod);
     loop.run(stop, [&](std::chrono::nanoseconds) { device.advance(clock.now()); });
     log_info("ended; the loop was late by " + std::to_string(loop.worst_lateness().count() / 1000) + " us at worst");

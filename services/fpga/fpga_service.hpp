@@ -1,4 +1,4 @@
-// One axis's simulated device in real time, on named shared memory.
+// One axis's simulated device in real time, on shared memory, by name or in a file.
 //
 // Its tick is CLOCK_MONOTONIC in units of tick_ns, as every process of the machine counts it. Steps fall on the ticks
 // that the frames define, however late the loop wakes; only the host's words are seen that much later.
@@ -11,7 +11,8 @@ namespace lockstep {
 struct FpgaOptions {
     std::string machine_file;
     std::string axis;  // its name in the file
-    std::string name;  // of the shared memory
+    std::string name;  // of the shared memory; empty: in a file
+    std::string file;  // its path
 };
 
 /// Serves until SIGINT or SIGTERM. The process's exit code: 0 ended as asked, 1 failed, the cause in the log.

@@ -8,9 +8,13 @@ int main(int argc, char** argv) {
     lockstep::FpgaOptions options;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--axis", options.axis, "the axis's name in that file")->required();
-    app.add_option("--name", options.name, "of the shared memory, under /dev/shm")->required();
+    auto* place = app.add_option_group("where", "where the registers are");
+    place->add_option("--name", options.name, "shared memory of this name, under /dev/shm: shm:NAME for the axis");
+    place->add_option("--file", options.file, "a file that is mapped, made if need be: uio:PATH for the axis");
+    place->require_option(1);
     app.footer(
-        "Example: lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"
+        "Examples:\n  lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"
+        "  lockstep-fpga --machine machine.textproto --axis X --file /run/lockstep/x.registers\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage");
     try {
         app.parse(argc, argv);

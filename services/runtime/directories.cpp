@@ -34,4 +34,16 @@ fs::path record_directory(const std::string& machine) { return lasting_root() / 
 
 fs::path position_directory(const std::string& machine) { return lasting_root() / machine / "position"; }
 
+std::vector<fs::path> memory_directories() {
+    if (geteuid() != 0) { return {memory_directory()}; }
+    std::vector<fs::path> all;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/dev/shm", error)) {
+        if (entry.path().filename().string().starts_with("lockstep-")) { all.push_back(entry.path()); }
+    }
+    return all;
+}
+
+fs::path memory_directory() { return "/dev/shm/lockstep-" + std::to_string(geteuid()); }
+
 }  // namespace lockstep

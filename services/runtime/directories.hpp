@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace lockstep {
 
@@ -16,5 +17,11 @@ std::filesystem::path record_directory(const std::string& machine);
 
 /// For the positions that outlive the axes' processes: ROOT/MACHINE/position, with the same ROOT.
 std::filesystem::path position_directory(const std::string& machine);
+
+/// For memory that is to outlive its process, but not the host: never on a disk. /dev/shm/lockstep-UID.
+std::filesystem::path memory_directory();
+
+/// Those of all users whom this one may read: root all there are, others their own.
+std::vector<std::filesystem::path> memory_directories();
 
 }  // namespace lockstep

@@ -1,10 +1,7 @@
 #include "services/runtime/periodic.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
 
 #include "services/runtime/clock.hpp"
@@ -34,15 +31,6 @@ bool PeriodicLoop::wait_for_next(const StopSignal& stop) {
     }
     worst_lateness_ = std::max(worst_lateness_, monotonic_now() - next_);
     return !stop.requested();
-}
-
-std::string try_real_time(int priority) {
-    const sched_param wanted{.sched_priority = priority};
-    if (sched_setscheduler(0, SCHED_FIFO, &wanted) == 0) {
-        return "scheduler FIFO, priority " + std::to_string(priority);
-    }
-    return std::string("scheduler normal: FIFO was refused (") + std::strerror(errno) +
-           "); to permit it: LimitRTPRIO=99 in the unit, or --ulimit rtprio=99 --cap-add SYS_NICE for a container";
 }
 
 }  // namespace lockstep

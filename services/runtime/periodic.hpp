@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <string>
 
 #include "services/runtime/stop_signal.hpp"
 
@@ -38,9 +37,5 @@ private:
     std::chrono::nanoseconds worst_lateness_{};
     std::uint64_t skipped_ = 0;
 };
-
-/// Asks for SCHED_FIFO for this thread and those it starts after, and says in one line what came of it. Call it
-/// before a DDS participant is made: its threads inherit the scheduler. priority: 1 ... 99.
-std::string try_real_time(int priority);
 
 }  // namespace lockstep

@@ -19,7 +19,6 @@ struct ServiceOptions {
     std::filesystem::path machine_file;
     std::optional<std::filesystem::path> log_file;  // none: standard error
     bool record = true;                             // publish the record over LCM
-    int priority = 0;                               // of SCHED_FIFO; 0: leave the scheduler as it is
 };
 
 /// How often a service looks at what came: several times a slot, so that sampling costs a message little of its hop.

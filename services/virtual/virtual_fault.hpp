@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/units.hpp"
+#include "sim_fpga/plant.hpp"
 
 namespace lockstep {
 
@@ -14,19 +15,29 @@ struct VirtualFault {
         Freeze,  // the process's loop does not run; what is sent to it waits; its device goes on
         Crash,   // the process ends, what is sent to it is lost, its device goes on; at the end another takes its place
         Cut,     // messages between the process and its peers are lost
-        SetClock,  // an axis's process finds its clock set; it lasts until that can have been noticed
+        SetClock,     // an axis's process finds its clock set; it lasts until that can have been noticed
+        Stick,        // a switch of an axis reads closed, or open, wherever its slide is
+        Push,         // a hand moves an axis's slide
+        DamageFrame,  // the newest frame that an axis's device holds is altered
     };
     Kind kind = Kind::Freeze;
     std::size_t process = 0;
     Tick at;
     Ticks lasts;
-    std::optional<std::size_t> peer;  // Cut: of this link only; none: of the links with all others
-    bool in_loop = false;             // Freeze: between what a loop decides and what it does about it
-    Ticks set_by;                     // SetClock: forward
-    bool outgoing = true;             // Cut: what the process says is lost
-    bool incoming = true;             // Cut: what is said to it is lost
+    std::optional<std::size_t> peer;                 // Cut: of this link only; none: of the links with all others
+    bool in_loop = false;                            // Freeze: between what a loop decides and what it does about it
+    Ticks set_by;                                    // SetClock: forward
+    PlantContact contact = &PlantInputs::limit_min;  // Stick: which
+    bool closed = true;                              // Stick: reads closed
+    std::int64_t push_steps = 0;                     // Push
+    bool outgoing = true;                            // Cut: what the process says is lost
+    bool incoming = true;                            // Cut: what is said to it is lost
 
     constexpr Tick end() const { return at + lasts; }
+    /// Of an axis's slide, switches or device, not of processes or links.
+    constexpr bool is_of_plant() const {
+        return kind == Kind::Stick || kind == Kind::Push || kind == Kind::DamageFrame;
+    }
 };
 
 }  // namespace lockstep

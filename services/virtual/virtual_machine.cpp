@@ -36,6 +36,20 @@ Mail collect(VirtualNetwork& network, Tick now, std::size_t address) {
     return mail;
 }
 
+/// Its first piece starts a tick later than it should: the frame does not join the one before.
+void damage_newest_frame(RegisterWindow& window) {
+    using namespace registers;
+    const std::uint64_t head = window.load(kSegmentHead);
+    const auto place = [](std::uint64_t n) {
+        return kSegmentRing + (n % kSegmentRingEntries) * kSegmentRingEntryBytes;
+    };
+    for (std::uint64_t n = head; n != window.load(kSegmentTail); --n) {
+        const std::size_t entry = place(n - 1);
+        if ((window.load(entry + kSegmentRingFlags) & kSegmentRingFlagsFirst) == 0) { continue; }
+        return window.store(entry + kSegmentRingStart, window.load(entry + kSegmentRingStart) + 1);
+    }
+}
+
 }  // namespace
 
 VirtualMachine::VirtualMachine(const VirtualOptions& options)
@@ -51,13 +65,10 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 void VirtualMachine::power_up() {
     const MachineConfig& machine = options_.machine;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        axes_.push_back({simulated_device(machine.axes[i], machine.tick_ns, device_time(i)),
-                         {},
-                         {},
-                         {},
-                         std::unexpected(FaultCode::PositionNotKept)});
+        axes_.push_back({.device = simulated_device(machine.axes[i], machine.tick_ns, device_time(i))});
     }
     coordinators_.resize(options_.coordinators);
+    coordinator_flights_.resize(options_.coordinators);
     processes_.resize(axes_.size() + coordinators_.size());
     std::mt19937_64 random(options_.seed ^ 0x9e3779b97f4a7c15U);
     for (std::size_t i = 0; i < processes_.size(); ++i) {
@@ -81,6 +92,17 @@ void VirtualMachine::start(std::size_t process) {
         axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
     }
     processes_[process] = {true, now_};
+    if (options_.flight) { note_flight(process); }
+}
+
+void VirtualMachine::note_flight(std::size_t process) {
+    FlightLog& log = options_.flight(process);
+    if (is_coordinator(process)) {
+        coordinator_flights_[process - axes_.size()].emplace(options_.machine, log);
+    } else {
+        axes_[process].flight.emplace(process, options_.machine, log);
+        axes_[process].node->note_in(*axes_[process].flight);
+    }
 }
 
 void VirtualMachine::crash(std::size_t process) {
@@ -113,6 +135,20 @@ void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
     }
 }
 
+/// At this very tick of the device, which looks at its inputs at once.
+void VirtualMachine::disturb(const VirtualFault& fault, bool begins) {
+    const std::size_t i = fault.process;
+    device(i).advance(device_time(i));
+    if (fault.kind == VirtualFault::Kind::Stick) {
+        device(i).plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
+    } else if (fault.kind == VirtualFault::Kind::Push && begins) {
+        device(i).plant().push(fault.push_steps);
+    } else if (begins) {
+        damage_newest_frame(axes_[i].device.window);
+    }
+    device(i).advance(device_time(i));
+}
+
 void VirtualMachine::schedule(const VirtualFault& fault) {
     turns_.emplace(std::max(fault.at, now_), Turn{fault, true});
     turns_.emplace(std::max(fault.end(), now_), Turn{fault, false});
@@ -131,6 +167,9 @@ void VirtualMachine::take_turn(const Turn& turn) {
             break;
         case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault.process); break;
         case VirtualFault::Kind::Cut: cut(turn.fault, turn.begins); break;
+        case VirtualFault::Kind::Stick:
+        case VirtualFault::Kind::Push:
+        case VirtualFault::Kind::DamageFrame: disturb(turn.fault, turn.begins); break;
     }
     for (VirtualObserver* observer : observers_) { observer->on_fault(now_, turn.fault, turn.begins); }
 }
@@ -255,7 +294,9 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
 
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
     const Mail mail = collect(network_, now_, here);
-    CoordinatorOutputs out = coordinator(here)->step({now_, mail.axes, mail.machine, mail.commands});
+    const CoordinatorInputs in{now_, mail.axes, mail.machine, mail.commands};
+    CoordinatorOutputs out = coordinator(here)->step(in);
+    if (auto& flight = coordinator_flights_[here - axes_.size()]) { flight->take(in, out); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(here, now_, out); }
     return out;
 }

@@ -13,6 +13,7 @@
 
 #include "core/clock/clock_asker.hpp"
 #include "core/coordinator/coordinator.hpp"
+#include "core/flight/coordinator_flight.hpp"
 #include "services/axis/axis_node.hpp"
 #include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_fault.hpp"
@@ -46,6 +47,8 @@ struct VirtualOptions {
     /// By axis; those not here read the machine's time. The coordinator's is the machine's, and the true one. More than
     /// one time asks for a machine whose time_source is Network.
     std::vector<AxisClocks> clocks;
+    /// Where each process notes its flight; asked for at each of its starts. Empty: nowhere.
+    std::function<FlightLog&(std::size_t process)> flight = {};
 };
 
 class VirtualMachine {
@@ -98,6 +101,7 @@ private:
     struct Axis {
         AxisDevice device;
         std::optional<AxisNode> node;
+        std::optional<AxisFlight> flight;
         std::optional<ClockAsker> asker;
         std::vector<ClockExchange> exchanges;  // not used yet
         KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
@@ -119,9 +123,11 @@ private:
     std::optional<std::size_t> next_process() const;
     void take_turn(const Turn& turn);
     void start(std::size_t process);
+    void note_flight(std::size_t process);
     void crash(std::size_t process);
     void restart(std::size_t process);
     void cut(const VirtualFault& fault, bool begins);
+    void disturb(const VirtualFault& fault, bool begins);
 
     AxisClocks clocks_of(std::size_t i) const { return i < options_.clocks.size() ? options_.clocks[i] : AxisClocks{}; }
     Tick process_time(std::size_t i) const { return clocks_of(i).process.at(now_, options_.start); }
@@ -154,6 +160,7 @@ private:
     Ticks period_;
     std::vector<Axis> axes_;
     std::vector<std::optional<Coordinator>> coordinators_;
+    std::vector<std::optional<CoordinatorFlight>> coordinator_flights_;
     std::vector<Process> processes_;  // the axes, then the coordinators
     Identity axis_identities_ = 100;  // given so far
     std::multimap<Tick, Turn> turns_;

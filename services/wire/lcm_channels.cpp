@@ -31,6 +31,10 @@ std::string loss_channel(std::string_view machine, std::string_view axis) {
     return "LOCKSTEP_" + upper(machine) + (axis.empty() ? "" : "_" + upper(axis)) + "_LOSS";
 }
 
+std::string flight_channel(std::string_view machine, std::string_view process) {
+    return "LOCKSTEP_" + upper(machine) + "_" + upper(process) + "_FLIGHT";
+}
+
 RecordKind kind_of(std::string_view channel) {
     constexpr std::array<std::pair<std::string_view, RecordKind>, 6> kEnds{{{"_STEPS", RecordKind::Steps},
                                                                             {"_POSITION", RecordKind::Position},

@@ -23,6 +23,9 @@ std::string job_channel(std::string_view machine);
 /// Where a log says what it lacks. `axis` is empty for the coordinator's.
 std::string loss_channel(std::string_view machine, std::string_view axis);
 
+/// Of incident files. `process`: coordinator, axis-NAME.
+std::string flight_channel(std::string_view machine, std::string_view process);
+
 /// What a channel's messages are, by its name.
 enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, Loss, Foreign };
 RecordKind kind_of(std::string_view channel);

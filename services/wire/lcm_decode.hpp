@@ -10,6 +10,8 @@
 
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/flight_event_t.hpp>
+#include <lockstep/flight_head_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/record_loss_t.hpp>
 #include <lockstep/run_t.hpp>
@@ -25,6 +27,10 @@ template <>
 inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss888888888448881888888888";
 template <>
 inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
+template <>
+inline constexpr std::string_view kLcmLayout<flight_event_t> = "8ss888ss4s88888";
+template <>
+inline constexpr std::string_view kLcmLayout<flight_head_t> = "84ss888s8s";
 template <>
 inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888844ssn8";
 template <>

@@ -10,6 +10,7 @@
 #include "clients/lockstep/live/supervisor.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/host_name.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/multicast.hpp"
 
@@ -130,7 +131,12 @@ Failure missing(const Session& session, const StateDirectory& state) {
 
 std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
                                                          const StateDirectory& state, Voice& voice) {
-    const auto lines = service_lines(machine.config, layout, program_folder(), state);
+    const Placement placed = placed_on(machine.config, host_name());
+    if (placed.empty()) {
+        return std::unexpected(bad_input(machine.file.string() + ": places nothing on this host, " + host_name() +
+                                         "; start the machine's parts on their hosts, or change `host`"));
+    }
+    const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
     if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
     route_multicast(machine.config.network, voice);

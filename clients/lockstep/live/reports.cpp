@@ -2,6 +2,7 @@
 
 #include "clients/lockstep/live/health_report.hpp"
 #include "clients/lockstep/live/words.hpp"
+#include "services/flight/incident_file.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -101,6 +102,15 @@ proto::FinalPosition place_of(const AxisConfig& axis, const AxisState& state) {
     place.set_position_steps(state.position.count());
     place.set_position_mm(to_mm(axis, static_cast<double>(state.position.count())));
     return place;
+}
+
+void add_incidents(const MachineConfig& machine, proto::StatusReport& report) {
+    const auto files = incident_files(incident_directory(machine));
+    if (files.empty()) { return; }
+    proto::Incidents& incidents = *report.mutable_incidents();
+    incidents.set_directory(incident_directory(machine).string());
+    incidents.set_files(static_cast<std::int64_t>(files.size()));
+    incidents.set_newest(files.back().filename().string());
 }
 
 }  // namespace lockstep

@@ -26,6 +26,9 @@ proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, cons
 
 proto::StatusReport status_report(const Session& session);
 
+/// Where the incident files are that this host's flight recorders wrote; reads the directory.
+void add_incidents(const MachineConfig& machine, proto::StatusReport& report);
+
 /// Where an axis stands: position and count.
 proto::FinalPosition place_of(const AxisConfig& axis, const AxisState& state);
 

@@ -2,7 +2,7 @@
 
 namespace lockstep {
 
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Layout& layout,
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state) {
     const auto begin = [&](const char* program) {
         return std::vector<std::string>{(programs / program).string(), "--machine", state.machine_file().string()};
@@ -14,21 +14,25 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Layou
     };
     const auto shared_name = [&](const AxisConfig& axis) { return "lockstep-" + machine.name + "-" + axis.name; };
     std::vector<ServiceLine> lines;
-    for (const AxisConfig& axis : machine.axes) {
-        if (layout.fpga == FpgaKind::Sim) { break; }
+    for (const std::size_t i : placed.axes) {
+        if (layout.fpga != FpgaKind::Shared) { break; }
+        const AxisConfig& axis = machine.axes[i];
         lines.push_back(
             line("fpga-" + axis.name, begin("lockstep-fpga"), {"--axis", axis.name, "--name", shared_name(axis)}));
     }
     for (const char* name : {"coordinator", "coordinator-2"}) {
+        if (!placed.coordinator) { break; }
         std::vector<std::string> more{"--log", state.log_file(name).string()};
         if (layout.standby) { more.emplace_back("--standby"); }  // both: who ends and is started again stands by
         if (layout.continues) { more.insert(more.end(), {"--on-takeover", "continue"}); }
         lines.push_back(line(name, begin("lockstep-coordinator"), more));
         if (!layout.standby) { break; }
     }
-    for (const AxisConfig& axis : machine.axes) {
+    for (const std::size_t i : placed.axes) {
+        const AxisConfig& axis = machine.axes[i];
         const std::string name = "axis-" + axis.name;
         std::vector<std::string> more{"--axis", axis.name, "--log", state.log_file(name).string()};
+        if (layout.fpga == FpgaKind::Sim) { more.insert(more.end(), {"--fpga", "sim"}); }
         if (layout.fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", "shm:" + shared_name(axis)}); }
         lines.push_back(line(name, begin("lockstep-axis"), more));
     }

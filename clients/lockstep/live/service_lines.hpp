@@ -7,14 +7,15 @@
 
 #include "clients/lockstep/live/state_directory.hpp"
 #include "core/machine.hpp"
+#include "services/documents/placement.hpp"
 
 namespace lockstep {
 
-enum class FpgaKind { Sim, Shared };  // in the axis's process; in a process of its own, on shared memory
+enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's process; Shared: in a process of its own
 
 /// What of it there is a choice about.
 struct Layout {
-    FpgaKind fpga = FpgaKind::Sim;
+    FpgaKind fpga = FpgaKind::AsConfigured;
     bool standby = false;    // a second coordinator stands by
     bool continues = false;  // and goes on with a program in motion when it takes over
 };
@@ -24,8 +25,9 @@ struct ServiceLine {
     std::vector<std::string> words;  // the program's path and its arguments
 };
 
-/// Devices first: an axis attaches to its own. `programs`: the directory of the services' executables.
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Layout& layout,
+/// Of the machine's parts those that are `placed` on this host. Devices first: an axis attaches to its own. `programs`:
+/// the directory of the services' executables.
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state);
 
 }  // namespace lockstep

@@ -86,7 +86,7 @@ void Session::take() {
     const nanoseconds now = monotonic_now();
     bus_.machine.take([&](MachineState&& state) {
         if (state.phase == MachinePhase::Standby) {
-            standby_heard_ = now;
+            standby_ = {state, now};
             return;
         }
         // Where two speak, the lower term gives way; one that has fallen silent was replaced.
@@ -113,7 +113,11 @@ bool Session::axis_present(std::size_t i) const {
     return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
 }
 
-bool Session::has_standby() const { return standby_heard_ && monotonic_now() - *standby_heard_ <= longest_silence(); }
+/// Not the owner himself, as he was before he owned.
+bool Session::has_standby() const {
+    const bool is_owner = standby_ && state_ && standby_->state.term.coordinator == state_->state.term.coordinator;
+    return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence();
+}
 
 bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
 

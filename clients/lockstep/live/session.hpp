@@ -77,7 +77,7 @@ private:
     Identity client_;
     std::uint64_t sequence_ = 0;
     std::optional<Heard<MachineState>> state_;  // the owner's
-    std::optional<std::chrono::nanoseconds> standby_heard_;
+    std::optional<Heard<MachineState>> standby_;
     std::vector<std::optional<Heard<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at

@@ -70,6 +70,12 @@ std::string unproved_lines(const proto::StatusReport& status) {
     return text;
 }
 
+/// A directory is not broken over lines: it is to be copied.
+std::string incidents_text(const proto::Incidents& incidents) {
+    return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
+           "\nread them: lockstep analyze --incident " + incidents.directory() + "\n";
+}
+
 }  // namespace
 
 std::string age_text(const proto::StatusReport& status) {
@@ -90,6 +96,7 @@ std::string status_text(const proto::StatusReport& status) {
                              status.fault().axis() == axis.name();
         if (axis.has_fault() && !is_said) { text += fault_text(axis.fault()) + "\n"; }
     }
+    if (status.has_incidents()) { text += incidents_text(status.incidents()); }
     return text;
 }
 

@@ -21,7 +21,8 @@ ExitCode status(const LiveOptions& options) {
     (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such
     session->await_healths(300ms);
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
-    const proto::StatusReport report = status_report(*session);
+    proto::StatusReport report = status_report(*session);
+    add_incidents(session->config(), report);
     voice.report(report);
     if (!voice.json()) { std::cout << status_text(report) << std::flush; }
     return kExitDone;

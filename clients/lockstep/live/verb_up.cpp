@@ -1,4 +1,6 @@
 // lockstep up
+#include <map>
+
 #include "clients/lockstep/live/bring_up.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/status_text.hpp"
@@ -10,7 +12,7 @@ namespace lockstep {
 namespace {
 
 struct UpOptions : LiveOptions {
-    std::string fpga = "sim";
+    std::string fpga;
     bool standby = false;
     std::string on_takeover = "stop";
     bool foreground = false;
@@ -29,7 +31,9 @@ ExitCode up(const UpOptions& options) {
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
-    const Layout layout{options.fpga == "shm" ? FpgaKind::Shared : FpgaKind::Sim, options.standby,
+    const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
+    const auto kind = kinds.find(options.fpga);
+    const Layout layout{kind == kinds.end() ? FpgaKind::AsConfigured : kind->second, options.standby,
                         options.on_takeover == "continue"};
     const auto lines = prepare(*machine, layout, state, voice);
     if (!lines) { return voice.fail(lines.error()); }
@@ -53,12 +57,13 @@ ExitCode up(const UpOptions& options) {
 }  // namespace
 
 void add_up(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("up", "start a machine's processes on this host, and wait until it is ready");
+    CLI::App* verb = app.add_subcommand(
+        "up", "start those of a machine's processes that belong on this host, and wait until it is ready");
     const auto options = std::make_shared<UpOptions>();
     verb->add_option("--fpga", options->fpga,
-                     "the devices: sim, in the axes' processes; shm, in processes of their own")
-        ->check(CLI::IsMember({"sim", "shm"}))
-        ->capture_default_str();
+                     "the devices, instead of the configuration's: sim, simulated in the axes' processes; shm, in "
+                     "processes of their own")
+        ->check(CLI::IsMember({"sim", "shm"}));
     CLI::Option* standby = verb->add_flag(
         "--standby", options->standby, "start a second coordinator that takes over, at rest, when the first one fails");
     verb->add_option("--on-takeover", options->on_takeover,

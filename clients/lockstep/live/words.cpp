@@ -8,12 +8,6 @@
 namespace lockstep {
 namespace {
 
-template <typename Enum, std::size_t N>
-std::string_view pick(const std::array<std::string_view, N>& names, Enum value) {
-    const auto i = static_cast<std::size_t>(value);
-    return i < N ? names[i] : "unknown";
-}
-
 std::string two_parts(long whole, const char* unit, long part, const char* part_unit) {
     std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "%ld %s %02ld %s", whole, unit, part, part_unit);
@@ -21,18 +15,6 @@ std::string two_parts(long whole, const char* unit, long part, const char* part_
 }
 
 }  // namespace
-
-std::string_view name_of(MachinePhase phase) {
-    return pick(std::array<std::string_view, 9>{"Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping",
-                                                "Fault", "Standby"},
-                phase);
-}
-
-std::string_view name_of(AxisPhase phase) {
-    return pick(
-        std::array<std::string_view, 7>{"Initialize", "Standby", "Accelerate", "Cruise", "Decelerate", "Stop", "Fault"},
-        phase);
-}
 
 std::string fixed(double value, int digits) {
     std::array<char, 64> text{};

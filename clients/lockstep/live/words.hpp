@@ -4,13 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/protocol/messages.hpp"
+#include "core/protocol/names.hpp"
 #include "services/record/job_recorder.hpp"  // the names of how jobs end
 
 namespace lockstep {
-
-std::string_view name_of(MachinePhase phase);
-std::string_view name_of(AxisPhase phase);
 
 /// With so many digits after the point.
 std::string fixed(double value, int digits);

@@ -11,6 +11,7 @@
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/offline/analyze_incident.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/report_page/report_page.hpp"
 
@@ -18,7 +19,11 @@ namespace lockstep {
 namespace {
 
 struct AnalyzeOptions {
-    std::string log;
+    std::vector<std::string> paths;
+    std::string log;  // of paths, where it is the only one
+    bool incident = false;
+    int back = 0;
+    bool all = false;
     std::string svg_dir;
     std::string csv_dir;
     std::string html;
@@ -49,11 +54,6 @@ std::filesystem::path page_path(const AnalyzeOptions& options) {
     return path.replace_extension(".html");
 }
 
-std::string in_the_way(const std::filesystem::path& path) {
-    return path.string() +
-           ": is there already and is no report, so it is left as it is; name another file with --html FILE";
-}
-
 /// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
 std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
                                                              const analysis::Analysis& found, Voice& voice) {
@@ -62,7 +62,7 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
     const auto path = page_path(options);
     std::string problem;
     if (!analysis::may_replace(path)) {
-        problem = in_the_way(path);
+        problem = analysis::in_the_way(path);
     } else if (const auto written = analysis::write_html(found, path); !written) {
         problem = written.error();
     } else {
@@ -73,10 +73,10 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
     return std::filesystem::path();
 }
 
-ExitCode analyze(const AnalyzeOptions& options) {
+ExitCode analyze_log(const AnalyzeOptions& options) {
     Voice voice(options.json);
     if (!options.html.empty() && !analysis::may_replace(options.html)) {
-        return voice.fail(bad_input(in_the_way(options.html)));  // before a long log is read
+        return voice.fail(bad_input(analysis::in_the_way(options.html)));  // before a long log is read
     }
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
@@ -97,13 +97,41 @@ ExitCode analyze(const AnalyzeOptions& options) {
     return kExitDone;
 }
 
+ExitCode analyze(AnalyzeOptions options) {
+    if (options.incident) {
+        IncidentOptions incident = split_paths(options.paths);
+        incident.back = options.back;
+        incident.all = options.all;
+        if (!options.html.empty()) { incident.html = options.html; }
+        incident.no_html = options.no_html;
+        incident.json = options.json;
+        incident.no_colour = options.no_colour;
+        return analyze_incident(incident);
+    }
+    if (options.paths.size() > 1) {
+        return Voice(options.json)
+            .fail(bad_input(options.paths[1] + ": one log at a time; lockstep log merge makes one of several, and "
+                                               "--incident takes several incident files"));
+    }
+    options.log = options.paths.front();
+    return analyze_log(options);
+}
+
 }  // namespace
 
 void add_analyze(CLI::App& app, Action& action) {
     CLI::App* verb =
-        app.add_subcommand("analyze", "say what a log holds: of each axis, of each job, and what is missing");
+        app.add_subcommand("analyze", "say what a log holds, and what is missing; or what began an incident");
     const auto options = std::make_shared<AnalyzeOptions>();
-    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
+    verb->add_option("log", options->paths,
+                     "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or the "
+                     "directory that they are in, and perhaps the log of the run")
+        ->required();
+    CLI::Option* incident =
+        verb->add_flag("--incident", options->incident,
+                       "what all processes heard, decided and said around a fault, and what began it");
+    verb->add_option("--back", options->back, "with --incident: so many incidents before the newest")->needs(incident);
+    verb->add_flag("--all", options->all, "with --incident: list what is routine, too")->needs(incident);
     verb->add_option("--html", options->html, "the report page to write; beside the log as LOG.html unless given");
     verb->add_flag("--no-html", options->no_html, "write no report page; with --json none is written unless --html is");
     verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
@@ -113,7 +141,8 @@ void add_analyze(CLI::App& app, Action& action) {
     verb->footer(
         footer("  lockstep analyze plate.lcm                 # and plate.html\n"
                "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
-               "  lockstep analyze plate.lcm --json          # verdict: good, doubtful or bad\n\n"
+               "  lockstep analyze plate.lcm --json          # verdict: good, doubtful or bad\n"
+               "  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents plate.lcm\n\n"
                "A log that is damaged, cut short or partly of another version is read as far as it can be and\n"
                "exits 0: what could not be read is listed by its bytes. 2: nothing in it could be read.\n"));
     verb->callback([&action, options] { action = [options] { return analyze(*options); }; });

@@ -16,6 +16,18 @@ function zoomTo(from, to) {
   for (const chart of timeCharts) { chart.setScale("x", { min: from, max: to }); }
 }
 
+// All charts over time show the stretch that one is zoomed to.
+function follow(u, key) {
+  if (key !== "x" || u.following) { return; }
+  const { min, max } = u.scales.x;
+  for (const other of timeCharts) {
+    if (other === u || (other.scales.x.min === min && other.scales.x.max === max)) { continue; }
+    other.following = true;
+    other.setScale("x", { min, max });
+    other.following = false;
+  }
+}
+
 // Shades stretches without data and draws limits and events.
 function marksPlugin(row, events) {
   const vertical = (u, x, colour) => {
@@ -64,16 +76,7 @@ function timeChart(host, row, events, last) {
     series: [{ label: "s", value: (u, value) => value?.toFixed(4) },
       { label: row.name, stroke: colours[row.colour % colours.length], width: 1.3, points: { show: false }, spanGaps: false }],
     plugins: [marksPlugin(row, events)],
-    hooks: { setScale: [(u, key) => {
-      if (key !== "x" || u.following) { return; }
-      const { min, max } = u.scales.x;
-      for (const other of timeCharts) {
-        if (other === u || (other.scales.x.min === min && other.scales.x.max === max)) { continue; }
-        other.following = true;
-        other.setScale("x", { min, max });
-        other.following = false;
-      }
-    }] },
+    hooks: { setScale: [follow] },
   }, [row.x, row.y], host);
   timeCharts.push(chart);
   joined.sub(chart);

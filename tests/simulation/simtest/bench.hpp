@@ -44,6 +44,7 @@ public:
     void settle(double seconds);
     std::uint64_t send_program(Program program);
 
+    bool asks_in_fault() const { return scenario_.asks_in_fault; }
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
     /// The highest that its feeds are turned to, in any job: they hold on.

@@ -3,6 +3,7 @@
 
 #include "tests/simulation/simtest/checks.hpp"
 #include "tests/simulation/simtest/epoch_runs.hpp"
+#include "tests/simulation/simtest/explain.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -63,7 +64,8 @@ private:
         const auto lost = std::ranges::find(axis.lost, tracks, &LostRun::tracks);
         if (lost == axis.lost.end()) {
             if (step != first) { object(i, axis.steps[first].tick, "steps outside any track"); }
-        } else if (lost->epoch != 0 && recording_.emergencies.empty()) {
+        } else if (lost->epoch != 0 && recording_.emergencies.empty() &&
+                   !may_be_stopped(recording_, i, lost->at, until)) {
             const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
             bool found = false;
             for (FrameNumber k = lost->recorded; k <= lost->armed && !found; ++k) {
@@ -98,7 +100,8 @@ private:
         const bool asked = std::ranges::any_of(recording_.emergencies, [&](const Emergency& e) {
             return track.commanded <= e.rests && track.commanded + track.commanded_ticks >= e.asked;
         });
-        if (track.cut && !asked) { object(i, track.start, "a frame was cut short"); }
+        const bool stopped = may_be_stopped(recording_, i, track.commanded, track.commanded + track.commanded_ticks);
+        if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
     }
 
     /// All the same, but whom a fault may have parted from the others; and nobody by more than a frame, ever.

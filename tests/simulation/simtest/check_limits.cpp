@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/explain.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -51,7 +52,7 @@ public:
           first_(job.first_step[axis]),
           rounding_(own_clock(recording.machine).rounding),
           stretch_(own_clock(recording.machine).stretch),
-          ceases_(job.emergency.has_value()),
+          ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
           violations_(violations) {
         // Steps beyond the course are another check's matter.
         if (course_ != nullptr) { steps_ = steps_.first(std::min(steps_.size(), course_->move_of_step.size())); }

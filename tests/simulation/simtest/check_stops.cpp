@@ -35,6 +35,32 @@ void check_emergency(const Recording& recording, const Emergency& emergency, Vio
     }
 }
 
+/// The device makes no pulse towards a limit switch that is closed.
+void check_limit(const Recording& recording, const VirtualFault& fault, Violations& violations) {
+    const bool is_limit =
+        fault.kind == VirtualFault::Kind::Stick && fault.closed && fault.contact != &PlantInputs::home;
+    if (!is_limit) { return; }
+    const int towards = fault.contact == &PlantInputs::limit_min ? -1 : 1;
+    const Ticks rounding{2};  // of the device's time to the true one
+    for (const StepEdge& step : recording.axes[fault.process].steps) {
+        const Tick tick = recording.axes[fault.process].truth(step);
+        if (step.direction != towards || tick <= fault.at + rounding || tick + rounding > fault.end()) { continue; }
+        violations.push_back({"limit", fault.process, tick.value, {}, "a pulse towards a limit switch that is closed"});
+        return;
+    }
+}
+
+/// A motion that was cut short is said, before anything else is begun.
+void check_cut_is_said(const Recording& recording, std::size_t i, const Track& track, Violations& violations) {
+    const auto next = recording.epochs.upper_bound(track.epoch);
+    if (!track.cut || track.epoch == 0 || next == recording.epochs.end()) { return; }
+    const bool said = std::ranges::any_of(recording.machine_faults, [&](Tick tick) {
+        return tick >= recording.epochs.at(track.epoch).first_sent && tick <= next->second.first_sent;
+    });
+    if (said) { return; }
+    violations.push_back({"limit", i, track.start.value, {}, "its motion was cut short, and the machine goes on"});
+}
+
 }  // namespace
 
 Violations check_stops(const Recording& recording) {
@@ -44,6 +70,10 @@ Violations check_stops(const Recording& recording) {
         if (!is_disturbed(recording, tick)) {
             violations.push_back({"needless stop", {}, tick.value, {}, "the machine paused for nothing"});
         }
+    }
+    for (const VirtualFault& fault : recording.faults) { check_limit(recording, fault, violations); }
+    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        for (const Track& track : recording.axes[i].tracks) { check_cut_is_said(recording, i, track, violations); }
     }
     return violations;
 }

@@ -139,7 +139,8 @@ private:
     std::vector<Axis> axes_;
 };
 
-/// Until pulses are told to cease; an axis that a fault may part from the others, until it has.
+/// Until pulses are told to cease; an axis that a fault may part from the others, until it has; one that a switch
+/// may stop, until then.
 std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,
                               const JobRecord& job) {
     std::vector<Tick> until(recording.axes.size(), job.emergency.value_or(job.ended));
@@ -150,7 +151,8 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
         }
     }
     for (const VirtualFault& fault : recording.faults) {
-        const bool ends = fault.kind == VirtualFault::Kind::Crash && fault.process < until.size();
+        const bool ends =
+            (fault.kind == VirtualFault::Kind::Crash || fault.is_of_plant()) && fault.process < until.size();
         if (ends && fault.at >= job.began) { until[fault.process] = std::min(until[fault.process], fault.at); }
     }
     return until;

@@ -35,7 +35,12 @@ constexpr std::array kInjectedNames{"freeze of an axis that must not stop the ma
                                     "stall in a loop of an axis",
                                     "stall in a loop of the coordinator",
                                     "clock set forward",
-                                    "clock set back"};
+                                    "clock set back",
+                                    "limit switch stuck",
+                                    "home switch stuck closed",
+                                    "home switch stuck open",
+                                    "slide pushed",
+                                    "frame damaged in a device"};
 
 std::string row_name(const AxisTransition& row) {
     return std::string(name_of(row.from)) + " on " + std::string(name_of(row.event));
@@ -44,10 +49,14 @@ std::string row_name(const AxisTransition& row) {
 std::string_view injected_name(const VirtualFault& fault, const MachineConfig& machine) {
     const std::size_t coordinator = fault.process >= machine.axes.size() ? 1 : 0;
     if (fault.in_loop) { return kInjectedNames[12 + coordinator]; }
+    const bool home = fault.contact == &PlantInputs::home;
     switch (fault.kind) {
         case VirtualFault::Kind::SetClock: return kInjectedNames[fault.set_by > Ticks{} ? 14 : 15];
         case VirtualFault::Kind::Freeze: return kInjectedNames[coordinator + (is_tolerable(fault, machine) ? 0 : 2)];
         case VirtualFault::Kind::Crash: return kInjectedNames[4 + coordinator];
+        case VirtualFault::Kind::Stick: return kInjectedNames[!home ? 16 : (fault.closed ? 17 : 18)];
+        case VirtualFault::Kind::Push: return kInjectedNames[19];
+        case VirtualFault::Kind::DamageFrame: return kInjectedNames[20];
         case VirtualFault::Kind::Cut: break;
     }
     const std::size_t one_way = fault.outgoing && fault.incoming ? 0 : 1;

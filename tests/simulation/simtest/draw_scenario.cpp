@@ -2,6 +2,7 @@
 
 #include "tests/simulation/simtest/draw_fault.hpp"
 #include "tests/simulation/simtest/draw_machine.hpp"
+#include "tests/simulation/simtest/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw_program.hpp"
 #include "tests/simulation/simtest/draw_takeover.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
@@ -130,6 +131,38 @@ void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scen
     }
 }
 
+/// A search over the whole travel, as a stuck switch may cause, and as follows a fault far from the switch.
+double longest_search_slots(const MachineConfig& machine) {
+    double longest = 0;
+    for (const AxisConfig& axis : machine.axes) {
+        const double travel = axis.position_max_mm - axis.position_min_mm;
+        longest = std::max(longest, travel / axis.homing.search_velocity_mm_s);
+    }
+    return longest * 1e6 / static_cast<double>(machine.timing.slot_us);
+}
+
+/// Faults of axes' switches, slides and devices in jobs and homings, alone or shortly after what else goes wrong there.
+void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
+    Draw draw(seed ^ 0x0102030405060708U);
+    constexpr double kLongSearch = 40'000;
+    if (longest_search_slots(scenario.machine) > kLongSearch) { return; }
+    if (mixed && draw.chance(0.7)) { return; }
+    scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}});
+    scenario.asks_in_fault = draw.chance(0.5);
+    if (draw.chance(0.4)) { scenario.homing_faults = {draw_plant_fault_of_homing(draw, scenario.machine)}; }
+    for (std::size_t n = 0; n + 1 < scenario.tasks.size(); ++n) {
+        PlannedFault planned = draw_plant_fault(draw, scenario.machine);
+        auto& faults = scenario.tasks[n].faults;
+        if (!faults.empty() && draw.chance(0.5)) {
+            planned.edge = PlannedFault::Edge::Before;
+            planned.slots = draw.real(0, 2.0 * scenario.machine.timing.frame_slots);
+        } else {
+            faults.clear();
+        }
+        faults.push_back(planned);
+    }
+}
+
 /// Set seconds apart, up to 100 ppm fast or slow, processes and devices each for themselves.
 void give_clocks(Draw& draw, Scenario& scenario) {
     MachineConfig& machine = scenario.machine;
@@ -173,6 +206,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optiona
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
     if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }
+    if (asked.limit) { give_plant_faults(seed, asked.mixed, scenario); }
     return scenario;
 }
 

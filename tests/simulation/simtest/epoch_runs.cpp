@@ -27,7 +27,7 @@ LastFrame from_steps(const AxisRecord& axis, const LostRun& lost, const SentEpoc
         if (steps_to_rest(epoch, i, lost.recorded, k) != net) { continue; }
         found = LastFrame{found ? found->low : k, k};
     }
-    return found.value_or(LastFrame{lost.recorded, lost.recorded});
+    return found.value_or(LastFrame{lost.recorded, lost.armed});  // it was stopped on the way
 }
 
 /// Faults that can have had a say in an epoch, from when its first frame was made to the end of its last.

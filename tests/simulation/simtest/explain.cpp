@@ -15,6 +15,9 @@ enum class Cause : std::uint8_t {
     CrashOfCoordinator,
     Cut,
     SetClock,
+    Switch,
+    Push,
+    DamagedFrame,
     OwnClocks
 };
 
@@ -44,6 +47,13 @@ constexpr std::array kExplanations{
     Explanation{Cause::SetClock, FaultCode::FrameLate},
     Explanation{Cause::SetClock, FaultCode::FramesDiffer},
     Explanation{Cause::SetClock, FaultCode::AxisLost},
+    Explanation{Cause::Switch, FaultCode::LimitHit},
+    Explanation{Cause::Switch, FaultCode::HomeSwitchStuck},
+    Explanation{Cause::Switch, FaultCode::HomeSwitchNotFound},
+    Explanation{Cause::Push, FaultCode::FollowingError},
+    Explanation{Cause::Push, FaultCode::LimitHit},
+    Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
+    Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
     // Whoever does not hear the coordinator's clock for long is no longer certain of it.
     Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
@@ -58,6 +68,9 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
         case VirtualFault::Kind::Crash:
             return is_coordinator(fault, machine) ? Cause::CrashOfCoordinator : Cause::CrashOfAxis;
         case VirtualFault::Kind::SetClock: return Cause::SetClock;
+        case VirtualFault::Kind::Stick: return Cause::Switch;
+        case VirtualFault::Kind::Push: return Cause::Push;
+        case VirtualFault::Kind::DamageFrame: return Cause::DamagedFrame;
         case VirtualFault::Kind::Cut: break;
     }
     return Cause::Cut;
@@ -86,6 +99,7 @@ bool explains(const Recording& recording, FaultCode fault) {
 }
 
 bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine) {
+    if (fault.kind == VirtualFault::Kind::Stick && fault.contact == &PlantInputs::home) { return true; }
     if (fault.kind != VirtualFault::Kind::Freeze) { return false; }
     const ProtocolTiming& t = machine.timing;
     // A coordinator must not only be back in time, but make and send the next frame in time.
@@ -99,6 +113,14 @@ std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const Machine
     const bool cut_off = !fault.peer && fault.outgoing && fault.incoming;
     if (fault.kind == VirtualFault::Kind::Cut && !cut_off) { return std::nullopt; }
     return fault.process;
+}
+
+bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
+    return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        const bool mine = fault.is_of_plant() && fault.process == axis;
+        const bool over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
+        return mine && !over && fault.at <= until;
+    });
 }
 
 }  // namespace lockstep::simtest

@@ -32,6 +32,8 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults override,loss
   standby    a second coordinator stands by, and takeovers go wrong:
                                                      lockstep-simtest --faults standby --axes 2
+  limit      a switch is stuck, a slide is pushed, a device loses a frame:
+                                                     lockstep-simtest --faults limit --axes 3
   mixed      a half of the other kinds named, in each run:
                                                      lockstep-simtest --faults mixed,loss,clock
 
@@ -63,13 +65,18 @@ int main(int argc, char** argv) {
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
-                               "corrupt", "stall", "clock", "override", "standby", "mixed", "all"}));
+                               "corrupt", "stall", "clock", "override", "standby", "limit", "mixed", "all"}));
     app.footer(kKinds);
+    app.add_option("--coverage", options.coverage, "a file for what the runs came to, as JSON");
     app.add_flag("--json", options.json, "the figures as JSON");
     app.add_flag("--trace", options.trace, "what happens in a run, a line for each event");
     app.add_flag("--verbose", options.verbose, "a line for every run");
     CLI11_PARSE(app, argc, argv);
     const Tally tally = run_all(options);
     print_tally(tally, options);
+    if (!options.coverage.empty() && !save_coverage(tally.coverage, options.coverage)) {
+        std::fprintf(stderr, "%s: cannot be written; name a file in a folder that exists\n", options.coverage.c_str());
+        return 2;
+    }
     return tally.failed == 0 ? 0 : 1;
 }

@@ -51,6 +51,15 @@ bool is_refusal(const Reply& reply, FaultCode why) {
     return reply.status == ReplyStatus::Refused && reply.fault == static_cast<std::uint16_t>(why);
 }
 
+/// A machine in Fault does nothing before it is reset. Another owner may know of no fault.
+void ask_in_fault(Bench& bench) {
+    const auto before = bench.steps_made();
+    const Reply* reply = bench.ask(CommandKind::Home);
+    if (reply == nullptr) { return; }
+    const bool moves = bench.faulted() && bench.steps_made() != before;
+    if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
+}
+
 }  // namespace
 
 void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
@@ -119,6 +128,7 @@ void make_ready(Bench& bench, Counts& at) {
         if (in(MachinePhase::Idle)) {
             play_homing(bench, at);
         } else if (bench.faulted()) {
+            if (bench.asks_in_fault()) { ask_in_fault(bench); }
             const Reply* reply = bench.ask(CommandKind::Reset);
             if (reply != nullptr && reply->status != ReplyStatus::Accepted) {
                 bench.object("reset", answer_text(*reply));

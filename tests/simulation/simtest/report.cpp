@@ -21,21 +21,25 @@ std::string place(const Violation& v) {
     return text;
 }
 
+void write_coverage(std::FILE* to, const Coverage& coverage) {
+    const char* between_groups = "";
+    for (const auto& [group, counts] : coverage.groups()) {
+        std::fprintf(to, "%s\"%s\": {", between_groups, group.c_str());
+        between_groups = ", ";
+        const char* between = "";
+        for (const auto& [name, times] : counts) {
+            std::fprintf(to, "%s\"%s\": %" PRIu64, between, name.c_str(), times);
+            between = ", ";
+        }
+        std::fprintf(to, "}");
+    }
+}
+
 void print_json(const Tally& t) {
     std::printf("{\"runs\": %" PRIu64 ", \"failed\": %" PRIu64 ", \"faulted\": %" PRIu64 ", \"parted\": %" PRIu64
                 ", \"steps\": %" PRIu64 ", \"simulatedHours\": %.6f, \"wallSeconds\": %.3f, \"coverage\": {",
                 t.runs, t.failed, t.faulted, t.parted, t.steps, t.simulated_s / 3600, t.wall_s);
-    const char* between_groups = "";
-    for (const auto& [group, counts] : t.coverage.groups()) {
-        std::printf("%s\"%s\": {", between_groups, group.c_str());
-        between_groups = ", ";
-        const char* between = "";
-        for (const auto& [name, times] : counts) {
-            std::printf("%s\"%s\": %" PRIu64, between, name.c_str(), times);
-            between = ", ";
-        }
-        std::printf("}");
-    }
+    write_coverage(stdout, t.coverage);
     std::printf("}}\n");
 }
 
@@ -67,7 +71,7 @@ FaultKinds Options::kinds() const {
     if (has("all")) { return FaultKinds::all(); }
     return {has("delay"), has("reorder"),   has("duplicate"), has("loss"),  has("freeze"),
             has("crash"), has("partition"), has("corrupt"),   has("stall"), has("clock"),
-            has("mixed"), has("override"),  has("standby")};
+            has("mixed"), has("override"),  has("standby"),   has("limit")};
 }
 
 void Tally::add(const Verdict& verdict) {
@@ -101,5 +105,14 @@ void print_run(std::uint64_t seed, const Verdict& verdict, const Options& option
 }
 
 void print_tally(const Tally& t, const Options& options) { options.json ? print_json(t) : print_text(t); }
+
+bool save_coverage(const Coverage& coverage, const std::string& path) {
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    if (file == nullptr) { return false; }
+    std::fprintf(file, "{");
+    write_coverage(file, coverage);
+    std::fprintf(file, "}\n");
+    return std::fclose(file) == 0;
+}
 
 }  // namespace lockstep::simtest

@@ -16,6 +16,7 @@ struct Options {
     std::optional<std::size_t> axes;
     std::vector<std::string> faults{"none"};
     bool json = false;
+    std::string coverage;  // the file to write it into; empty: none
     bool verbose = false;
     bool trace = false;
 
@@ -37,6 +38,8 @@ struct Tally {
 
 /// What was violated and where, and the command line that replays it.
 void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options);
+/// As JSON. False: the file cannot be written.
+[[nodiscard]] bool save_coverage(const Coverage& coverage, const std::string& path);
 void print_tally(const Tally& tally, const Options& options);
 
 }  // namespace lockstep::simtest

@@ -31,10 +31,11 @@ struct FaultKinds {
     bool mixed = false;  // each kind is there in half of the runs only
     bool override = false;
     bool standby = false;  // a second coordinator, and faults about takeovers
+    bool limit = false;    // switches, slides and devices
 
-    bool breaks_processes() const { return freeze || crash || partition || stall || clock || standby; }
+    bool breaks_processes() const { return freeze || crash || partition || stall || clock || standby || limit; }
     static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true, true};
+        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true};
     }
 };
 
@@ -101,6 +102,7 @@ struct Scenario {
     std::size_t coordinators = 1;
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
+    bool asks_in_fault = false;                // for a homing, which must then be refused
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 

@@ -10,9 +10,18 @@ namespace lockstep::simtest {
 namespace {
 
 std::string text_of(const AxisNotice& notice) {
-    constexpr std::array kNames{
-        "coordinator adopted", "epoch begun", "epoch ended", "frame refused", "vetoes",
-        "homing stage",        "homed",       "fault",       "reset",         "command refused"};
+    constexpr std::array kNames{"coordinator adopted",
+                                "epoch begun",
+                                "epoch ended",
+                                "frame refused",
+                                "vetoes",
+                                "homing stage",
+                                "homed",
+                                "fault",
+                                "reset",
+                                "command refused",
+                                "homed by the kept position",
+                                "kept position unproved"};
     const auto kind = static_cast<std::size_t>(notice.kind);
     const std::string name = kind < kNames.size() ? kNames[kind] : "notice " + std::to_string(kind);
     return name + " " + std::to_string(notice.number) + " " + std::string(name_of(notice.fault));
@@ -74,7 +83,7 @@ void Trace::on_coordinator(std::size_t number, Tick now, const CoordinatorOutput
 }
 
 void Trace::on_fault(Tick now, const VirtualFault& fault, bool begins) {
-    constexpr std::array kKinds{"freeze", "crash", "cut", "clock set"};
+    constexpr std::array kKinds{"freeze", "crash", "cut", "clock set", "switch stuck", "push", "damaged frame"};
     const std::string peer = fault.peer ? " from " + process(*fault.peer) : " from all";
     const std::string ways = std::string(fault.outgoing ? ", unheard" : "") + (fault.incoming ? ", deaf" : "");
     line(now, process(fault.process),

@@ -65,21 +65,30 @@ std::vector<std::string> names_of(const std::vector<ServiceLine>& lines) {
     return names;
 }
 
+Placement all() { return {.coordinator = true, .axes = {0, 1}}; }
+
 TEST(ServiceLines, AreACoordinatorAndAnAxisEach) {
-    const auto lines = service_lines(two_axes(), {}, "/opt/bin", StateDirectory("mill"));
+    const auto lines = service_lines(two_axes(), all(), {}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "axis-X", "axis-Y"));
     EXPECT_EQ(lines[1].words[0], "/opt/bin/lockstep-axis");
     EXPECT_THAT(lines[1].words, Contains(StateDirectory("mill").machine_file().string()));
 }
 
+TEST(ServiceLines, AreOnlyOfWhatIsPlacedOnTheHost) {
+    const auto on_a_board = service_lines(two_axes(), {.axes = {1}}, {}, "/opt/bin", StateDirectory("mill"));
+    EXPECT_THAT(names_of(on_a_board), ElementsAre("axis-Y"));
+    const auto on_the_main_host = service_lines(two_axes(), {.coordinator = true}, {}, "/opt/bin", StateDirectory("m"));
+    EXPECT_THAT(names_of(on_the_main_host), ElementsAre("coordinator"));
+}
+
 TEST(ServiceLines, WithAStandbyHaveTwoCoordinatorsOfEqualRank) {
-    const auto lines = service_lines(two_axes(), {.standby = true}, "/opt/bin", StateDirectory("mill"));
+    const auto lines = service_lines(two_axes(), all(), {.standby = true}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "coordinator-2", "axis-X", "axis-Y"));
     for (const std::size_t i : {0, 1}) { EXPECT_THAT(lines[i].words, Contains("--standby")); }
 }
 
 TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
-    const auto lines = service_lines(two_axes(), {.fpga = FpgaKind::Shared}, "/opt/bin", StateDirectory("mill"));
+    const auto lines = service_lines(two_axes(), all(), {.fpga = FpgaKind::Shared}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("fpga-X", "fpga-Y", "coordinator", "axis-X", "axis-Y"));
     EXPECT_EQ(lines[0].words.back(), "lockstep-mill-X");
     EXPECT_THAT(lines[3].words, Contains("shm:lockstep-mill-X"));

@@ -75,10 +75,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("record { directory: \"logs\" }"), 11, 10, "an absolute path"},
                     Refusal{machine_with("position_directory: \"places\""), 11, 1, "an absolute path"},
                     Refusal{machine_with("record { size_limit_mb: 0 }"), 11, 10, "1 to 1000000"},
+                    Refusal{machine_with("record { flight { memory_kb: 1 } }"), 11, 19, "from 64 to 65536"},
+                    Refusal{machine_with("record { flight { files: 0 } }"), 11, 19, "from 1 to 1000"},
                     Refusal{machine_with("network { interface: \"\" }"), 11, 11, "name an interface"},
                     Refusal{machine_with("network { interface: \"<lo>\" }"), 11, 11, "<lo>"},
                     Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
                     Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Hosts, MachineRefused,
+    testing::Values(Refusal{axis_with("host: \"a b\""), 10, 3, "host is \"a b\"; the name of a host"},
+                    Refusal{axis_with("device: \"usb\""), 10, 3, "sim, shm:NAME or uio:PATH"},
+                    Refusal{axis_with("device: \"uio:uio0\""), 10, 3, "such as uio:/dev/uio0"},
+                    Refusal{machine_with("coordinator_host: \"-\""), 11, 1, "the name of a host"},
+                    Refusal{machine_with("real_time { priority: 100 }"), 11, 13, "0 to 99"},
+                    Refusal{machine_with("real_time { cpus: 0 cpus: 1024 }"), 11, 1, "has 1024"},
+                    Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" network { interface: \"eth0\" }", 1, 1,
+                            "one host's clock, but the machine is on several hosts, such as b and a"},
+                    Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" timing { time_source: NETWORK }", 1, 1,
+                            "network.interface is lo, but"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Method, MachineRefused,

@@ -29,6 +29,9 @@ TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
     EXPECT_TRUE(machine.record.own_logs);
     EXPECT_EQ(machine.record.directory, "");
     EXPECT_EQ(machine.record.size_limit_mb, 256);
+    EXPECT_TRUE(machine.record.flight.kept);
+    EXPECT_EQ(machine.record.flight.memory_kb, 1024);
+    EXPECT_EQ(machine.record.flight.files, 20);
     ASSERT_EQ(machine.axes.size(), 1U);
     EXPECT_EQ(machine.axes[0].max_decel_mm_s2, 1500);
 }
@@ -85,6 +88,7 @@ TEST(MachineFile, ZeroIsAValueAndNotAnAbsence) {
 TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
     for (const auto& text : {std::string(kShortest), with("80", "53.333333333333336"), machine_with("tick_ns: 250"),
                              machine_with("record { own_logs: false directory: \"/tmp/x\" size_limit_mb: 7 }"),
+                             machine_with("record { flight { kept: false memory_kb: 64 files: 3 } }"),
                              axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
                              axis_with("method: CARRICA")}) {
         const MachineConfig machine = parse(text);

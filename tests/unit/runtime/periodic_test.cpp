@@ -51,12 +51,6 @@ TEST(PeriodicLoop, EndsAtASignal) {
     EXPECT_EQ(runs, 3);
 }
 
-TEST(RealTime, SaysWhatCameOfIt) {
-    std::string said;
-    std::thread([&] { said = try_real_time(1); }).join();  // a thread's own scheduler goes with it
-    EXPECT_TRUE(said.starts_with("scheduler FIFO, priority 1") || said.starts_with("scheduler normal: ")) << said;
-}
-
 TEST(MachineClock, CountsTicksOfTheMonotonicClock) {
     const MachineClock clock(2000);
     EXPECT_EQ(clock.tick_at(4999ns), Tick{2});

@@ -83,6 +83,19 @@ TEST(Slide, LimitSwitchesCloseAMarginBeyondTheTravel) {
     EXPECT_TRUE(plant.inputs().limit_max);
 }
 
+TEST(Slide, AStuckSwitchReadsAsItIsStuckUntilItIsNotAnyMore) {
+    Plant plant(axis(), 1000);
+    plant.stick(&PlantInputs::limit_max, true);
+    EXPECT_EQ(plant.inputs(), (PlantInputs{.limit_max = true}));
+    plant.stick(&PlantInputs::limit_max, {});
+    EXPECT_EQ(plant.inputs(), PlantInputs{});
+    plant.push(-52 * 80);
+    plant.stick(&PlantInputs::limit_min, false);
+    EXPECT_FALSE(plant.inputs().limit_min);
+    plant.stick(&PlantInputs::limit_min, {});
+    EXPECT_TRUE(plant.inputs().limit_min);
+}
+
 TEST(Slide, TheHomeSwitchIsClosedFromItsPositionOnTowardItsEnd) {
     Plant down(axis(), 1000);
     down.push(-49 * 80 + 1);

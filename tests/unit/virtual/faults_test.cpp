@@ -57,6 +57,15 @@ TEST_F(Faults, AStallThatTheSlotsAllowForIsNotEvenNoticed) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
 }
 
+TEST_F(Faults, NothingIsBegunWithoutAnAxis) {
+    home();
+    befall(Kind::Crash, kY, 100);
+    wait(1);
+    const Reply reply = run(program_of({{20, 10}}, 40));
+    EXPECT_EQ(reply.status, ReplyStatus::Refused);
+    EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::AxisMissing) << reply.text;
+}
+
 TEST_F(Faults, AStalledCoordinatorOnlyCostsTime) {
     Epochs epochs;
     vm.observe(epochs);

@@ -62,6 +62,24 @@ axis_position_t a_position() {
                   AxisState{.homed = true, .position = Position::steps(800), .velocity = {INT64_MAX}, .tick = {5000}});
 }
 
+flight_head_t a_flight_head() {
+    flight_head_t head{};
+    head.machine = "mill";
+    head.process = "axis-X";
+    head.reason = "veto";
+    head.config = "name: 'mill'";
+    return head;
+}
+
+flight_event_t a_flight_event() {
+    flight_event_t event{};
+    event.machine = "mill";
+    event.process = "axis-X";
+    event.what = "vetoed";
+    event.frame = 17;
+    return event;
+}
+
 template <typename Message>
 void expect_decodes_back(const Message& message) {
     const Bytes bytes = encoded(message);
@@ -76,6 +94,8 @@ TEST(LcmDecode, EveryMessageOfTheRecordComesBack) {
     expect_decodes_back(a_job());
     expect_decodes_back(a_position());
     expect_decodes_back(a_health());
+    expect_decodes_back(a_flight_head());
+    expect_decodes_back(a_flight_event());
 }
 
 TEST(LcmDecode, AnotherTypeIsRefused) { EXPECT_FALSE(decode_lcm<run_t>(encoded(a_batch()))); }
@@ -102,6 +122,8 @@ TEST(LcmDecode, DamageIsRefusedOrHarmless) {
     expect_survives_damage(a_job());
     expect_survives_damage(a_position());
     expect_survives_damage(a_health());
+    expect_survives_damage(a_flight_head());
+    expect_survives_damage(a_flight_event());
 }
 
 TEST(LcmDecode, ACountThatLiesIsRefused) {

@@ -1,0 +1,165 @@
+#include "clients/incident/cause.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "clients/incident/rest.hpp"
+#include "clients/incident/sentences.hpp"
+#include "clients/incident/suspects.hpp"
+
+namespace lockstep::incident {
+namespace {
+
+/// What shows first that something is wrong.
+bool is_symptom(const FlightEvent& event) {
+    switch (event.kind) {
+        case FlightKind::Vetoed:
+        case FlightKind::Fault:
+        case FlightKind::PeerFault:
+        case FlightKind::FrameRefused:
+        case FlightKind::PulsesStopped:
+        case FlightKind::PeerRestarted: return true;
+        case FlightKind::Incident: {
+            const auto reason = static_cast<IncidentReason>(event.detail);
+            return reason != IncidentReason::Asked && reason != IncidentReason::Ended;
+        }
+        default: return false;
+    }
+}
+
+const Entry* first_symptom(const Incident& incident) {
+    const auto found = std::ranges::find_if(incident.timeline, [](const Entry& e) { return is_symptom(e.event); });
+    return found == incident.timeline.end() ? nullptr : &*found;
+}
+
+/// Whose doing the symptom may be; the process itself where it names nobody.
+std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& symptom) {
+    const FlightEvent& event = symptom.event;
+    const FlightPeer self = incident.processes[symptom.process].who;
+    if (event.kind != FlightKind::Vetoed) { return {event.about == FlightPeer{} ? self : event.about}; }
+    switch (static_cast<VetoReason>(event.detail)) {
+        case VetoReason::TooLate: return {self};
+        case VetoReason::NotHeld: return {kFlightCoordinator, self};
+        case VetoReason::NoEvidence: break;
+    }
+    std::vector<FlightPeer> lacking;
+    for (std::size_t i = 0; i < kMaxAxes; ++i) {
+        if ((event.count >> i & 1) != 0) { lacking.push_back(flight_axis(i)); }
+    }
+    return lacking;
+}
+
+/// A fault that an axis or the machine notices in itself is its own cause, but for these: somebody is missing.
+bool is_own_fault(const FlightEvent& event) {
+    const bool is_fault = event.kind == FlightKind::Fault || event.kind == FlightKind::PeerFault;
+    return is_fault && event.fault != FaultCode::AxisLost && event.fault != FaultCode::FramesDiffer &&
+           event.fault != FaultCode::FrameLate && event.fault != FaultCode::PositionMismatch;
+}
+
+bool is_emergency(const FlightEvent& event) {
+    return event.kind == FlightKind::PulsesStopped || event.fault == FaultCode::EmergencyStopped;
+}
+
+Cause own_fault(const Incident& incident, const Entry& symptom) {
+    const FlightEvent& event = symptom.event;
+    const FlightPeer who = suspects_of(incident, symptom).front();
+    if (is_emergency(event)) {
+        return {CauseKind::EmergencyStop, std::nullopt, "an emergency stop was commanded", symptom.tick, {}};
+    }
+    const FaultText* text = find_fault(event.fault);
+    return {CauseKind::Fault,
+            who,
+            fmt::format("{}: {}; {}", peer_name(incident.machine, who), lockstep::name_of(event.fault),
+                        text == nullptr ? "" : text->cause),
+            symptom.tick,
+            {}};
+}
+
+std::string who_left_nothing(const Incident& incident, const std::vector<FlightPeer>& suspects) {
+    std::string text;
+    for (const FlightPeer who : suspects) {
+        const bool has_file = std::ranges::count(incident.processes, who, &Process::who) > 0;
+        if (!has_file) { text += (text.empty() ? "" : " and ") + peer_name(incident.machine, who); }
+    }
+    return text;
+}
+
+Cause unknown(const Incident& incident, const Entry& symptom) {
+    const std::string left_nothing = who_left_nothing(incident, suspects_of(incident, symptom));
+    const std::string why = left_nothing.empty()
+                                ? "why is in none of the files"
+                                : left_nothing +
+                                      " left no file here: lockstep flight on its host reads what it noted, "
+                                      "also where its process is stopped or dead";
+    return {CauseKind::Unknown, std::nullopt, why, std::nullopt, {}};
+}
+
+Cause cause_of(const Incident& incident, const Entry& symptom) {
+    if (is_own_fault(symptom.event) || is_emergency(symptom.event)) { return own_fault(incident, symptom); }
+    for (const FlightPeer suspect : suspects_of(incident, symptom)) {
+        if (auto cause = explain(incident, suspect, symptom.tick)) { return *cause; }
+    }
+    if (auto cause = explain_by_network(incident, symptom.tick)) { return *cause; }
+    if (symptom.event.kind == FlightKind::Fault) { return own_fault(incident, symptom); }
+    return unknown(incident, symptom);
+}
+
+/// Where nobody noticed anything: somebody ended, or nothing was wrong.
+Cause cause_without_symptom(const Incident& incident) {
+    for (const Process& process : incident.processes) {
+        if (process.ended) {
+            return {CauseKind::Ended,
+                    process.who,
+                    fmt::format("the process of {} ended without a word: killed, or crashed",
+                                peer_name(incident.machine, process.who)),
+                    process.last,
+                    {}};
+        }
+    }
+    return {CauseKind::Asked, std::nullopt, "nothing was wrong: what was noted was asked for", std::nullopt, {}};
+}
+
+std::string noticed_text(const Incident& incident, const Entry& symptom, const Cause& cause) {
+    std::string text = incident.processes[symptom.process].name + " " + sentence(incident, symptom);
+    if (symptom.event.kind == FlightKind::Incident) {
+        const auto name = lockstep::name_of(static_cast<IncidentReason>(symptom.event.detail));
+        text = fmt::format("{} noticed it ({})", incident.processes[symptom.process].name, name);
+    }
+    if (!cause.at || *cause.at >= symptom.tick) { return text; }
+    return text + ", " + duration(incident.seconds(symptom.tick - *cause.at)) + " later";
+}
+
+std::string rest_text(const Incident& incident, const Verdict& verdict) {
+    if (!verdict.rest) { return "no axis was moving"; }
+    const Ticks after = *verdict.rest - verdict.noticed;
+    if (after < Ticks{}) { return "all axes had come to rest " + duration(-incident.seconds(after)) + " before that"; }
+    return "all axes at rest " + duration(incident.seconds(after)) + " after that";
+}
+
+}  // namespace
+
+std::string_view name_of(CauseKind kind) {
+    constexpr std::array<std::string_view, 10> kNames{
+        "process-ended", "process-stalled", "process-hangs",  "host-stalled", "cut-off",
+        "fault",         "frame-refused",   "emergency-stop", "asked",        "unknown"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+Verdict judge(const Incident& incident) {
+    const Entry* symptom = first_symptom(incident);
+    if (symptom == nullptr) {
+        Verdict verdict{.cause = cause_without_symptom(incident), .noticed = {}, .rest = {}, .story = {}};
+        const Tick last = incident.timeline.empty() ? Tick{} : incident.timeline.back().tick;
+        verdict.noticed = verdict.cause.at.value_or(last);
+        verdict.story = {verdict.cause.text};
+        return verdict;
+    }
+    Verdict verdict{cause_of(incident, *symptom), symptom->tick, {}, {}};
+    verdict.rest = all_at_rest(incident, std::min(verdict.noticed, verdict.cause.at.value_or(verdict.noticed)));
+    verdict.story = {verdict.cause.text, noticed_text(incident, *symptom, verdict.cause), rest_text(incident, verdict)};
+    return verdict;
+}
+
+}  // namespace lockstep::incident

@@ -1,0 +1,25 @@
+// One incident file, read as far as it goes.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/damage.hpp"
+#include "services/flight/flight_messages.hpp"
+
+namespace lockstep::incident {
+
+struct FlightFile {
+    std::filesystem::path path;
+    FlightHead head;
+    MachineConfig machine;  // as its process had it
+    std::vector<NumberedEvent> events;
+    std::vector<analysis::Damage> damages;
+};
+
+/// Error, for the user: the file is missing or no incident file, and what to give instead.
+std::expected<FlightFile, std::string> read_flight_file(const std::filesystem::path& path);
+
+}  // namespace lockstep::incident

@@ -1,0 +1,11 @@
+// An incident as a report: for --json, and for the page.
+#pragma once
+
+#include "clients/incident/cause.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep::incident {
+
+proto::IncidentReport to_report(const Incident& incident, const Verdict& verdict);
+
+}  // namespace lockstep::incident

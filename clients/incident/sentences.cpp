@@ -1,0 +1,207 @@
+#include "clients/incident/sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/protocol/names.hpp"
+#include "services/record/job_recorder.hpp"
+
+namespace lockstep::incident {
+namespace {
+
+using Kind = FlightKind;
+
+std::string fault_words(FaultCode code) {
+    const FaultText* fault = find_fault(code);
+    return fault == nullptr ? std::string(lockstep::name_of(code)) : fmt::format("{} ({})", fault->name, fault->cause);
+}
+
+std::string veto_words(const Incident& incident, const FlightEvent& event) {
+    switch (static_cast<VetoReason>(event.detail)) {
+        case VetoReason::TooLate: return "it looked too late itself";
+        case VetoReason::NotHeld: return "it has not got it";
+        case VetoReason::NoEvidence:
+            return "nothing fresh from " + axes_named(incident.machine, event.count) + " says that it is held there";
+    }
+    return "for a reason that is not known";
+}
+
+std::string homing_words(std::int64_t stage) {
+    constexpr std::array<std::string_view, 6> kStages{"ended",   "searches the switch", "pulls off", "latches", "parks",
+                                                      "releases"};
+    const bool is_known = stage >= 0 && stage < static_cast<std::int64_t>(kStages.size());
+    return "homing: " + std::string(is_known ? kStages[static_cast<std::size_t>(stage)] : "a stage that is not known");
+}
+
+std::string phase_words(const Incident& incident, const Entry& entry) {
+    const bool is_axis = incident.processes[entry.process].who.kind == FlightPeer::Kind::Axis;
+    const auto phase = is_axis ? name_of(static_cast<AxisPhase>(entry.event.detail))
+                               : name_of(static_cast<MachinePhase>(entry.event.detail));
+    return (is_axis ? "is in " : "machine is ") + std::string(phase);
+}
+
+/// Of what was heard.
+std::string heard_words(const Incident& incident, const FlightEvent& event) {
+    const std::string who = peer_name(incident.machine, event.about);
+    const double lasts = incident.seconds(event.lasts);
+    switch (event.kind) {
+        case Kind::PeerSilent: return fmt::format("has heard nothing of {} for {}", who, duration(lasts));
+        case Kind::PeerHeard:
+            return event.lasts == Ticks{} ? "hears " + who
+                                          : fmt::format("hears {} again, after {}", who, duration(lasts));
+        case Kind::PeerVeto: return fmt::format("hears {}'s veto of frame {}", who, event.frame);
+        case Kind::PeerFault: return fmt::format("hears of {}'s fault: {}", who, lockstep::name_of(event.fault));
+        case Kind::PeerRestarted: return fmt::format("hears another process speak for {}", who);
+        case Kind::CommandHeard: return fmt::format("is asked to {}", name_of(static_cast<CommandKind>(event.detail)));
+        case Kind::OrderHeard:
+            return fmt::format("is ordered to {}", name_of(static_cast<AxisCommandKind>(event.detail)));
+        default: return "hears that the machine is " + std::string(name_of(static_cast<MachinePhase>(event.detail)));
+    }
+}
+
+bool is_end(const FlightEvent& event) {
+    return event.kind == Kind::Incident && event.detail == static_cast<std::uint8_t>(IncidentReason::Ended);
+}
+
+std::string incident_words(const Incident& incident, const FlightEvent& event) {
+    if (is_end(event)) { return "notes nothing more: its process ended"; }
+    const std::string who = event.about == FlightPeer{} ? "" : ", " + peer_name(incident.machine, event.about);
+    return fmt::format("keeps what came before ({}{})", name_of(static_cast<IncidentReason>(event.detail)), who);
+}
+
+/// Of what concerns frames and epochs.
+std::string frame_words(const Incident& incident, const FlightEvent& event) {
+    const double lasts = incident.seconds(event.lasts);
+    switch (event.kind) {
+        case Kind::FrameHeld: return fmt::format("holds frame {}, {} before its start", event.frame, duration(lasts));
+        case Kind::FrameRefused: return fmt::format("refuses frame {}: {}", event.frame, fault_words(event.fault));
+        case Kind::FrameArmed: return fmt::format("arms frame {}", event.frame);
+        case Kind::FrameSent: return fmt::format("sends frame {}, {} before its start", event.frame, duration(lasts));
+        case Kind::Vetoed: return fmt::format("vetoes frame {}: {}", event.frame, veto_words(incident, event));
+        case Kind::TailRun:
+            return fmt::format("runs the tail of frame {}, at rest {} later", event.frame, duration(lasts));
+        case Kind::EpochBegun: return "begins an epoch, from rest to rest";
+        default: return "its epoch ends, at rest";
+    }
+}
+
+std::string coordinator_words(const Incident& incident, const FlightEvent& event) {
+    const std::string who = peer_name(incident.machine, event.about);
+    switch (event.kind) {
+        case Kind::AxisSeen: return who + " is there";
+        case Kind::AxisGone: return who + " is gone";
+        case Kind::Interrupted:
+            return fmt::format("all rest together after frame {}; it goes on from there", event.frame);
+        case Kind::Claimed: return "owns the machine from now on";
+        case Kind::StoodDown: return "stands down: another owns the machine";
+        case Kind::JobCutShort:
+            return fmt::format("the job of the owner before was cut short near line {}", event.count);
+        case Kind::JobBegun: return fmt::format("begins job {}", event.count);
+        case Kind::JobEnded:
+            return fmt::format(
+                "job {} ends: {}", event.count,
+                event.detail <= 2 ? lockstep::name_of(static_cast<JobOutcome>(event.detail)) : "unknown");
+        default: return fmt::format("orders {} to {}", who, name_of(static_cast<AxisCommandKind>(event.detail)));
+    }
+}
+
+std::string fault_sentence(const Incident& incident, const FlightEvent& event) {
+    const bool has_axis = event.about.kind == FlightPeer::Kind::Axis;
+    return "fault" + (has_axis ? " of " + peer_name(incident.machine, event.about) : "") + ": " +
+           fault_words(event.fault);
+}
+
+}  // namespace
+
+Weight weight_of(const Incident& incident, const Entry& entry) {
+    const bool is_axis = incident.processes[entry.process].who.kind == FlightPeer::Kind::Axis;
+    const FlightEvent& event = entry.event;
+    switch (event.kind) {
+        case Kind::Phase: return is_axis ? Weight::Routine : Weight::Notable;
+        case Kind::PeerHeard: return event.lasts == Ticks{} ? Weight::Routine : Weight::Telling;
+        case Kind::OwnerFollowed: return Weight::Notable;
+        case Kind::CommandHeard:
+        case Kind::CommandRefused:
+        case Kind::JobBegun:
+        case Kind::JobEnded:
+        case Kind::Claimed:
+        case Kind::Reset:
+        case Kind::PositionClaimed:
+        case Kind::Started: return Weight::Notable;
+        case Kind::PeerSilent:
+        case Kind::PeerRestarted:
+        case Kind::FrameRefused:
+        case Kind::Vetoed:
+        case Kind::TailRun:
+        case Kind::PulsesStopped:
+        case Kind::Fault:
+        case Kind::AxisGone:
+        case Kind::Interrupted:
+        case Kind::StoodDown:
+        case Kind::JobCutShort:
+        case Kind::Stalled: return Weight::Telling;
+        case Kind::Incident: return is_end(event) ? Weight::Telling : Weight::Routine;
+        default: return Weight::Routine;
+    }
+}
+
+std::string sentence(const Incident& incident, const Entry& entry) {
+    const FlightEvent& event = entry.event;
+    const double lasts = incident.seconds(event.lasts);
+    if (event.kind <= Kind::MachinePhaseHeard) { return heard_words(incident, event); }
+    switch (event.kind) {
+        case Kind::PulsesStopped: return "stops its pulses at once";
+        case Kind::OwnerFollowed: return "follows an owner of the machine";
+        case Kind::HomingStage: return homing_words(event.count);
+        case Kind::Homed: return "is homed and parked";
+        case Kind::Fault: return fault_sentence(incident, event);
+        case Kind::Reset: return "is reset";
+        case Kind::PositionClaimed:
+            return event.fault == FaultCode::None ? "is homed by the position that was kept"
+                                                  : "is not homed: " + fault_words(event.fault);
+        case Kind::CommandRefused: return "refuses what it was asked: " + fault_words(event.fault);
+        case Kind::State:
+        case Kind::Phase: return phase_words(incident, entry);
+        case Kind::Started: return "starts";
+        case Kind::Stalled: return fmt::format("its loop has not run for {}", duration(lasts));
+        case Kind::Loops:
+            return fmt::format("{} loops in a second, at most {} from one to the next", event.count, duration(lasts));
+        case Kind::Incident: return incident_words(incident, event);
+        case Kind::FrameHeld:
+        case Kind::FrameRefused:
+        case Kind::FrameArmed:
+        case Kind::FrameSent:
+        case Kind::Vetoed:
+        case Kind::TailRun:
+        case Kind::EpochBegun:
+        case Kind::EpochEnded: return frame_words(incident, event);
+        default: return coordinator_words(incident, event);
+    }
+}
+
+std::string peer_name(const MachineConfig& machine, FlightPeer peer) {
+    if (peer.kind == FlightPeer::Kind::Coordinator) { return "the coordinator"; }
+    if (peer.kind == FlightPeer::Kind::Nobody) { return "nobody"; }
+    return "axis " + (peer.axis < machine.axes.size() ? machine.axes[peer.axis].name : std::to_string(peer.axis));
+}
+
+std::string axes_named(const MachineConfig& machine, std::int64_t bits) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < kMaxAxes; ++i) {
+        if ((bits >> i & 1) != 0) { names.push_back(peer_name(machine, flight_axis(i))); }
+    }
+    if (names.size() < 2) { return names.empty() ? "nobody" : names.front(); }
+    const std::string last = names.back();
+    names.pop_back();
+    return fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
+std::string duration(double seconds) {
+    const double size = std::abs(seconds);
+    if (size < 0.01) { return fmt::format("{:.1f} ms", seconds * 1e3); }
+    return size < 1 ? fmt::format("{:.0f} ms", seconds * 1e3) : fmt::format("{:.2f} s", seconds);
+}
+
+}  // namespace lockstep::incident

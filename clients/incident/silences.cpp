@@ -1,0 +1,79 @@
+#include "clients/incident/silences.hpp"
+
+#include <algorithm>
+
+#include "clients/incident/sentences.hpp"
+
+namespace lockstep::incident {
+namespace {
+
+bool is_silence(const FlightEvent& event) {
+    return event.kind == FlightKind::PeerSilent || (event.kind == FlightKind::PeerHeard && event.lasts > Ticks{});
+}
+
+/// Whoever has part in all of them.
+std::vector<FlightPeer> common(const std::vector<Silence>& silences) {
+    std::vector<FlightPeer> in_all;
+    for (const FlightPeer who : {silences.front().observer, silences.front().about}) {
+        const auto has_part = [&](const Silence& s) { return s.observer == who || s.about == who; };
+        if (std::ranges::all_of(silences, has_part)) { in_all.push_back(who); }
+    }
+    return in_all;
+}
+
+std::string cut_text(const Incident& incident, FlightPeer who, const std::vector<Silence>& silences) {
+    const auto heard_nobody = std::ranges::count(silences, who, &Silence::observer);
+    const auto unheard = std::ranges::count(silences, who, &Silence::about);
+    const std::string name = peer_name(incident.machine, who);
+    if (heard_nobody == 0) { return name + " was cut off: nobody heard it, though it ran"; }
+    if (unheard == 0) { return name + " was cut off: it heard nobody, though all ran"; }
+    return name + " was cut off: it heard nobody, and nobody heard it, though all ran";
+}
+
+std::string link_text(const Incident& incident, const std::vector<Silence>& silences) {
+    const Silence& first = silences.front();
+    const bool both_ways = silences.size() > 1;
+    return "the link " + std::string(both_ways ? "between " : "from ") + peer_name(incident.machine, first.about) +
+           (both_ways ? " and " : " to ") + peer_name(incident.machine, first.observer) +
+           " carried nothing, though both ran";
+}
+
+}  // namespace
+
+std::vector<Silence> silences(const Incident& incident, Tick from, Tick to) {
+    std::vector<Silence> found;
+    for (const Entry& entry : incident.timeline) {
+        const FlightEvent& event = entry.event;
+        if (!is_silence(event) || event.tick < from || event.tick - event.lasts > to) { continue; }
+        const FlightPeer observer = incident.processes[entry.process].who;
+        const auto same = std::ranges::find_if(
+            found, [&](const Silence& s) { return s.observer == observer && s.about == event.about; });
+        if (same == found.end()) {
+            found.push_back({observer, event.about, event.tick - event.lasts, event.lasts});
+        } else {
+            same->lasts = std::max(same->lasts, event.tick - same->from);
+        }
+    }
+    return found;
+}
+
+std::optional<CutOff> cut_off(const Incident& incident, const std::vector<Silence>& silences) {
+    if (silences.empty()) { return std::nullopt; }
+    CutOff cut{.who = {}, .from = silences.front().from, .lasts = {}, .text = {}};
+    for (const Silence& s : silences) {
+        cut.from = std::min(cut.from, s.from);
+        cut.lasts = std::max(cut.lasts, s.lasts);
+    }
+    const auto in_all = common(silences);
+    if (in_all.size() == 1) {
+        cut.who = in_all.front();
+        cut.text = cut_text(incident, *cut.who, silences);
+    } else if (in_all.size() == 2) {
+        cut.text = link_text(incident, silences);
+    } else {
+        cut.text = "several links of the network carried nothing, though the processes ran";
+    }
+    return cut;
+}
+
+}  // namespace lockstep::incident

@@ -1,0 +1,112 @@
+#include "clients/lockstep/offline/analyze_incident.hpp"
+
+#include <algorithm>
+
+#include "clients/incident/incident_report.hpp"
+#include "clients/lockstep/colour.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/offline/incident_input.hpp"
+#include "clients/lockstep/offline/incident_text.hpp"
+#include "clients/report_page/incident_page.hpp"
+#include "clients/report_page/report_page.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kIncidentEnd = ".flight.lcm";
+
+/// The story stands out.
+std::string coloured(const std::string& text) {
+    const std::size_t from = text.find("\n\n") + 2;
+    const std::size_t to = text.find("\n\n", from);
+    return text.substr(0, from) + painted(text.substr(from, to - from), kBold) + text.substr(to);
+}
+
+/// Beside the files that it is made of, named as the first of them.
+fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& report) {
+    if (options.html) { return *options.html; }
+    std::string first;
+    for (const auto& process : report.processes()) {
+        if (first.empty() || process.files(0) < first) { first = process.files(0); }
+    }
+    const fs::path file(first);
+    const std::string name = file.filename().string();
+    return file.parent_path() / (name.substr(0, name.find('-')) + ".html");
+}
+
+/// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
+std::expected<fs::path, std::string> write_page(const IncidentOptions& options, const proto::IncidentReport& report,
+                                                Voice& voice) {
+    std::optional<analysis::Analysis> log;
+    if (options.log) {
+        auto found = analysis::analyze_log(*options.log, {.machine = report.machine()});
+        if (!found) { return std::unexpected(found.error()); }
+        log = std::move(*found);
+    }
+    if (!options.html && (options.no_html || options.json)) { return fs::path(); }
+    const fs::path path = page_path(options, report);
+    const auto written = analysis::may_replace(path) ? incident::write_html(report, log ? &*log : nullptr, path)
+                                                     : std::unexpected(analysis::in_the_way(path));
+    if (written) { return path; }
+    if (options.html) { return std::unexpected(written.error()); }
+    voice.warn("no report page: " + written.error());
+    return fs::path();
+}
+
+std::string earlier_text(int back, std::size_t earlier) {
+    return std::to_string(earlier) + " earlier incident" + (earlier == 1 ? "" : "s") + " in the same files: --back " +
+           std::to_string(back + 1) + (earlier == 1 ? "" : " and on");
+}
+
+}  // namespace
+
+IncidentOptions split_paths(const std::vector<std::string>& paths) {
+    IncidentOptions options;
+    for (const std::string& path : paths) {
+        std::error_code error;
+        const bool is_incident = path.ends_with(kIncidentEnd) || fs::is_directory(path, error);
+        if (is_incident || paths.size() == 1 || options.log) {
+            options.incidents.emplace_back(path);
+        } else {
+            options.log = path;
+        }
+    }
+    return options;
+}
+
+ExitCode analyze_incident(const IncidentOptions& options) {
+    Voice voice(options.json);
+    if (options.html && !analysis::may_replace(*options.html)) {
+        return voice.fail(bad_input(analysis::in_the_way(*options.html)));
+    }
+    auto input = read_incidents(options.incidents);
+    if (!input) { return voice.fail(bad_input(input.error())); }
+    for (const std::string& left_out : input->left_out) { voice.warn(left_out); }
+    const std::size_t count = input->incidents.size();
+    if (options.back < 0 || static_cast<std::size_t>(options.back) >= count) {
+        return voice.fail(bad_input("--back " + std::to_string(options.back) + ": the files hold " +
+                                    std::to_string(count) + " incidents, so it goes from 0 to " +
+                                    std::to_string(count - 1)));
+    }
+    const std::size_t earlier = count - 1 - static_cast<std::size_t>(options.back);
+    const incident::Incident& incident = input->incidents[earlier];
+    const incident::Verdict verdict = incident::judge(incident);
+    proto::IncidentReport report = incident::to_report(incident, verdict);
+    report.set_earlier(static_cast<std::int64_t>(earlier));
+    std::string text = incident::to_text(
+        incident, verdict, {.least = options.all ? incident::Weight::Routine : incident::Weight::Notable});
+    if (wants_colour() && !options.no_colour) { text = coloured(text); }
+    if (earlier > 0) { text += earlier_text(options.back, earlier) + "\n"; }
+    const auto page = write_page(options, report, voice);
+    if (!page) { return voice.fail(bad_input(page.error())); }
+    report.set_page(page->string());
+    if (text.ends_with('\n')) { text.pop_back(); }
+    voice.say(text);
+    if (!page->empty()) { voice.say("\nreport: " + page->string()); }
+    voice.report(report);
+    return kExitDone;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,30 @@
+// lockstep analyze --incident: what the flight recorders of a machine's processes kept of a fault.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/lockstep/exit_code.hpp"
+
+namespace lockstep {
+
+struct IncidentOptions {
+    std::vector<std::filesystem::path> incidents;  // files and directories
+    std::optional<std::filesystem::path> log;      // of the run, for the page's curves
+    int back = 0;                                  // so many incidents before the newest
+    bool all = false;                              // what is routine, too
+    std::optional<std::filesystem::path> html;     // nothing: beside the incident files
+    bool no_html = false;
+    bool json = false;
+    bool no_colour = false;
+};
+
+/// Which of the paths behind --incident are incidents, and which is the log: the one that is no directory and not named
+/// like an incident file, unless it is the only one.
+IncidentOptions split_paths(const std::vector<std::string>& paths);
+
+ExitCode analyze_incident(const IncidentOptions& options);
+
+}  // namespace lockstep

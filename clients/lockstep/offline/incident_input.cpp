@@ -1,0 +1,64 @@
+#include "clients/lockstep/offline/incident_input.hpp"
+
+#include <algorithm>
+
+#include "services/flight/incident_file.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+using incident::FlightFile;
+
+struct Files {
+    std::vector<FlightFile> read;
+    std::vector<std::string> left_out;
+};
+
+std::expected<void, std::string> read_directory(const fs::path& directory, Files& files) {
+    const auto found = incident_files(directory);
+    if (found.empty()) {
+        return std::unexpected(directory.string() +
+                               ": no incident file in it; lockstep status says where a machine's are, and lockstep "
+                               "flight has some written");
+    }
+    for (const fs::path& path : found) {
+        auto file = incident::read_flight_file(path);
+        file ? files.read.push_back(*std::move(file)) : files.left_out.push_back(file.error());
+    }
+    if (files.read.empty()) { return std::unexpected(files.left_out.front()); }
+    return {};
+}
+
+std::expected<Files, std::string> read_all(const std::vector<fs::path>& named) {
+    Files files;
+    for (const fs::path& path : named) {
+        std::error_code error;
+        if (fs::is_directory(path, error)) {
+            if (const auto read = read_directory(path, files); !read) { return std::unexpected(read.error()); }
+            continue;
+        }
+        auto file = incident::read_flight_file(path);
+        if (!file) { return std::unexpected(file.error()); }
+        files.read.push_back(*std::move(file));
+    }
+    return files;
+}
+
+}  // namespace
+
+std::expected<IncidentInput, std::string> read_incidents(const std::vector<fs::path>& named) {
+    auto files = read_all(named);
+    if (!files) { return std::unexpected(files.error()); }
+    const auto machine_of = [](const FlightFile& file) { return file.head.source.machine; };
+    const auto& first = files->read.front();
+    const auto other = std::ranges::find_if(
+        files->read, [&](const FlightFile& file) { return machine_of(file) != machine_of(first); });
+    if (other != files->read.end()) {
+        return std::unexpected("files of machines " + machine_of(first) + " and " + machine_of(*other) +
+                               " together; name those of one: " + first.path.string() + " is of " + machine_of(first));
+    }
+    return IncidentInput{incident::incidents_of(files->read), std::move(files->left_out)};
+}
+
+}  // namespace lockstep

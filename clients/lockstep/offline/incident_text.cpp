@@ -1,0 +1,58 @@
+#include "clients/lockstep/offline/incident_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "clients/incident/notes.hpp"
+#include "clients/lockstep/live/words.hpp"
+
+namespace lockstep::incident {
+namespace {
+
+constexpr std::size_t kTimeWidth = 12;
+
+std::size_t name_width(const Incident& incident) {
+    std::size_t width = 0;
+    for (const Process& process : incident.processes) { width = std::max(width, process.name.size()); }
+    return std::min<std::size_t>(width, 30);
+}
+
+std::string row(const std::string& time, const std::string& name, const std::string& what, std::size_t names,
+                std::size_t width) {
+    const std::string head = fmt::format("{:>{}}  {:<{}}  ", time, kTimeWidth, name, names);
+    const std::size_t room = std::max<std::size_t>(20, width - std::min(width, head.size()));
+    std::string text = wrapped(what, room, "");
+    const std::string indent(head.size(), ' ');
+    for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1 + indent.size())) {
+        text.insert(at + 1, indent);
+    }
+    return head + text + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const Incident& incident, const Verdict& verdict, const TextOptions& options) {
+    std::string text =
+        fmt::format("incident of machine {}, written down {}\n\n", incident.machine.name, wall_time(incident.wall_us));
+    for (std::size_t i = 0; i < verdict.story.size(); ++i) {
+        text += wrapped((i == 0 ? "" : "-> ") + verdict.story[i], options.width, "   ") + "\n";
+    }
+    const std::size_t names = name_width(incident);
+    text += "\n" + row("s", "process", "what it noted; 0 s: noticed first", names, options.width);
+    std::size_t left_out = 0;
+    for (const Entry& entry : incident.timeline) {
+        if (weight_of(incident, entry) < options.least) {
+            ++left_out;
+            continue;
+        }
+        const double at = incident.seconds(entry.tick - verdict.noticed);
+        text += row(fmt::format("{:+.3f}", at), incident.processes[entry.process].name, sentence(incident, entry),
+                    names, options.width);
+    }
+    if (left_out > 0) { text += fmt::format("\n{} more of routine: --all\n", left_out); }
+    for (const std::string& note : notes_of(incident)) { text += wrapped(note, options.width, "   ") + "\n"; }
+    return text;
+}
+
+}  // namespace lockstep::incident

@@ -1,0 +1,182 @@
+// Puts an incident's page together: a lane for each process, the axes' speeds and places below, then all that was noted.
+"use strict";
+
+const report = JSON.parse(document.getElementById("report").textContent);
+const log = JSON.parse(document.getElementById("charts").textContent);  // of the run, or null
+const main = document.getElementById("main");
+const laneHeight = 34;
+
+function section(title, ...content) {
+  const part = make("section", {}, make("h2", {}, title), ...content);
+  main.append(part);
+  return part;
+}
+
+const moments = report.events.filter((event) => event.what === "vetoed" || event.what === "fault" || event.what === "frame-refused");
+const lanes = report.processes.map((process) => process.name);
+const bar = (event) => ["stalled", "peer-silent", "peer-heard"].includes(event.what) && event.lasts_s ? -event.lasts_s
+  : event.what === "tail-run" ? event.lasts_s : 0;
+
+// What is looked at first: from before the cause until all have come to rest.
+function aroundIt() {
+  const from = Math.min(report.cause_at_s ?? 0, 0);
+  const to = Math.max(report.rest_s ?? 0, 0.3);
+  const room = 0.4 * (to - from) + 0.1;
+  return [from - room, to + room];
+}
+
+function lanesPlugin(shown, say) {
+  const radius = { telling: 4.5, notable: 3, routine: 1.5 };
+  const place = (u, event) => [u.valToPos(event.at_s, "x", true), u.valToPos(lanes.length - 1 - lanes.indexOf(event.process), "y", true)];
+  const colour = (event) => (event.weight === "telling" ? css("--alarm") : event.weight === "notable" ? css("--ink") : css("--soft"));
+  const drawBar = (u, event) => {
+    const [x, y] = place(u, event);
+    const other = u.valToPos(event.at_s + bar(event), "x", true);
+    const silence = event.what.startsWith("peer");
+    u.ctx.fillStyle = event.what === "tail-run" ? "rgba(31,111,180,.45)" : silence ? css("--missing") : css("--alarm");
+    const height = (silence ? 14 : 8) * devicePixelRatio;
+    u.ctx.fillRect(Math.min(x, other), y - height / 2, Math.abs(other - x), height);
+  };
+  const drawDot = (u, event) => {
+    const [x, y] = place(u, event);
+    u.ctx.fillStyle = colour(event);
+    u.ctx.beginPath();
+    u.ctx.arc(x, y, radius[event.weight] * devicePixelRatio, 0, 2 * Math.PI);
+    u.ctx.fill();
+  };
+  const drawLife = (u, process, lane) => {
+    const y = u.valToPos(lanes.length - 1 - lane, "y", true);
+    const [from, to] = [process.first_s, process.last_s].map((x) => u.valToPos(x, "x", true));
+    u.ctx.strokeStyle = css("--grid");
+    u.ctx.lineWidth = 3 * devicePixelRatio;
+    u.ctx.beginPath();
+    u.ctx.moveTo(from, y);
+    u.ctx.lineTo(to, y);
+    u.ctx.stroke();
+    if (!process.ended) { return; }
+    u.ctx.strokeStyle = css("--alarm");
+    const size = 6 * devicePixelRatio;
+    u.ctx.beginPath();
+    u.ctx.moveTo(to - size, y - size);
+    u.ctx.lineTo(to + size, y + size);
+    u.ctx.moveTo(to - size, y + size);
+    u.ctx.lineTo(to + size, y - size);
+    u.ctx.stroke();
+  };
+  const draw = (u) => {
+    u.ctx.save();
+    u.ctx.beginPath();
+    u.ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+    u.ctx.clip();
+    report.processes.forEach((process, lane) => drawLife(u, process, lane));
+    const events = shown();
+    events.filter(bar).forEach((event) => drawBar(u, event));
+    ["routine", "notable", "telling"].forEach((weight) => events.filter((event) => event.weight === weight).forEach((event) => drawDot(u, event)));
+    u.ctx.restore();
+  };
+  const nearest = (u) => {
+    let best;
+    let least = 14;
+    for (const event of shown()) {
+      const [x, y] = place(u, event).map((at, i) => at / devicePixelRatio - (i ? u.bbox.top : u.bbox.left) / devicePixelRatio);
+      const far = Math.hypot(x - u.cursor.left, y - u.cursor.top);
+      if (far < least) { [best, least] = [event, far]; }
+    }
+    if (best) { say(best); }
+  };
+  return { hooks: { draw, setCursor: nearest } };
+}
+
+function lanesChart() {
+  const words = make("p", { className: "soft" }, "Point at a mark to read it. Red: what tells; bars: standstills, silences, ways to rest; a cross: the process ended.");
+  const host = make("figure");
+  let all = false;
+  const shown = () => report.events.filter((event) => all || event.weight !== "routine");
+  const part = section("Who did what", host, words);
+  part.id = "time";
+  const width = () => Math.max(240, host.clientWidth);
+  const chart = new uPlot({
+    width: width(), height: lanes.length * laneHeight + 60, padding: [8, 12, 0, 0], legend: { show: false },
+    cursor: { sync: { key: joined.key, setSeries: false }, drag: { x: true, y: false }, points: { show: false } },
+    scales: { x: { time: false, min: whole[0], max: whole[1] }, y: { range: [-0.6, lanes.length - 0.4] } },
+    axes: [{ ...axisStyle("s after it was noticed"), size: 46 },
+      { ...axisStyle(), size: 150, splits: () => lanes.map((_, i) => i), values: () => [...lanes].reverse(), grid: { show: false } }],
+    series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
+    plugins: [lanesPlugin(shown, (event) => words.replaceChildren(`${event.at_s.toFixed(3)} s  `, make("b", {}, event.process), ` ${event.text}`))],
+    hooks: { setScale: [follow] },
+  }, [[whole[0], whole[1]], [null, null]], host);
+  timeCharts.push(chart);
+  joined.sub(chart);
+  addEventListener("resize", () => chart.setSize({ width: width(), height: chart.height }));
+  const zoom = (range) => make("button", { type: "button", onclick: () => zoomTo(...range) }, range === whole ? "all of it" : "around it");
+  const routine = make("button", { type: "button", onclick: () => {
+    all = !all;
+    routine.setAttribute("aria-pressed", all);
+    chart.redraw();
+  } }, "routine too");
+  host.before(make("p", {}, zoom(aroundIt()), zoom(whole), routine));
+}
+
+// From the states that axes noted ten times a second; from the log, where there is one.
+function rows() {
+  if (log) {
+    return log.rows.filter((row) => row.kind === "speed" || row.kind === "position")
+      .map((row) => ({ ...row, x: row.x.map((x) => x + log.offset_s), missing: row.missing.map((m) => m.map((x) => x + log.offset_s)) }));
+  }
+  return lanes.flatMap((name, lane) => {
+    const states = report.events.filter((event) => event.process === name && event.position_mm !== undefined);
+    if (states.length < 2) { return []; }
+    const x = states.map((event) => event.at_s);
+    const row = (kind, unit, key) => ({ kind, name, what: `${kind}, as it noted it`, unit, colour: lane, x, y: states.map((event) => event[key]), limits: [], missing: [] });
+    return [row("speed", "mm/s", "velocity_mm_s"), row("position", "mm", "position_mm")];
+  });
+}
+
+function curves() {
+  const all = rows();
+  if (all.length === 0) { return; }
+  const part = section("How the axes moved", make("p", { className: "soft" }, "Drag to zoom, double-click to see all again. Red: vetoes and faults."));
+  const moved = all.filter((row) => row.kind === "speed" ? row.y.some((y) => y) : true);
+  ["speed", "position"].forEach((kind) => moved.filter((row) => row.kind === kind).forEach((row, i, same) => {
+    const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
+    part.append(figure);
+    timeChart(figure, row, moments, i + 1 === same.length);
+  }));
+}
+
+function noted() {
+  const weights = { telling: "bad", notable: "", routine: "soft" };
+  const columns = [
+    { head: "s", of: (event) => event.at_s, show: fixed(4) },
+    { head: "process", of: (event) => event.process, text: true },
+    { head: "what it noted", of: (event) => event.text, text: true, long: true, grade: (event) => weights[event.weight] },
+    { head: "weight", of: (event) => event.weight, text: true },
+  ];
+  const onRow = (event) => {
+    zoomTo(event.at_s - 0.3, event.at_s + 0.3);
+    document.getElementById("time").scrollIntoView({ behavior: "smooth" });
+  };
+  section("What tells", table(columns, report.events.filter((event) => event.weight !== "routine"), { first: 60, onRow }));
+  section("All that was noted", table(columns, [...report.events], { first: 0, onRow }));
+}
+
+function processes() {
+  section("Processes", table([
+    { head: "process", of: (process) => process.name, text: true },
+    { head: "noted from, s", of: (process) => process.first_s, show: fixed(3) },
+    { head: "to, s", of: (process) => process.last_s, show: fixed(3) },
+    { head: "ended unasked", of: (process) => (process.ended ? "yes" : "no"), text: true, grade: (process) => (process.ended ? "bad" : "") },
+    { head: "clock within, \u00b5s", of: (process) => process.clock_error_us, show: fixed(1) },
+    { head: "files", of: (process) => process.files.map((file) => file.split("/").pop()).join(" "), text: true, long: true },
+  ], report.processes));
+  if (report.notes.length > 0) { section("Notes", make("ul", {}, ...report.notes.map((note) => make("li", {}, note)))); }
+}
+
+const times = report.events.map((event) => event.at_s);
+whole = [Math.min(...times, -1), Math.max(...times, 1)];
+lanesChart();
+curves();
+noted();
+processes();
+zoomTo(...aroundIt());
+document.documentElement.dataset.drawn = "yes";

@@ -1,0 +1,46 @@
+// What one process notes of another that it hears: that it fell silent and came back, was started anew, vetoes, fails.
+#pragma once
+
+#include <optional>
+
+#include "core/flight/flight_event.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+/// How long another's silence is before it is worth a note, and before it counts as lost.
+struct SilenceLimits {
+    Ticks noted;  // beyond this a check lacks evidence
+    Ticks lost;
+};
+SilenceLimits silence_limits(const MachineConfig& machine);
+
+class PeerWatch {
+public:
+    PeerWatch(FlightPeer peer, const SilenceLimits& limits) : peer_(peer), limits_(limits) {}
+
+    struct News {
+        Identity identity = 0;
+        FaultCode fault = FaultCode::None;
+        Epoch epoch = 0;
+        std::optional<FrameNumber> veto;
+    };
+    void hear(Tick now, const News& news, FlightLog& log);
+    /// After what was heard in this loop. `missed`: for so long this process itself did not run, and heard nobody.
+    void look(Tick now, Ticks missed, FlightLog& log);
+
+private:
+    void hear_identity(Tick now, Identity identity, FlightLog& log);
+    IncidentReason lost() const {
+        return peer_.kind == FlightPeer::Kind::Coordinator ? IncidentReason::OwnerLost : IncidentReason::AxisLost;
+    }
+
+    FlightPeer peer_;
+    SilenceLimits limits_;
+    std::optional<News> last_;
+    Tick heard_;
+    bool is_silent_ = false;  // and that is noted
+    bool is_lost_ = false;    // and that was an incident
+};
+
+}  // namespace lockstep

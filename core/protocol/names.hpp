@@ -1,0 +1,42 @@
+// What the states and commands of the protocol are called. A number that is none, as from a damaged file, is "unknown".
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+namespace detail {
+
+template <typename Enum, std::size_t N>
+constexpr std::string_view pick_name(const std::array<std::string_view, N>& names, Enum value) {
+    const auto i = static_cast<std::size_t>(value);
+    return i < N ? names[i] : "unknown";
+}
+
+}  // namespace detail
+
+constexpr std::string_view name_of(AxisPhase phase) {
+    return detail::pick_name(
+        std::array<std::string_view, 7>{"Initialize", "Standby", "Accelerate", "Cruise", "Decelerate", "Stop", "Fault"},
+        phase);
+}
+
+constexpr std::string_view name_of(MachinePhase phase) {
+    return detail::pick_name(std::array<std::string_view, 9>{"Waiting", "Idle", "Homing", "Running", "Holding",
+                                                             "Paused", "Stopping", "Fault", "Standby"},
+                             phase);
+}
+
+constexpr std::string_view name_of(CommandKind kind) {
+    return detail::pick_name(std::array<std::string_view, 10>{"home", "move", "run", "hold", "resume", "stop", "estop",
+                                                              "reset", "move --own", "override"},
+                             kind);
+}
+
+constexpr std::string_view name_of(AxisCommandKind kind) {
+    return detail::pick_name(std::array<std::string_view, 5>{"home", "reset", "stop now", "move", "halt"}, kind);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,58 @@
+# What `cmake --install` and the Debian packages carry: `lockstep` to run machines, `lockstep-dev` to build on core.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
+install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep)
+install(FILES README.md ARCHITECTURE.md sim_fpga/REGISTERS.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
+install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockstep-axis@.service
+  deploy/systemd/lockstep-logger.service
+  DESTINATION lib/systemd/system COMPONENT lockstep)
+
+# core, with its headers where "core/..." finds them.
+install(TARGETS lockstep_core lockstep_core_many EXPORT lockstep
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lockstep-dev
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep)
+install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep COMPONENT lockstep-dev
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
+install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep COMPONENT lockstep-dev
+  FILES_MATCHING PATTERN "*.idl" PATTERN "*.lcm" PATTERN "*.proto")
+install(EXPORT lockstep NAMESPACE lockstep:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)
+configure_package_config_file(deploy/lockstep-config.cmake.in ${PROJECT_BINARY_DIR}/lockstep-config.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/lockstep-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/lockstep-config-version.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)
+
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `make package` builds what it packs
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME lockstep)
+set(CPACK_PACKAGE_VENDOR Lockstep)
+set(CPACK_PACKAGE_CONTACT "the founders of Lockstep <lockstep@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Networked multi-axis stepper-motor controller")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL lockstep lockstep-dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_NAME lockstep)
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_DEPENDS "adduser, iproute2")
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_RECOMMENDS "liblcm-bin, default-jre, liblcm-java, libjchart2d-java")
+set(CPACK_DEBIAN_LOCKSTEP_DESCRIPTION
+  "Per-axis controller services, a coordinator that plans synchronized moves, and a
+ command to run, watch, record, analyse and verify a machine.")
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_EXTRA
+  "${PROJECT_SOURCE_DIR}/deploy/debian/postinst;${PROJECT_SOURCE_DIR}/deploy/debian/prerm;${PROJECT_SOURCE_DIR}/deploy/debian/postrm")
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
+set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_NAME lockstep-dev)
+set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_DEPENDS "libhwy-dev")
+set(CPACK_DEBIAN_LOCKSTEP-DEV_DESCRIPTION
+  "The core, to build on: step engine, planner, frames, and the axis and the coordinator as state machines
+ without I/O, as a static library with headers and a CMake package.")
+include(CPack)

@@ -1,0 +1,74 @@
+#include "services/documents/placement.hpp"
+
+#include <algorithm>
+
+#include "services/documents/names.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string_view without_domain(std::string_view host) { return host.substr(0, host.find('.')); }
+
+bool is_placed(const std::string& where, std::string_view host) { return where.empty() || same_host(where, host); }
+
+std::string names_of(const MachineConfig& machine, const std::vector<std::size_t>& axes) {
+    std::string names;
+    for (const std::size_t i : axes) { names += (names.empty() ? "" : " ") + machine.axes[i].name; }
+    return names;
+}
+
+std::string places_of(const MachineConfig& machine) {
+    std::string places;
+    for (const AxisConfig& axis : machine.axes) {
+        places += " " + axis.name + " (" + (axis.host.empty() ? "no host" : axis.host) + ")";
+    }
+    return places;
+}
+
+}  // namespace
+
+bool same_host(std::string_view one, std::string_view other) {
+    const bool both_whole = one.contains('.') && other.contains('.');
+    return both_whole ? same_name(one, other) : same_name(without_domain(one), without_domain(other));
+}
+
+std::vector<std::string> hosts_of(const MachineConfig& machine) {
+    std::vector<std::string> hosts;
+    const auto add = [&](const std::string& host) {
+        const auto is_it = [&](const std::string& known) { return same_host(known, host); };
+        if (!host.empty() && std::ranges::none_of(hosts, is_it)) { hosts.push_back(host); }
+    };
+    add(machine.coordinator_host);
+    for (const AxisConfig& axis : machine.axes) { add(axis.host); }
+    return hosts;
+}
+
+Placement placed_on(const MachineConfig& machine, std::string_view host) {
+    Placement placement{.coordinator = is_placed(machine.coordinator_host, host)};
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (is_placed(machine.axes[i].host, host)) { placement.axes.push_back(i); }
+    }
+    return placement;
+}
+
+std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
+                                                    std::string_view host) {
+    std::vector<std::size_t> fit;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const AxisConfig& axis = machine.axes[i];
+        const bool here = !axis.host.empty() && same_host(axis.host, host);
+        if (named.empty() ? here : axis.name == named) { fit.push_back(i); }
+    }
+    if (fit.size() == 1) { return fit.front(); }
+    if (!named.empty()) {
+        return std::unexpected("has no axis " + std::string(named) + "; it has:" + places_of(machine));
+    }
+    if (fit.empty()) {
+        return std::unexpected("places no axis on this host, " + std::string(host) + "; it has:" + places_of(machine) +
+                               "; name one by --axis, or write its host");
+    }
+    return std::unexpected("places several axes on this host, " + std::string(host) + ": " + names_of(machine, fit) +
+                           "; name one by --axis");
+}
+
+}  // namespace lockstep

@@ -1,0 +1,138 @@
+#include "services/flight/flight_recorder.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "services/documents/machine_file.hpp"
+#include "services/flight/incident_file.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/directories.hpp"
+#include "services/runtime/log.hpp"
+#include "services/runtime/real_time.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLookEvery = 100ms;
+constexpr auto kAftermath = 1s;    // after the last of several incidents close together...
+constexpr auto kLongestWait = 5s;  // ...but not longer after the first
+
+/// Where nothing is kept.
+class NoFlight final : public FlightLog {
+public:
+    void add(const FlightEvent& /*event*/) override {}
+};
+
+std::string how_to_read(const std::filesystem::path& file) {
+    return file.string() + "; see: lockstep analyze --incident " + file.parent_path().string();
+}
+
+void say_left(const LeftRings& left) {
+    for (const auto& file : left.saved) {
+        log_warning("a process of this machine has ended unasked; what it had noted is in " + how_to_read(file));
+    }
+    for (const std::string& problem : left.problems) { log_warning(problem); }
+}
+
+}  // namespace
+
+std::expected<std::unique_ptr<FlightRecorder>, std::string> FlightRecorder::open(const std::filesystem::path& directory,
+                                                                                 const FlightSource& source,
+                                                                                 std::size_t events) {
+    auto ring = FlightRing::create(directory, source, events);
+    if (!ring) { return std::unexpected(ring.error()); }
+    return std::unique_ptr<FlightRecorder>(new FlightRecorder(std::move(*ring), directory, source));
+}
+
+FlightRecorder::FlightRecorder(FlightRing ring, std::filesystem::path directory, FlightSource source)
+    : ring_(std::move(ring)), directory_(std::move(directory)), source_(std::move(source)) {
+    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+FlightRecorder::~FlightRecorder() {
+    thread_.request_stop();
+    thread_.join();
+}
+
+void FlightRecorder::add(const FlightEvent& event) {
+    ring_.add(event);
+    if (event.kind == FlightKind::Incident) { incidents_.fetch_add(1, std::memory_order_release); }
+}
+
+/// False: the process ends.
+bool FlightRecorder::sleep(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, stop, kLookEvery, [] { return false; });
+    return !stop.stop_requested();
+}
+
+void FlightRecorder::serve(const std::stop_token& stop) {
+    leave_real_time();
+    say_left(save_left_rings(directory_, source_.directory));
+    std::uint64_t seen = 0;
+    std::optional<std::chrono::nanoseconds> first;
+    std::chrono::nanoseconds last{};
+    for (bool goes_on = true; goes_on;) {
+        goes_on = sleep(stop);
+        const std::chrono::nanoseconds now = monotonic_now();
+        const std::uint64_t noted = incidents_.load(std::memory_order_acquire);
+        if (noted != seen) { last = now; }
+        if (noted != seen && !first) { first = now; }
+        seen = noted;
+        if (!first || (goes_on && now - last < kAftermath && now - *first < kLongestWait)) { continue; }
+        write();
+        first.reset();
+    }
+}
+
+void FlightRecorder::write() {
+    const auto snapshot = read_ring(ring_.path());
+    if (!snapshot) { return log_warning("nothing is written of the incident: " + snapshot.error()); }
+    const auto incident = first_incident(snapshot->events, written_);
+    if (!incident) { return; }
+    written_ = snapshot->events.back().number;
+    const auto reason = static_cast<IncidentReason>(incident->event.detail);
+    const auto file = write_incident(*snapshot, {reason, incident->event.tick, wall_clock_us()});
+    if (!file) { return log_warning("nothing is written of the incident: " + file.error()); }
+    log_warning("incident (" + std::string(name_of(reason)) + "): what came before is in " + how_to_read(*file));
+}
+
+std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity) {
+    const FlightConfig& config = machine.record.flight;
+    if (!config.kept) { return std::make_unique<NoFlight>(); }
+    const FlightSource source{.machine = machine.name,
+                              .process = flight_process(axis),
+                              .incarnation = identity,
+                              .tick_ns = machine.tick_ns,
+                              .config = machine_text(machine),
+                              .directory = incident_directory(machine),
+                              .files = config.files};
+    const auto events = static_cast<std::size_t>(config.memory_kb) * 1024 / kFlightSlotBytes;
+    auto recorder = FlightRecorder::open(memory_directory(), source, events);
+    if (recorder) { return std::move(*recorder); }
+    log_warning("no flight recorder is kept: " + recorder.error());
+    return std::make_unique<NoFlight>();
+}
+
+LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesystem::path& incidents) {
+    LeftRings found;
+    for (const auto& path : rings_in(rings)) {
+        auto left = LeftRing::claim(path);
+        const auto snapshot = left ? read_ring(path) : std::unexpected(std::string());
+        if (!snapshot || snapshot->source.directory != incidents) { continue; }
+        const Tick last = snapshot->events.empty() ? Tick{} : snapshot->events.back().event.tick;
+        const auto file = write_incident(*snapshot, {IncidentReason::Ended, last, wall_clock_us()});
+        if (file) {
+            left->remove();
+            found.saved.push_back(*file);
+        } else {
+            found.problems.push_back("what " + snapshot->source.process +
+                                     " had noted when it ended is not written: " + file.error());
+        }
+    }
+    return found;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,58 @@
+// The flight recorder of a process: a ring of what it notes, and a thread that writes it to a file when there is an
+// incident, and soon after, so that what came of it is in it too.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "services/flight/flight_ring.hpp"
+
+namespace lockstep {
+
+class FlightRecorder final : public FlightLog {
+public:
+    /// `directory`: for the rings. Error: why there is no memory for it.
+    static std::expected<std::unique_ptr<FlightRecorder>, std::string> open(const std::filesystem::path& directory,
+                                                                            const FlightSource& source,
+                                                                            std::size_t events);
+    /// What is not written of an incident yet is written now.
+    ~FlightRecorder() override;
+
+    void add(const FlightEvent& event) override;
+
+private:
+    FlightRecorder(FlightRing ring, std::filesystem::path directory, FlightSource source);
+    void serve(const std::stop_token& stop);
+    bool sleep(const std::stop_token& stop);
+    void write();
+
+    FlightRing ring_;
+    std::filesystem::path directory_;
+    FlightSource source_;
+    std::atomic<std::uint64_t> incidents_ = 0;  // noted so far
+    std::uint64_t written_ = 0;                 // the thread's: the number of the last event that is in a file
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::jthread thread_;
+};
+
+/// Where a process of the machine notes its flight, as the machine's file has it: `axis` is empty for the coordinator.
+/// Where there can be none the log says why, and nothing is kept.
+std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity);
+
+/// What dead processes had noted, and is in files now.
+struct LeftRings {
+    std::vector<std::filesystem::path> saved;
+    std::vector<std::string> problems;  // what could not be written, and why
+};
+
+/// Of those in `rings` whose incident files go to `incidents`.
+LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesystem::path& incidents);
+
+}  // namespace lockstep

@@ -1,0 +1,39 @@
+// Whose flight it is, and what it has noted.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/flight/flight_event.hpp"
+
+namespace lockstep {
+
+struct FlightSource {
+    std::string machine;
+    std::string process;  // coordinator, axis-NAME
+    Identity incarnation = 0;
+    std::int64_t tick_ns = 1000;
+    std::string config;               // machine.textproto
+    std::filesystem::path directory;  // for incident files
+    int files = 1;                    // of this process kept there, at least 1
+    bool operator==(const FlightSource&) const = default;
+};
+
+struct NumberedEvent {
+    std::uint64_t number = 0;  // from 1, without gaps, as noted
+    FlightEvent event;
+    bool operator==(const NumberedEvent&) const = default;
+};
+
+/// What a ring holds at one moment, in the order noted.
+struct FlightSnapshot {
+    FlightSource source;
+    std::vector<NumberedEvent> events;
+};
+
+/// The name of a process, as the machine's file has its axes; empty for the coordinator.
+inline std::string flight_process(const std::string& axis) { return axis.empty() ? "coordinator" : "axis-" + axis; }
+
+}  // namespace lockstep

@@ -1,0 +1,132 @@
+// Real processes are stopped, killed and hang: each writes what it noted, and `lockstep analyze --incident` names the
+// one that began it.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+class Flight : public OwnMachine {
+protected:
+    fs::path directory() const { return state().path() / "record" / "incidents"; }
+    /// The processes with an incident file.
+    std::set<std::string> writers() const {
+        std::set<std::string> found;
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(directory(), error)) {
+            const std::string name = entry.path().filename().string();
+            if (!name.ends_with(".flight.lcm")) { continue; }
+            const std::size_t from = name.find('-') + 1;
+            found.insert(name.substr(from, name.rfind('-') - from));
+        }
+        return found;
+    }
+    bool all_write() const {
+        return eventually([&] { return writers() == std::set<std::string>{"axis-X", "axis-Y", "coordinator"}; });
+    }
+    proto::IncidentReport incident() const {
+        const Ran ran = run_lockstep({"analyze", "--incident", directory().string(), "--json"});
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        return ran.json<proto::IncidentReport>();
+    }
+    void begin_job() {
+        bring_up_and_home();
+        job_.emplace(LOCKSTEP_COMMAND, Words{"run", write("job.gcode", "G21 G90\nG1 X150 Y30 F1200\nM2\n"), "--json"});
+        ASSERT_TRUE(becomes("Running"));
+        std::this_thread::sleep_for(700ms);  // it moves
+    }
+    static void expect(const proto::IncidentReport& report, const std::string& cause, const std::string& culprit) {
+        EXPECT_EQ(report.cause(), cause) << report.ShortDebugString().substr(0, 2000);
+        EXPECT_EQ(report.culprit(), culprit);
+        EXPECT_TRUE(report.has_rest_s()) << "all came to rest";
+    }
+
+    std::optional<Command> job_;
+};
+
+TEST_F(Flight, AnAxisThatWasStoppedIsNamed) {
+    begin_job();
+    const pid_t axis = process("axis-Y");
+    kill(axis, SIGSTOP);
+    std::this_thread::sleep_for(400ms);
+    kill(axis, SIGCONT);
+    ASSERT_TRUE(all_write());
+    const auto report = incident();
+    expect(report, "process-stalled", "axis Y");
+    EXPECT_GT(report.cause_lasts_s(), 0.3);
+    EXPECT_EQ(report.notes_size(), 0) << report.notes(0);
+    EXPECT_EQ(status().incidents().directory(), directory().string());
+    EXPECT_GE(status().incidents().files(), 3);
+}
+
+TEST_F(Flight, AnAxisThatWasKilledIsNamed) {
+    begin_job();
+    kill(process("axis-Y"), SIGKILL);
+    ASSERT_TRUE(all_write());
+    expect(incident(), "process-ended", "axis Y");
+}
+
+TEST_F(Flight, ACoordinatorThatWasKilledIsNamed) {
+    begin_job();
+    kill(process("coordinator"), SIGKILL);
+    ASSERT_TRUE(all_write());
+    expect(incident(), "process-ended", "the coordinator");
+}
+
+TEST_F(Flight, AnEmergencyStopIsNamed) {
+    begin_job();
+    EXPECT_EQ(run_lockstep({"estop"}).code, 0);
+    ASSERT_TRUE(all_write());
+    EXPECT_EQ(incident().cause(), "emergency-stop");
+}
+
+TEST_F(Flight, IsReadWhenAskedForAlsoOfAProcessThatHangs) {
+    bring_up_and_home();
+    const pid_t axis = process("axis-Y");
+    kill(axis, SIGSTOP);
+    ASSERT_TRUE(becomes("Waiting"));
+    const Ran asked = run_lockstep({"flight"});
+    EXPECT_EQ(asked.code, 0) << asked.err;
+    EXPECT_THAT(asked.out, HasSubstr("analyze --incident " + directory().string()));
+    const auto report = incident();
+    EXPECT_EQ(report.cause(), "process-hangs") << report.ShortDebugString().substr(0, 2000);
+    EXPECT_EQ(report.culprit(), "axis Y");
+    kill(axis, SIGCONT);
+}
+
+TEST_F(Flight, BySignalEachProcessWritesItsOwn) {
+    bring_up();
+    kill(process("axis-X"), SIGUSR1);
+    EXPECT_TRUE(eventually([&] { return writers() == std::set<std::string>{"axis-X"}; }));
+    const auto report = incident();
+    EXPECT_EQ(report.cause(), "asked");
+    EXPECT_THAT(report.notes(0), HasSubstr("no file of: coordinator, axis Y"));
+}
+
+TEST_F(Flight, WhatIsNoIncidentIsRefusedWithItsPlaceAndRemedy) {
+    const auto refused = [](const Words& words) {
+        const Ran ran = run_lockstep(words);
+        EXPECT_EQ(ran.code, 2) << ran.out;
+        return ran.err;
+    };
+    const std::string foreign = write("foreign.flight.lcm", "no log at all");
+    EXPECT_THAT(refused({"analyze", "--incident", foreign}), HasSubstr(foreign + ": holds nothing"));
+    EXPECT_THAT(refused({"analyze", "--incident", foreign + ".gone"}), HasSubstr(foreign + ".gone"));
+    EXPECT_THAT(refused({"analyze", "--incident", testing::TempDir() + "/nowhere"}), HasSubstr("nowhere"));
+    EXPECT_THAT(refused({"analyze", foreign, foreign}), HasSubstr("one log at a time"));
+    EXPECT_EQ(run_lockstep({"flight"}).code, 3) << "the machine is not up";
+}
+
+}  // namespace
+}  // namespace lockstep

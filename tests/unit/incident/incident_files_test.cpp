@@ -1,0 +1,119 @@
+// Incident files are read as far as they go, put together by machine time, and judged also where some are lacking.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "clients/incident/cause.hpp"
+#include "clients/incident/notes.hpp"
+#include "clients/incident/sentences.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/flight/incident_file.hpp"
+#include "services/wire/lcm_log.hpp"
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep::incident {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class IncidentFiles : public testing::Test {
+protected:
+    IncidentFiles() { fs::remove_all(folder); }
+    ~IncidentFiles() override { fs::remove_all(folder); }
+
+    /// What axis X noted: it vetoed frame 17 at `tick` since it had heard nothing of Y.
+    fs::path write_veto(std::int64_t tick, std::int64_t wall_us = 1'000'000) const {
+        const FlightSource source{.machine = "rig",
+                                  .process = "axis-X",
+                                  .incarnation = 7,
+                                  .tick_ns = 1000,
+                                  .config = machine_text(small_machine()),
+                                  .directory = folder,
+                                  .files = 9};
+        const std::vector<NumberedEvent> events{
+            {1, {.tick = Tick{tick - 5'000}, .kind = FlightKind::FrameArmed, .frame = 16}},
+            {2,
+             {.tick = Tick{tick},
+              .kind = FlightKind::Vetoed,
+              .detail = static_cast<std::uint8_t>(VetoReason::NoEvidence),
+              .frame = 17,
+              .count = 0b10}},
+            {3, {.tick = Tick{tick}, .kind = FlightKind::Incident, .detail = 1}}};
+        return write_incident({source, events}, {IncidentReason::Veto, Tick{tick}, wall_us}).value();
+    }
+
+    fs::path folder = fs::path(testing::TempDir()) / "lockstep_incident" /
+                      testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(IncidentFiles, AreReadAsWritten) {
+    const auto file = read_flight_file(write_veto(2'000'000));
+    ASSERT_TRUE(file) << file.error();
+    EXPECT_EQ(file->head.source.process, "axis-X");
+    EXPECT_EQ(file->machine.axes.size(), 2U);
+    EXPECT_EQ(file->events.size(), 3U);
+    EXPECT_TRUE(file->damages.empty());
+}
+
+TEST_F(IncidentFiles, SayWhatTheyLackIfTheyAreDamaged) {
+    const fs::path path = write_veto(2'000'000);
+    fs::resize_file(path, fs::file_size(path) - 10);
+    const auto file = read_flight_file(path);
+    ASSERT_TRUE(file) << file.error();
+    EXPECT_EQ(file->events.size(), 2U);
+    ASSERT_EQ(file->damages.size(), 1U);
+    const auto incident = incidents_of({*file}).at(0);
+    EXPECT_THAT(notes_of(incident), testing::Contains(HasSubstr("not read: " + path.string())));
+}
+
+TEST_F(IncidentFiles, DamagedAnywhereAreReadOrRefused) {
+    const fs::path path = write_veto(2'000'000);
+    std::ifstream in(path, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(in), {}};
+    for (std::size_t at = 0; at < whole.size(); at += 3) {
+        std::string bytes = whole;
+        bytes[at] = static_cast<char>(bytes[at] ^ 0xFF);
+        std::ofstream(path, std::ios::binary) << bytes;
+        const auto file = read_flight_file(path);
+        if (file) { (void)judge(incidents_of({*file}).at(0)); }
+    }
+}
+
+TEST_F(IncidentFiles, OfSomethingElseAreRefused) {
+    fs::create_directories(folder);
+    std::ofstream(folder / "notes.txt") << "something else";
+    EXPECT_THAT(read_flight_file(folder / "notes.txt").error(),
+                HasSubstr("holds nothing that a flight recorder wrote"));
+    EXPECT_THAT(read_flight_file(folder / "none").error(), HasSubstr((folder / "none").string()));
+}
+
+TEST_F(IncidentFiles, FarApartAreDifferentIncidents) {
+    const auto first = read_flight_file(write_veto(2'000'000, 1'000'000)).value();
+    const auto soon = read_flight_file(write_veto(9'000'000, 8'000'000)).value();
+    const auto later = read_flight_file(write_veto(60'000'000, 59'000'000)).value();
+    const auto after_a_reboot = read_flight_file(write_veto(2'500'000, 1'000'000'000'000)).value();
+    const auto incidents = incidents_of({later, after_a_reboot, first, soon});
+    ASSERT_EQ(incidents.size(), 3U);
+    EXPECT_EQ(incidents[0].processes.at(0).files.size(), 2U) << "two files of one process, soon after each other";
+    EXPECT_EQ(incidents[1].timeline.back().tick, Tick{60'000'000});
+    EXPECT_EQ(incidents[2].timeline.back().tick, Tick{2'500'000});
+}
+
+TEST_F(IncidentFiles, TheSameTwiceCountsOnce) {
+    const auto file = read_flight_file(write_veto(2'000'000)).value();
+    EXPECT_EQ(incidents_of({file, file}).at(0).timeline.size(), 3U);
+}
+
+TEST_F(IncidentFiles, WhoLeftNoneIsNamedAndWhatToDo) {
+    const auto incident = incidents_of({read_flight_file(write_veto(2'000'000)).value()}).at(0);
+    EXPECT_THAT(incident.absent, ElementsAre("coordinator", "axis Y"));
+    const Verdict verdict = judge(incident);
+    EXPECT_EQ(verdict.cause.kind, CauseKind::Unknown);
+    EXPECT_THAT(verdict.story[0], HasSubstr("axis Y left no file here: lockstep flight"));
+    EXPECT_EQ(verdict.story[1], "axis X vetoes frame 17: nothing fresh from axis Y says that it is held there");
+}
+
+}  // namespace
+}  // namespace lockstep::incident

@@ -1,0 +1,146 @@
+// Faults of every class befall the machine in virtual time: from what its processes noted the cause is found.
+#include <gmock/gmock.h>
+
+#include "tests/unit/incident/flown_machine.hpp"
+
+namespace lockstep {
+namespace {
+
+using incident::CauseKind;
+using incident::Verdict;
+using testing::HasSubstr;
+
+class Flown : public FlownMachine {
+protected:
+    /// And that all came to rest in time.
+    void expect(const Verdict& verdict, CauseKind kind, std::optional<FlightPeer> who) {
+        EXPECT_EQ(incident::name_of(verdict.cause.kind), incident::name_of(kind))
+            << testing::PrintToString(verdict.story);
+        EXPECT_EQ(verdict.cause.who, who) << testing::PrintToString(verdict.story);
+        ASSERT_TRUE(verdict.rest) << testing::PrintToString(verdict.story);
+        EXPECT_LT((*verdict.rest - verdict.noticed).value, 200'000);
+    }
+};
+
+TEST_F(Flown, WhatIsAsItShouldBeIsNoIncident) {
+    start_job();
+    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.001)});
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
+    EXPECT_FALSE(any_incident());
+}
+
+TEST_F(Flown, AHoldAndAStopAreNoIncidents) {
+    start_job();
+    (void)ask(CommandKind::Hold);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 5)) << describe();
+    (void)ask(CommandKind::Resume);
+    wait(0.2);
+    (void)ask(CommandKind::Stop);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_FALSE(any_incident());
+}
+
+TEST_F(Flown, AnAxisThatStoodStillIsFound) {
+    start_job();
+    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
+    wait(1);
+    const Verdict found = verdict();
+    expect(found, CauseKind::Stalled, flight_axis(kY));
+    EXPECT_NEAR(vm.machine().microseconds(found.cause.lasts), 20'000, 1000);
+    EXPECT_THAT(found.story[0],
+                HasSubstr("axis Y stood still: its loop did not run for 20 ms; the machine bears 1.0 ms"));
+    EXPECT_THAT(found.story[1], HasSubstr("axis X vetoes frame"));
+}
+
+TEST_F(Flown, AnAxisThatEndedIsFound) {
+    start_job();
+    befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
+    wait(2);
+    expect(verdict(), CauseKind::Ended, flight_axis(kY));
+}
+
+TEST_F(Flown, AnAxisThatEndedAtRestIsFound) {
+    home();
+    befall({.kind = Kind::Crash, .process = kX, .lasts = seconds(0.3)});
+    wait(2);
+    const Verdict found = verdict();
+    EXPECT_EQ(found.cause.kind, CauseKind::Ended);
+    EXPECT_EQ(found.cause.who, flight_axis(kX));
+    EXPECT_FALSE(found.rest) << "none was moving";
+}
+
+TEST_F(Flown, ACoordinatorThatStoodStillIsFound) {
+    start_job();
+    befall({.kind = Kind::Freeze, .process = kCoordinator, .lasts = seconds(0.1)});
+    wait(1);
+    expect(verdict(), CauseKind::Stalled, kFlightCoordinator);
+}
+
+TEST_F(Flown, ACoordinatorThatEndedIsFound) {
+    start_job();
+    befall({.kind = Kind::Crash, .process = kCoordinator, .lasts = seconds(0.5)});
+    wait(2);
+    expect(verdict(), CauseKind::Ended, kFlightCoordinator);
+}
+
+TEST_F(Flown, AnAxisThatWasCutOffIsFound) {
+    start_job();
+    befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1)});
+    wait(1);
+    const Verdict found = verdict();
+    expect(found, CauseKind::CutOff, flight_axis(kY));
+    EXPECT_THAT(found.story[0], HasSubstr("it heard nobody, and nobody heard it"));
+}
+
+TEST_F(Flown, AnAxisThatNobodyHeardIsFound) {
+    start_job();
+    befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1), .incoming = false});
+    wait(1);
+    const Verdict found = verdict();
+    expect(found, CauseKind::CutOff, flight_axis(kY));
+    EXPECT_THAT(found.story[0], HasSubstr("nobody heard it, though it ran"));
+}
+
+TEST_F(Flown, ALinkThatWasCutIsFound) {
+    start_job();
+    befall({.kind = Kind::Cut, .process = kX, .lasts = seconds(0.1), .peer = kY});
+    wait(1);
+    const Verdict found = verdict();
+    expect(found, CauseKind::CutOff, std::nullopt);
+    EXPECT_THAT(found.story[0], HasSubstr("the link between"));
+}
+
+TEST_F(Flown, AHostThatStoodStillIsFound) {
+    start_job();
+    for (const std::size_t process : {kX, kY, kCoordinator}) {
+        befall({.kind = Kind::Freeze, .process = process, .lasts = seconds(0.05)});
+    }
+    wait(1);
+    expect(verdict(), CauseKind::HostStalled, std::nullopt);
+}
+
+TEST_F(Flown, ALimitThatWasHitIsFound) {
+    start_job();
+    vm.device(kX).plant().push(9'000);
+    wait(1);
+    const Verdict found = verdict();
+    expect(found, CauseKind::Fault, flight_axis(kX));
+    EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
+}
+
+TEST_F(Flown, AnEmergencyStopIsFound) {
+    start_job();
+    (void)ask(CommandKind::EmergencyStop);
+    wait(0.5);
+    expect(verdict(), CauseKind::EmergencyStop, std::nullopt);
+}
+
+TEST_F(Flown, EveryProcessKeepsAnIncidentOfMotion) {
+    start_job();
+    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
+    wait(1);
+    EXPECT_EQ(files().size(), 3U);
+}
+
+}  // namespace
+}  // namespace lockstep
