@@ -20,9 +20,6 @@
 
 namespace lockstep {
 
-/// MoveOwn: axes to their places each by itself, not coordinated.
-enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
-
 /// What the record says of a job: enough to do it again.
 struct JobEvent {
     enum class Kind : std::uint8_t { Begun, EpochBegun, Ended, Overridden };
