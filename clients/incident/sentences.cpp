@@ -96,8 +96,11 @@ std::string coordinator_words(const Incident& incident, const FlightEvent& event
             return fmt::format("all rest together after frame {}; it goes on from there", event.frame);
         case Kind::Claimed: return "owns the machine from now on";
         case Kind::StoodDown: return "stands down: another owns the machine";
+        case Kind::JobContinued:
         case Kind::JobCutShort:
             return fmt::format("the job of the owner before was cut short near line {}", event.count);
+        case Kind::JobContinued:
+            return fmt::format("goes on with the job of the owner before, near line {}", event.count);
         case Kind::JobBegun: return fmt::format("begins job {}", event.count);
         case Kind::JobEnded:
             return fmt::format(
