@@ -96,7 +96,6 @@ std::string coordinator_words(const Incident& incident, const FlightEvent& event
             return fmt::format("all rest together after frame {}; it goes on from there", event.frame);
         case Kind::Claimed: return "owns the machine from now on";
         case Kind::StoodDown: return "stands down: another owns the machine";
-        case Kind::JobContinued:
         case Kind::JobCutShort:
             return fmt::format("the job of the owner before was cut short near line {}", event.count);
         case Kind::JobContinued:
@@ -143,6 +142,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
         case Kind::AxisGone:
         case Kind::Interrupted:
         case Kind::StoodDown:
+        case Kind::JobContinued:
         case Kind::JobCutShort:
         case Kind::Stalled: return Weight::Telling;
         case Kind::Incident: return is_end(event) ? Weight::Telling : Weight::Routine;
