@@ -6,6 +6,8 @@
 #include "clients/analysis/figures.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "clients/analysis/recorder.hpp"
+#include "clients/analysis/second_thread.hpp"
+#include "clients/analysis/sorter.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -62,11 +64,15 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
     for (const auto& directory : {options.csv_dir, options.svg_dir}) {
         if (auto made = make_directory(directory); !made) { return std::unexpected(made.error()); }
     }
-    Recorder recorder(options);
-    const auto events = read_log(log, recorder, options.progress);
+    Recorder recorder;
+    SecondThread recording(recorder);
+    Sorter sorter(options, recording);
+    const auto events = read_log(log, sorter, options.progress);
     if (!events) { return std::unexpected(events.error()); }
-    Analysis analysis = recorder.finish();
-    if (recorder.write_error()) { return std::unexpected(*recorder.write_error()); }
+    const auto written = sorter.finish();
+    if (!written) { return std::unexpected(written.error()); }
+    recording.finish();
+    Analysis analysis = recorder.finish(sorter);
     if (analysis.axes.empty() && analysis.jobs.empty()) {
         return std::unexpected(log.string() + ": nothing in it is recorded by Lockstep" + of_machine(options.machine) +
                                first_reason(analysis));

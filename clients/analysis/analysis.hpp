@@ -66,6 +66,7 @@ struct Analysis {
     std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
     std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
     std::uint64_t jobs_not_kept = 0;
+    std::int64_t missing_job_events = 0;           // between the first and the last of each coordinator
     std::uint64_t events = 0;                      // read, of every kind
     std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
     std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification

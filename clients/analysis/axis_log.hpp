@@ -11,6 +11,7 @@
 #include "clients/analysis/axis_statistics.hpp"
 #include "clients/analysis/csv.hpp"
 #include "clients/analysis/lateness.hpp"
+#include "clients/analysis/message_numbers.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/analysis/tick_histogram.hpp"
 #include "clients/analysis/trace.hpp"
@@ -25,6 +26,17 @@ struct PositionSample {
     double velocity_mm_per_s = 0;
 };
 
+/// How late an axis's steps were, against the ticks commanded: ticks.
+struct LateFigures {
+    TickHistogram amounts;
+    Course course;
+
+    void add(const LateStep& step) {
+        amounts.add(step.late);
+        course.add({step.commanded + step.late, static_cast<double>(step.late.value)});
+    }
+};
+
 class AxisLog {
 public:
     static constexpr std::string_view kPositionsHeader = "tick,position_steps,position_mm,velocity_mm_per_s";
@@ -37,15 +49,13 @@ public:
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
     /// The steps to come are told to this object too, which must outlive the log's end.
-    void tell(StepListener& listener) { stream_.listen(listener); }
-    void tell(StepMerge& merge, std::size_t lane) { statistics_.tell(merge, lane); }
+    void tell(MeasuredListener& listener, std::size_t lane) { statistics_.tell(listener, lane); }
     void take(StepBatch batch) { stream_.take(std::move(batch)); }
     void take(const PositionSample& sample);
-    void take(const LateStep& step) {
-        late_.add(step.late);
-        late_course_.add({step.commanded + step.late, static_cast<double>(step.late.value)});
-    }
+    void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
+    MessageNumbers& position_numbers() { return position_numbers_; }
+    MessageNumbers& figure_numbers() { return figure_numbers_; }
     /// Call once, at the end. The error is that of a file that was not written whole.
     std::expected<void, std::string> finish();
 
@@ -53,12 +63,15 @@ public:
     const StreamCounts& counts() const { return stream_.counts(); }
     const AxisStatistics& statistics() const { return statistics_; }
     /// How far its steps were from the ticks commanded, and over time, signed: ticks.
-    const TickHistogram& late() const { return late_; }
-    std::vector<Sample> late_course() const { return late_course_.samples(); }
+    const TickHistogram& late() const { return late_.amounts; }
+    std::vector<Sample> late_course() const { return late_.course.samples(); }
     /// The least time before its start at which a frame came, over time: ms.
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
+    /// Messages between the first and the last in the log.
+    std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
+    std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
     /// As the axis's own messages have it; none where they do not tell.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
     /// How far the last position message is from the last step recorded before it: what the log ends too early for,
@@ -69,11 +82,12 @@ private:
     std::string name_;
     AxisStatistics statistics_;
     Trace trace_;
-    TickHistogram late_;
-    Course late_course_;
+    LateFigures late_;
     Course slack_;
     std::unique_ptr<StepCsv> step_csv_;
     std::unique_ptr<CsvFile> position_csv_;
+    MessageNumbers position_numbers_;
+    MessageNumbers figure_numbers_;  // of health messages
     std::int64_t positions_ = 0;
     std::optional<PositionSample> last_position_;
     std::optional<double> steps_per_mm_;

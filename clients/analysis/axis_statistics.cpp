@@ -8,10 +8,22 @@
 namespace lockstep::analysis {
 
 void AxisStatistics::on_batch(const StepBatch& batch) {
+    if (batch.steps.empty()) { return; }
+    if (!first_) { begin(batch.steps.front(), batch.position_before_steps); }
     std::int64_t position = batch.position_before_steps;
-    for (const StepEdge& edge : batch.steps) { take(edge, position += edge.direction); }
+    measured_.resize(batch.steps.size());
+    MeasuredStep* step = measured_.data();
+    for (const StepEdge& edge : batch.steps) {
+        position += edge.direction;
+        lowest_ = std::min(lowest_, position);
+        highest_ = std::max(highest_, position);
+        show_rest(edge.tick);
+        measure(edge, position, *step++);
+        last_ = {edge.tick, position};
+    }
     steps_ += static_cast<std::int64_t>(batch.steps.size());
     clock_error_ = std::max(clock_error_, batch.clock_error);
+    if (listener_ != nullptr) { listener_->on_measured(lane_, measured_, batch.clock_error); }
 }
 
 void AxisStatistics::on_break(const Break& what) {
@@ -30,30 +42,22 @@ void AxisStatistics::finish() {
     if (last_) { stand_at(last_->tick); }
 }
 
-void AxisStatistics::take(StepEdge edge, std::int64_t position) {
-    if (!first_) {
-        first_ = StepPlace{edge.tick, position};
-        start_ = position - edge.direction;
-        lowest_ = highest_ = start_;
-        stand_at(edge.tick);
-    }
-    lowest_ = std::min(lowest_, position);
-    highest_ = std::max(highest_, position);
-    show_rest(edge.tick);
-    measure(edge, position);
-    last_ = StepPlace{edge.tick, position};
+void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
+    first_ = StepPlace{edge.tick, position_before + edge.direction};
+    start_ = lowest_ = highest_ = position_before;
+    stand_at(edge.tick);
 }
 
-void AxisStatistics::measure(StepEdge edge, std::int64_t position) {
+void AxisStatistics::measure(StepEdge edge, std::int64_t position, MeasuredStep& step) {
     const auto speed = meter_.step(edge);
     const auto& acceleration = meter_.acceleration();
     if (speed) { speed_.add(*speed); }
     if (acceleration) { acceleration_.add(*acceleration); }
-    if (merge_ == nullptr) { return; }
-    const auto amount = [](const std::optional<Sample>& of) {
-        return of ? static_cast<float>(std::abs(of->value)) : 0.0F;
-    };
-    merge_->take(lane_, {edge.tick, position, amount(speed), amount(acceleration), edge.direction});
+    step.tick = edge.tick;
+    step.count = position;
+    step.direction = edge.direction;
+    step.steps_per_tick = speed ? static_cast<float>(std::abs(speed->value)) : 0;
+    step.steps_per_tick2 = acceleration ? static_cast<float>(std::abs(acceleration->value)) : 0;
 }
 
 void AxisStatistics::stand_at(Tick tick) {

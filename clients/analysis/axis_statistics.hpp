@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clients/analysis/course.hpp"
+#include "clients/analysis/measured_step.hpp"
 #include "clients/analysis/speed_meter.hpp"
-#include "clients/analysis/step_merge.hpp"
 #include "clients/analysis/step_stream.hpp"
 
 namespace lockstep::analysis {
@@ -22,9 +22,9 @@ class AxisStatistics final : public StepListener {
 public:
     static constexpr std::size_t kBreaksKept = 1000;
 
-    /// Each step is told to `merge` too, with what was measured there.
-    void tell(StepMerge& merge, std::size_t lane) {
-        merge_ = &merge;
+    /// Each step is told to `listener` too, with what was measured there.
+    void tell(MeasuredListener& listener, std::size_t lane) {
+        listener_ = &listener;
         lane_ = lane;
     }
     void on_batch(const StepBatch& batch) override;
@@ -52,16 +52,17 @@ public:
     std::int64_t missing_steps() const { return missing_steps_; }
 
 private:
-    void take(StepEdge edge, std::int64_t position);
-    void measure(StepEdge edge, std::int64_t position);
+    void begin(StepEdge edge, std::int64_t position_before);
+    void measure(StepEdge edge, std::int64_t position, MeasuredStep& step);
     void stand_at(Tick tick);
     void show_rest(Tick until);
 
     SpeedMeter meter_;
     Course speed_;
     Course acceleration_;
-    StepMerge* merge_ = nullptr;
+    MeasuredListener* listener_ = nullptr;
     std::size_t lane_ = 0;
+    std::vector<MeasuredStep> measured_;  // of one batch
     std::int64_t steps_ = 0;
     std::optional<StepPlace> first_;
     std::optional<StepPlace> last_;

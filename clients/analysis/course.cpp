@@ -5,28 +5,22 @@
 
 namespace lockstep::analysis {
 
-void Course::Bin::add(Sample sample) {
-    if (empty) {
-        first = lowest = highest = sample;
-        empty = false;
-    }
-    if (sample.value < lowest.value) { lowest = sample; }
-    if (sample.value > highest.value) { highest = sample; }
-    last = sample;
-}
-
 void Course::Bin::add(const Bin& later) {
     if (later.empty) { return; }
     for (const Sample& sample : {later.first, later.lowest, later.highest, later.last}) { add(sample); }
 }
 
-void Course::add(Sample sample) {
-    if (bins_.empty()) { origin_ = sample.at; }
-    if (sample.at < origin_) { return; }
-    while ((sample.at - origin_).value / width_.value >= static_cast<std::int64_t>(kMaxBins)) { widen(); }
-    const auto place = static_cast<std::size_t>((sample.at - origin_).value / width_.value);
-    if (place >= bins_.size()) { bins_.resize(place + 1); }
-    bins_[place].add(sample);
+/// False: there is none, before the first sample.
+bool Course::find_bin(Tick at) {
+    if (bins_.empty()) { origin_ = at; }
+    if (at < origin_) { return false; }
+    while ((at - origin_).value / width_.value >= static_cast<std::int64_t>(kMaxBins)) { widen(); }
+    const std::int64_t place = (at - origin_).value / width_.value;
+    latest_ = static_cast<std::size_t>(place);
+    latest_from_ = origin_ + width_ * place;
+    latest_end_ = latest_from_ + width_;
+    if (latest_ >= bins_.size()) { bins_.resize(latest_ + 1); }
+    return true;
 }
 
 void Course::widen() {

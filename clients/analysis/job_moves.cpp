@@ -10,20 +10,24 @@ bool MoveLog::is_whole() const {
     return std::ranges::all_of(axes, [](const AxisMove& axis) { return axis.made_steps == axis.asked_steps; });
 }
 
-std::optional<std::size_t> MoveCursor::find(const AskedPath& asked, std::size_t axis, std::int64_t count,
-                                            int direction) {
+bool MoveCursor::find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction) {
     const auto& moves = asked.moves_of(axis);
     const std::size_t end = std::min(moves.size(), next_ + kReach);
     for (std::size_t i = next_; i < end; ++i) {
         const std::int64_t from = asked.from(moves[i], axis);
         const std::int64_t to = asked.to(moves[i], axis);
-        const bool leads_through = direction > 0 ? from <= count && count < to : to < count && count <= from;
-        if (leads_through) {
+        const std::int64_t low = direction > 0 ? from : to + 1;
+        const std::int64_t high = direction > 0 ? to : from + 1;
+        if (low <= count && count < high) {
             next_ = i;
-            return moves[i];
+            move_ = moves[i];
+            direction_ = direction;
+            low_ = low;
+            high_ = high;
+            return true;
         }
     }
-    return std::nullopt;
+    return false;
 }
 
 JobMoves::JobMoves(AskedPath asked, bool on_a_line)
@@ -33,10 +37,10 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
       late_cursor_(asked_.axes()),
       made_(asked_.size()),
       made_by_axis_(asked_.size() * asked_.axes()),
-      line_{.from_mm = std::vector<double>(asked_.axes()), .direction = std::vector<double>(asked_.axes())} {
+      line_(asked_.axes()) {
     if (asked_.size() == 0) { return; }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        at_mm_.push_back(static_cast<double>(asked_.from(0, axis)) * asked_.mm_per_step(axis));
+        line_[axis].at_mm = static_cast<double>(asked_.from(0, axis)) * asked_.mm_per_step(axis);
     }
     begin(0);
 }
@@ -45,41 +49,49 @@ void JobMoves::begin(std::size_t move) {
     current_ = move;
     double squares = 0;
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        line_.from_mm[axis] = static_cast<double>(asked_.from(move, axis)) * asked_.mm_per_step(axis);
-        line_.direction[axis] =
-            static_cast<double>(asked_.to(move, axis) - asked_.from(move, axis)) * asked_.mm_per_step(axis);
-        squares += line_.direction[axis] * line_.direction[axis];
+        const std::int64_t steps = asked_.to(move, axis) - asked_.from(move, axis);
+        line_[axis].from_mm = static_cast<double>(asked_.from(move, axis)) * asked_.mm_per_step(axis);
+        line_[axis].direction = static_cast<double>(steps) * asked_.mm_per_step(axis);
+        squares += line_[axis].direction * line_[axis].direction;
     }
-    line_.length_mm = std::sqrt(squares);
-    if (line_.length_mm == 0) { return; }
-    for (double& part : line_.direction) { part /= line_.length_mm; }
+    line_length_mm_ = std::sqrt(squares);
+    for (Part& part : line_) {
+        if (line_length_mm_ > 0) { part.direction /= line_length_mm_; }
+        stand(part, part.at_mm);
+    }
 }
 
-/// From where the axes are to the nearest point of the line.
-double JobMoves::distance_mm() const {
+void JobMoves::stand(Part& part, double at_mm) {
+    part.at_mm = at_mm;
+    part.off_mm = at_mm - part.from_mm;
+    part.along_mm = part.off_mm * part.direction;
+}
+
+/// Of the distance from where the axes are to the nearest point of the line.
+double JobMoves::square_of_distance_mm2() const {
     double along = 0;
-    for (std::size_t i = 0; i < at_mm_.size(); ++i) { along += (at_mm_[i] - line_.from_mm[i]) * line_.direction[i]; }
-    along = std::clamp(along, 0.0, line_.length_mm);
+    for (const Part& part : line_) { along += part.along_mm; }
+    along = std::clamp(along, 0.0, line_length_mm_);
     double squares = 0;
-    for (std::size_t i = 0; i < at_mm_.size(); ++i) {
-        const double off = at_mm_[i] - line_.from_mm[i] - along * line_.direction[i];
+    for (const Part& part : line_) {
+        const double off = part.off_mm - along * part.direction;
         squares += off * off;
     }
-    return std::sqrt(squares);
+    return squares;
 }
 
 void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     if (asked_.size() == 0) { return; }
-    const auto move = made_cursor_[axis].find(asked_, axis, step.count - step.direction, step.direction);
-    if (move) {
-        take_in(*move, axis, step);
+    MoveCursor& cursor = made_cursor_[axis];
+    if (cursor.find(asked_, axis, step.count - step.direction, step.direction)) {
+        take_in(cursor.move(), axis, step);
     } else {
         ++unasked_steps_;
     }
-    at_mm_[axis] = static_cast<double>(step.count) * asked_.mm_per_step(axis);
+    stand(line_[axis], static_cast<double>(step.count) * asked_.mm_per_step(axis));
     if (!on_a_line_) { return; }
-    double& largest = made_[current_].largest_distance_mm;
-    largest = std::max(largest, distance_mm());
+    double& largest = made_[current_].largest_square_mm2;
+    largest = std::max(largest, square_of_distance_mm2());
 }
 
 void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& step) {
@@ -95,9 +107,9 @@ void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& s
 
 void JobMoves::take(std::size_t axis, const LateStep& step) {
     if (asked_.size() == 0) { return; }
-    const auto move = late_cursor_[axis].find(asked_, axis, step.count - step.direction, step.direction);
-    if (!move) { return; }
-    Made& made = made_[*move];
+    MoveCursor& cursor = late_cursor_[axis];
+    if (!cursor.find(asked_, axis, step.count - step.direction, step.direction)) { return; }
+    Made& made = made_[cursor.move()];
     made.earliest = made.late.empty() ? step.late : std::min(made.earliest, step.late);
     made.latest = made.late.empty() ? step.late : std::max(made.latest, step.late);
     made.late.add(step.late);
@@ -122,7 +134,7 @@ MoveLog JobMoves::move(std::size_t number) const {
                 .skew = made.latest - made.earliest};
     if (made.first) {
         log.made = made.last - *made.first + asked.planned - asked.stepping;
-        if (on_a_line_) { log.largest_distance_mm = made.largest_distance_mm; }
+        if (on_a_line_) { log.largest_distance_mm = std::sqrt(made.largest_square_mm2); }
     }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
         const MadeByAxis& by_axis = made_by_axis_[number * asked_.axes() + axis];

@@ -12,7 +12,7 @@
 
 #include "clients/analysis/asked_path.hpp"
 #include "clients/analysis/lateness.hpp"
-#include "clients/analysis/step_merge.hpp"
+#include "clients/analysis/measured_step.hpp"
 #include "clients/analysis/tick_histogram.hpp"
 
 namespace lockstep::analysis {
@@ -43,12 +43,23 @@ struct MoveLog {
 /// The next move through a place, of one axis.
 class MoveCursor {
 public:
-    /// The number of the move in which an axis steps from `count` in `direction`; none: no such move is near.
-    std::optional<std::size_t> find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction);
+    /// Goes to the move in which an axis steps from `count` in `direction`. False: no such move is near.
+    bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction) {
+        return (direction == direction_ && low_ <= count && count < high_) || find_next(asked, axis, count, direction);
+    }
+    /// Its number.
+    std::size_t move() const { return move_; }
 
 private:
     static constexpr std::size_t kReach = 64;  // moves that may be missing from the log
-    std::size_t next_ = 0;                     // of the axis's moves
+
+    bool find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction);
+
+    std::size_t next_ = 0;  // of the axis's moves
+    std::size_t move_ = 0;  // the one found last: it leads through counts from low_ up to high_, that not among them
+    int direction_ = 0;
+    std::int64_t low_ = 0;
+    std::int64_t high_ = 0;
 };
 
 class JobMoves {
@@ -71,7 +82,7 @@ private:
     struct Made {
         std::optional<Tick> first;  // of the lead axis's steps
         Tick last;
-        double largest_distance_mm = 0;
+        double largest_square_mm2 = 0;  // of the distance from its line
         TickHistogram late;
         Ticks earliest;  // of how late its steps were
         Ticks latest;
@@ -81,15 +92,19 @@ private:
         float steps_per_tick = 0;
         float steps_per_tick2 = 0;
     };
-    struct Line {
-        std::vector<double> from_mm;
-        std::vector<double> direction;  // of length 1
-        double length_mm = 0;
+    /// One axis's part in the current move's line, and where the axis is.
+    struct Part {
+        double from_mm = 0;
+        double direction = 0;  // of all axes together of length 1
+        double at_mm = 0;
+        double off_mm = 0;    // from from_mm
+        double along_mm = 0;  // its share of the way along the line
     };
 
     void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
     void begin(std::size_t move);
-    double distance_mm() const;
+    void stand(Part& part, double at_mm);
+    double square_of_distance_mm2() const;
 
     AskedPath asked_;
     bool on_a_line_;
@@ -97,9 +112,9 @@ private:
     std::vector<MoveCursor> late_cursor_;
     std::vector<Made> made_;                // by move
     std::vector<MadeByAxis> made_by_axis_;  // by move and axis
-    std::vector<double> at_mm_;             // by axis
     std::size_t current_ = 0;
-    Line line_;  // of the current move
+    std::vector<Part> line_;  // of the current move, by axis
+    double line_length_mm_ = 0;
     std::int64_t unasked_steps_ = 0;
 };
 

@@ -5,11 +5,25 @@
 #include <utility>
 
 namespace lockstep::analysis {
+namespace {
 
-void Lateness::on_batch(const StepBatch& batch) {
-    std::int64_t count = batch.position_before_steps;
-    for (const StepEdge& step : batch.steps) { seen_.push_back({step, count += step.direction, batch.clock_error}); }
-    last_tick_ = batch.steps.back().tick;
+/// As many steps as a run makes where it does not turn back.
+std::ptrdiff_t likely_steps(const Run& run) { return std::abs(run.to().count() - run.from.count()); }
+
+}  // namespace
+
+void Lateness::take(std::span<const MeasuredStep> steps, Ticks clock_error) {
+    if (compared_ * 2 > seen_.size()) {
+        seen_.erase(seen_.begin(), seen_.begin() + static_cast<std::ptrdiff_t>(std::exchange(compared_, 0)));
+    }
+    for (const MeasuredStep& step : steps) {
+        SeenStep& seen = seen_.emplace_back();
+        seen.tick = step.tick;
+        seen.count = step.count;
+        seen.clock_error = clock_error;
+        seen.direction = step.direction;
+    }
+    last_tick_ = steps.back().tick;
     settle();
 }
 
@@ -24,10 +38,15 @@ void Lateness::finish() {
 }
 
 void Lateness::settle() {
-    const auto is_over = [&](const Run& run) {
-        return last_tick_ && *last_tick_ - (run.commanded_start() + run.ticks()) > kPatience;
-    };
-    while (runs_.size() > kMaxWaiting || (!runs_.empty() && is_over(runs_.front()))) { compare_first(); }
+    while (runs_.size() > kMaxWaiting || (!runs_.empty() && last_tick_ && *last_tick_ - first_end() > kPatience)) {
+        compare_first();
+    }
+}
+
+/// The first run lasts no longer than until the next begins: it may have been cut.
+Tick Lateness::first_end() const {
+    const Tick end = runs_.front().commanded_start() + runs_.front().ticks();
+    return runs_.size() > 1 ? std::min(end, runs_[1].commanded_start()) : end;
 }
 
 void Lateness::compare_first() {
@@ -42,22 +61,23 @@ std::vector<LateStep> Lateness::compare(StepMaker maker) {
     std::vector<LateStep> steps;
     const auto is_next = [&](const SeenStep& seen) {
         const StepEdge* next = maker.next();
-        return next != nullptr && seen.edge.direction == next->direction &&
-               seen.count == maker.count() + next->direction &&
-               std::abs((seen.edge.tick - maker.commanded()).value) < kPatience.value;
+        return next != nullptr && seen.direction == next->direction && seen.count == maker.count() + next->direction &&
+               std::abs((seen.tick - maker.commanded()).value) < kPatience.value;
     };
-    while (!seen_.empty() && seen_.front().edge.tick < maker.run().commanded_start() && !is_next(seen_.front())) {
-        seen_.pop_front();  // of runs that are not in the log
+    auto seen = seen_.begin() + static_cast<std::ptrdiff_t>(compared_);
+    while (seen != seen_.end() && seen->tick < maker.run().commanded_start() && !is_next(*seen)) {
+        ++seen;  // of runs that are not in the log
     }
-    for (; !seen_.empty() && is_next(seen_.front()); seen_.pop_front(), maker.pass()) {
-        const Tick commanded = maker.commanded();
-        const SeenStep& seen = seen_.front();
-        steps.push_back({.commanded = commanded,
-                         .late = seen.edge.tick - commanded,
-                         .error = seen.clock_error,
-                         .count = seen.count,
-                         .direction = seen.edge.direction});
+    steps.reserve(static_cast<std::size_t>(std::min<std::ptrdiff_t>(seen_.end() - seen, likely_steps(maker.run()))));
+    for (; seen != seen_.end() && is_next(*seen); ++seen, maker.pass()) {
+        LateStep& step = steps.emplace_back();
+        step.commanded = maker.commanded();
+        step.late = seen->tick - step.commanded;
+        step.error = seen->clock_error;
+        step.count = seen->count;
+        step.direction = seen->direction;
     }
+    compared_ = static_cast<std::size_t>(seen - seen_.begin());
     return steps;
 }
 

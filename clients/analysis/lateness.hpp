@@ -8,10 +8,11 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "clients/analysis/measured_step.hpp"
 #include "clients/analysis/run.hpp"
-#include "clients/analysis/step_stream.hpp"
 
 namespace lockstep::analysis {
 
@@ -23,7 +24,7 @@ struct LateStep {
     std::int8_t direction = 0;
 };
 
-class Lateness final : public StepListener {
+class Lateness {
 public:
     /// So long after a run's end its last steps are waited for: messages are sent every 10 ms. No step is taken to be
     /// later.
@@ -35,29 +36,30 @@ public:
 
     /// `on_run` hears of each run of an epoch, in the order of their starts.
     explicit Lateness(OnRun on_run) : on_run_(std::move(on_run)) {}
-    Lateness(const Lateness&) = delete;  // a stream tells its steps to this object
-    Lateness& operator=(const Lateness&) = delete;
 
-    /// In machine time.
-    void on_batch(const StepBatch& batch) override;
+    /// The next steps, whose ticks are machine time within clock_error.
+    void take(std::span<const MeasuredStep> steps, Ticks clock_error);
     void take(Run run);
     /// Call once, at the end of the log.
     void finish();
 
 private:
     struct SeenStep {
-        StepEdge edge;
+        Tick tick;
         std::int64_t count = 0;  // after it
         Ticks clock_error;
+        std::int8_t direction = 0;
     };
 
     void settle();
+    Tick first_end() const;
     void compare_first();
     std::vector<LateStep> compare(StepMaker maker);
 
     OnRun on_run_;
-    std::deque<SeenStep> seen_;  // of no run yet
-    std::deque<Run> runs_;       // by their starts
+    std::vector<SeenStep> seen_;
+    std::size_t compared_ = 0;  // of them; those behind are of no run yet
+    std::deque<Run> runs_;      // by their starts
     std::optional<Tick> last_tick_;
 };
 

@@ -6,9 +6,9 @@ namespace lockstep::analysis {
 namespace {
 
 bool is_countable_batch(const step_batch_t& m) {
-    return is_countable(m.first_tick) && is_countable(m.position_before) && m.sequence >= 0 &&
-           is_countable(m.sequence) && is_countable(m.ahead_first) && is_countable(m.ahead_last) &&
-           is_countable(m.clock_error) && m.clock_error >= 0;
+    return is_countable(m.first_tick) && is_countable(m.position_before) && is_message_number(m.sequence) &&
+           is_countable(m.ahead_first) && is_countable(m.ahead_last) && is_countable(m.clock_error) &&
+           m.clock_error >= 0;
 }
 
 /// Far within what keeps steps apart, which are two ticks from each other at least; beyond all quartzes.

@@ -17,6 +17,9 @@ constexpr bool is_countable(std::int64_t number) {
     return -kFarthest < number && number < kFarthest;
 }
 
+/// The number of a message among those of its process.
+constexpr bool is_message_number(std::int64_t number) { return number >= 0 && is_countable(number); }
+
 /// In the device's time. The error says what cannot be: ticks that do not rise, directions other than +1 and -1,
 /// numbers beyond counting, a clock that runs half as fast as another.
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message);

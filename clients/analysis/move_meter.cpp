@@ -13,7 +13,9 @@ std::optional<std::size_t> MoveMeter::Job::axis(const std::string& name) const {
 
 void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
     if (lanes_.size() <= lane) { lanes_.resize(lane + 1); }
-    lanes_[lane] = axis;
+    lanes_[lane].axis = axis;
+    if (axis == "X") { lanes_[lane].in_plane = 0; }
+    if (axis == "Y") { lanes_[lane].in_plane = 1; }
     for (Job& job : jobs_) {
         job.axis_of_lane.resize(lanes_.size());
         job.axis_of_lane[lane] = job.axis(axis);
@@ -24,19 +26,11 @@ void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machin
     if (jobs_.size() == kJobsOpen) { end_first(); }
     Job job{.number = number, .from = from, .axes = {}, .moves = std::move(moves), .axis_of_lane = {}};
     for (const AxisConfig& axis : machine.axes) { job.axes.push_back(axis.name); }
-    for (const std::string& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane)); }
+    for (const Lane& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane.axis)); }
     jobs_.push_back(std::move(job));
 }
 
-/// The latest one that has begun by then.
-MoveMeter::Job* MoveMeter::job_at(Tick tick) {
-    for (auto job = jobs_.rbegin(); job != jobs_.rend(); ++job) {
-        if (job->from <= tick) { return &*job; }
-    }
-    return nullptr;
-}
-
-void MoveMeter::on_step(std::size_t lane, const MeasuredStep& step) {
+void MoveMeter::take(std::size_t lane, const MeasuredStep& step) {
     Job* job = job_at(step.tick);
     trace(job, lane, step);
     if (job == nullptr) { return; }
@@ -47,8 +41,7 @@ void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step
     const bool of_a_job = job != nullptr && job->moves.is_on_a_line();
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
-    if (lanes_[lane] == "X") { plane_.step(0, step.count, step.direction); }
-    if (lanes_[lane] == "Y") { plane_.step(1, step.count, step.direction); }
+    if (const auto in_plane = lanes_[lane].in_plane) { plane_.step(*in_plane, step.count, step.direction); }
 }
 
 void MoveMeter::on_late(const std::string& axis, std::span<const LateStep> steps) {
@@ -64,7 +57,7 @@ void MoveMeter::on_late(const std::string& axis, std::span<const LateStep> steps
 
 void MoveMeter::end_first() {
     on_job_(jobs_.front().number, jobs_.front().moves);
-    jobs_.pop_front();
+    jobs_.erase(jobs_.begin());
 }
 
 void MoveMeter::finish() {

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,13 +10,13 @@
 
 #include "clients/analysis/job_moves.hpp"
 #include "clients/analysis/lateness.hpp"
+#include "clients/analysis/measured_step.hpp"
 #include "clients/analysis/plane_trace.hpp"
-#include "clients/analysis/step_merge.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::analysis {
 
-class MoveMeter final : public MergedStepListener {
+class MoveMeter {
 public:
     /// So many jobs may still be told of: messages of the next come before the last steps of one.
     static constexpr std::size_t kJobsOpen = 4;
@@ -31,7 +29,8 @@ public:
     void name_lane(std::size_t lane, const std::string& axis);
     /// All steps from `from` on are the job's, until the next begins.
     void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
-    void on_step(std::size_t lane, const MeasuredStep& step) override;
+    /// Steps of all axes, in the order of their ticks.
+    void take(std::size_t lane, const MeasuredStep& step);
     /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
     const PlaneTrace& plane() const { return plane_; }
     void on_late(const std::string& axis, std::span<const LateStep> steps);
@@ -39,6 +38,10 @@ public:
     void finish();
 
 private:
+    struct Lane {
+        std::string axis;
+        std::optional<std::size_t> in_plane;  // of PlaneTrace's two axes
+    };
     struct Job {
         std::size_t number = 0;
         Tick from;
@@ -49,13 +52,18 @@ private:
         std::optional<std::size_t> axis(const std::string& name) const;
     };
 
-    Job* job_at(Tick tick);
+    /// The latest one that has begun by then; null: none has.
+    Job* job_at(Tick tick) {
+        auto job = jobs_.rbegin();
+        while (job != jobs_.rend() && job->from > tick) { ++job; }
+        return job == jobs_.rend() ? nullptr : &*job;
+    }
     void trace(const Job* job, std::size_t lane, const MeasuredStep& step);
     void end_first();
 
     OnJob on_job_;
-    std::vector<std::string> lanes_;
-    std::deque<Job> jobs_;
+    std::vector<Lane> lanes_;
+    std::vector<Job> jobs_;  // as they began
     PlaneTrace plane_;
     bool plane_is_of_jobs_ = false;
 };

@@ -5,56 +5,33 @@
 #include <algorithm>
 #include <utility>
 
-#include "clients/analysis/log_step.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "clients/analysis/run.hpp"
 #include "services/documents/machine_file.hpp"
-#include "services/documents/names.hpp"
 #include "services/documents/program_document.hpp"
 
 namespace lockstep::analysis {
 
-void Recorder::on_steps(const step_batch_t& message, LogPlace place) {
-    AxisLog* log = axis(message.machine, message.axis, place);
-    if (log == nullptr) { return; }
-    auto batch = to_batch(message);
-    if (!batch) { return on_damage(place, batch.error()); }
-    log->take(in_machine_time(std::move(*batch)));
-    merge_.settle();
+void Recorder::on_axis(const std::string& name) {
+    lanes_.push_back({.axis = name});
+    skew_.add(name);
+    moves_.name_lane(merge_.add_lane(), name);
 }
 
-void Recorder::on_position(const axis_position_t& message, LogPlace place) {
-    AxisLog* log = axis(message.machine, message.axis, place);
-    if (log == nullptr) { return; }
-    if (!is_countable(message.tick) || !is_countable(message.position_steps)) {
-        return on_damage(place, "a position with numbers that no machine counts to");
-    }
-    events_.take(message);
-    log->take(
-        PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
+void Recorder::on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) {
+    merge_.take(lane, steps);
+    skew_.take(lanes_[lane].axis, steps, clock_error);
+    merge_.settle([this](std::size_t of, const MeasuredStep& step) { moves_.take(of, step); });
 }
 
-void Recorder::on_health(const axis_health_t& message, LogPlace place) {
-    AxisLog* log = axis(message.machine, message.axis, place);
-    if (log == nullptr || message.setpoints <= 0) { return; }
-    if (!is_countable(message.tick)) { return on_damage(place, "figures with numbers that no machine counts to"); }
-    log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms});
-}
+void Recorder::on_position(const axis_position_t& message) { events_.take(message); }
 
-void Recorder::on_run(const run_t& message, LogPlace place) {
-    if (axis(message.machine, message.axis, place) == nullptr) { return; }
-    ++analysis_.runs;
-    auto run = to_run(message);
-    if (!run) { return on_damage(place, run.error()); }
-    events_.take(message.axis, *run);
-    skew_.take(message.axis, std::move(*run));
+void Recorder::on_run(std::size_t lane, const Run& run) {
+    events_.take(lanes_[lane].axis, run);
+    skew_.take(lanes_[lane].axis, run);
 }
 
 void Recorder::on_job(const job_t& message, LogPlace place) {
-    if (!is_ours(message.machine)) { return; }
-    if (!is_countable(message.utime) || !is_countable(message.start_tick)) {
-        return on_damage(place, "a job with times that no machine counts to");
-    }
     JobLog* record = job(message);
     if (record == nullptr) { return; }
     if (message.event == "begun") {
@@ -77,39 +54,7 @@ void Recorder::on_job(const job_t& message, LogPlace place) {
     }
 }
 
-void Recorder::on_foreign(std::string_view channel) { ++analysis_.foreign[std::string(channel)]; }
-
-void Recorder::on_damage(LogPlace place, std::string what) { note_damage(analysis_.damages, place, std::move(what)); }
-
-/// Whether the message is of the machine analysed; the first message says which that is where nobody asked for one.
-bool Recorder::is_ours(const std::string& machine) {
-    if (!machine_) { machine_ = machine; }
-    if (machine == *machine_) { return true; }
-    on_foreign("machine " + machine);
-    return false;
-}
-
-AxisLog* Recorder::axis(const std::string& machine, const std::string& name, LogPlace place) {
-    if (!is_axis_name(name)) {
-        on_damage(place, "an axis's name is none");
-        return nullptr;
-    }
-    if (!is_ours(machine)) { return nullptr; }
-    if (axes_.size() == kMaxAxes && !axes_.contains(name)) {
-        on_damage(place, "more axes than a machine can have");
-        return nullptr;
-    }
-    auto& log = axes_[name];
-    if (!log) {
-        log = std::make_unique<AxisLog>(name);
-        log->tell(skew_.steps_of(name));
-        const std::size_t lane = merge_.add_lane();
-        log->tell(merge_, lane);
-        moves_.name_lane(lane, name);
-        if (options_.csv_dir) { note_error(log->write_csv(*options_.csv_dir)); }
-    }
-    return log.get();
-}
+void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
 
 /// Null: it is one more than are kept.
 JobLog* Recorder::job(const job_t& message) {
@@ -158,9 +103,9 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
 
 void Recorder::on_late(const std::string& axis, std::span<const LateStep> steps) {
     moves_.on_late(axis, steps);
-    const auto log = axes_.find(axis);
-    if (log == axes_.end()) { return; }
-    for (const LateStep& step : steps) { log->second->take(step); }
+    const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
+    if (lane == lanes_.end()) { return; }
+    for (const LateStep& step : steps) { lane->late.add(step); }
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
@@ -216,16 +161,9 @@ void Recorder::note_move(JobLog& job, MoveLog move) {
     job.moves.push_back(std::move(move));
 }
 
-void Recorder::note_error(const std::expected<void, std::string>& result) {
-    if (!result && !write_error_) { write_error_ = result.error(); }
-}
-
-Analysis Recorder::finish() {
-    for (auto& [name, log] : axes_) { note_error(log->finish()); }
+Analysis Recorder::finish(Sorter& sorter) {
     analysis_.step_skew = skew_.finish();
-    for (auto& [name, log] : axes_) { analysis_.axes.push_back(std::move(log)); }
-    axes_.clear();
-    merge_.finish();
+    merge_.finish([this](std::size_t lane, const MeasuredStep& step) { moves_.take(lane, step); });
     for (Event& event : events_.events()) {
         const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });
         if (job != analysis_.jobs.end()) { event.job = job->job; }
@@ -236,7 +174,10 @@ Analysis Recorder::finish() {
     std::ranges::stable_sort(analysis_.happened, {}, &Event::at);
     analysis_.stepped_ways = moves_.plane().ways();
     std::ranges::sort(analysis_.damages, {}, &Damage::first_byte);
-    analysis_.machine = machine_.value_or("");
+    sorter.give(analysis_);
+    for (auto& axis : analysis_.axes) {
+        axis->take(std::move(std::ranges::find(lanes_, axis->name(), &Lane::axis)->late));
+    }
     if (analysis_.config) {
         const auto& order = analysis_.config->axes;
         std::ranges::stable_sort(analysis_.axes, {}, [&](const auto& log) {

@@ -1,43 +1,43 @@
-// Sorts a log's messages by axis and job.
+// Finds what happened to a machine as a whole: its jobs and their moves, its axes beside each other, what went wrong.
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/log_read.hpp"
 #include "clients/analysis/move_meter.hpp"
 #include "clients/analysis/skew.hpp"
+#include "clients/analysis/sorted_log.hpp"
+#include "clients/analysis/sorter.hpp"
 #include "clients/analysis/step_merge.hpp"
 
 namespace lockstep::analysis {
 
-class Recorder final : public LogListener {
+class Recorder final : public SortedListener {
 public:
-    explicit Recorder(const AnalysisOptions& options) : options_(options), machine_(options.machine) {}
+    Recorder() = default;
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    void on_steps(const step_batch_t& message, LogPlace place) override;
-    void on_position(const axis_position_t& message, LogPlace place) override;
-    void on_health(const axis_health_t& message, LogPlace place) override;
-    void on_run(const run_t& message, LogPlace place) override;
+    void on_axis(const std::string& name) override;
+    void on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) override;
+    void on_position(const axis_position_t& message) override;
+    void on_run(std::size_t lane, const Run& run) override;
     void on_job(const job_t& message, LogPlace place) override;
-    void on_foreign(std::string_view channel) override;
-    void on_damage(LogPlace place, std::string what) override;
+    void on_damage(LogPlace place, const std::string& what) override;
 
-    /// The first file that could not be written, if any.
-    const std::optional<std::string>& write_error() const { return write_error_; }
-    /// Ends every axis and gives everything away.
-    Analysis finish();
+    /// Call once, at the end of the log. Gives everything away, with what the sorter has of each axis.
+    Analysis finish(Sorter& sorter);
 
 private:
-    bool is_ours(const std::string& machine);
-    AxisLog* axis(const std::string& machine, const std::string& name, LogPlace place);
+    struct Lane {
+        std::string axis;
+        LateFigures late;
+    };
+
     JobLog* job(const job_t& message);
     void begin_job(const job_t& message, JobLog& job, LogPlace place);
     std::optional<Program> read_documents(const job_t& message, LogPlace place);
@@ -46,20 +46,16 @@ private:
     void keep_asked_way(const Program& program);
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
-    void note_error(const std::expected<void, std::string>& result);
 
-    const AnalysisOptions& options_;
-    std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
     EventLog events_;
     MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
-    StepMerge merge_{moves_};
+    StepMerge merge_;
     SkewMeter skew_{[this](const std::string& axis, std::span<const LateStep> steps) { on_late(axis, steps); }};
-    std::map<std::string, std::unique_ptr<AxisLog>> axes_;
+    std::vector<Lane> lanes_;  // by number
     Analysis analysis_;
     std::string latest_program_;
     std::size_t moves_kept_ = 0;
     std::size_t asked_points_ = 0;
-    std::optional<std::string> write_error_;
 };
 
 }  // namespace lockstep::analysis

@@ -44,6 +44,8 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_steps(found.steps());
     report.set_batches(axis.counts().batches);
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
+    report.set_missing_positions(axis.missing_positions());
+    report.set_missing_figures(axis.missing_figures());
     if (found.first()) { report.set_first_tick(found.first()->tick.value); }
     if (found.last()) { report.set_last_tick(found.last()->tick.value); }
     report.set_clock_error_us(analysis.microseconds(found.clock_error()));
@@ -170,6 +172,7 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     if (analysis.largest_distance_mm) { report.set_largest_distance_mm(*analysis.largest_distance_mm); }
     fill_findings(analysis, report);
     report.set_jobs_not_listed(analysis.jobs_not_kept);
+    report.set_missing_job_events(analysis.missing_job_events);
     for (const Event& event : analysis.happened) { fill(analysis, event, *report.add_events()); }
     for (const Damage& damage : analysis.damages) { fill_unread(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }

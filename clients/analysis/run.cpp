@@ -10,7 +10,7 @@ namespace lockstep::analysis {
 namespace {
 
 bool is_countable_run(const run_t& m) {
-    return is_countable(m.sequence) && m.sequence >= 0 && is_countable(m.start_tick) && is_countable(m.start_count) &&
+    return is_message_number(m.sequence) && is_countable(m.start_tick) && is_countable(m.start_count) &&
            is_countable(m.stop_count) && is_countable(m.zero_count) && is_countable(m.ahead) &&
            is_countable(m.clock_error) && m.clock_error >= 0;
 }
@@ -76,16 +76,6 @@ bool is_next(const Run& before, const Run& run) {
 
 StepMaker::StepMaker(Run run) : run_(std::move(run)), engine_(run_.start, run_.from), count_(run_.from.count()) {
     commanded_.other_from = run_.commanded_start();
-}
-
-const StepEdge* StepMaker::next() {
-    if (passed_ == made_.size()) { make_more(); }
-    return passed_ < made_.size() ? &made_[passed_] : nullptr;
-}
-
-void StepMaker::pass() {
-    count_ += made_[passed_].direction;
-    ++passed_;
 }
 
 void StepMaker::begin_piece() {

@@ -58,8 +58,11 @@ public:
 
     const Run& run() const { return run_; }
     /// The next step; null at the end of the pieces.
-    const StepEdge* next();
-    void pass();
+    const StepEdge* next() {
+        if (passed_ == made_.size()) { make_more(); }
+        return passed_ < made_.size() ? &made_[passed_] : nullptr;
+    }
+    void pass() { count_ += made_[passed_++].direction; }
     /// The machine time at which the next step was to be made. There is a next step.
     Tick commanded() { return commanded_.at(next()->tick); }
     /// Where the axis is after the steps passed, machine coordinates.

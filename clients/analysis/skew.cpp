@@ -33,13 +33,23 @@ PairSkew SkewMeter::summary_of(const std::pair<std::string, std::string>& axes, 
 Lateness& SkewMeter::lateness(const std::string& axis) {
     auto& found = axes_[axis];
     if (!found) {
-        found = std::make_unique<Lateness>([this, axis](const Run& run, std::vector<LateStep> steps) {
-            if (on_late_) { on_late_(axis, steps); }
-            frames_[{run.commanded_start(), run.epoch}][axis] = std::move(steps);
-            if (frames_.size() > kFramesWaiting) { take_first_frame(); }
-        });
+        found = std::make_unique<Lateness>(
+            [this, axis](const Run& run, std::vector<LateStep> steps) { on_run(axis, run, std::move(steps)); });
     }
     return *found;
+}
+
+void SkewMeter::on_run(const std::string& axis, const Run& run, std::vector<LateStep> steps) {
+    if (on_late_) { on_late_(axis, steps); }
+    const FrameKey frame{run.commanded_start(), run.epoch};
+    frames_[frame][axis] = std::move(steps);
+    latest_[axis] = std::max(latest_[axis], frame);
+    while (frames_.size() > kFramesWaiting || all_are_past_first_frame()) { take_first_frame(); }
+}
+
+bool SkewMeter::all_are_past_first_frame() const {
+    return !frames_.empty() && latest_.size() == axes_.size() &&
+           std::ranges::all_of(latest_, [&](const auto& axis) { return axis.second > frames_.begin()->first; });
 }
 
 void SkewMeter::take_first_frame() {
@@ -55,6 +65,7 @@ void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_typ
     const auto& b = second.second;
     if (a.empty() || b.empty()) { return; }
     Amounts& amounts = skews_[{first.first, second.first}];
+    auto same = amounts.times.end();  // the amount found last: most are the same
     const LateStep* newest_a = nullptr;
     const LateStep* newest_b = nullptr;
     for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
@@ -63,7 +74,9 @@ void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_typ
         if (is_a) { newest_a = &a[i++]; }
         if (is_b) { newest_b = &b[j++]; }
         if (newest_a == nullptr || newest_b == nullptr) { continue; }
-        ++amounts.times[amount(newest_a->late - newest_b->late)];
+        const Ticks found = amount(newest_a->late - newest_b->late);
+        if (same == amounts.times.end() || same->first != found) { same = amounts.times.try_emplace(found).first; }
+        ++same->second;
         amounts.error = std::max(amounts.error, newest_a->error + newest_b->error);
     }
 }

@@ -31,15 +31,19 @@ struct PairSkew {
 
 class SkewMeter {
 public:
-    /// So many frames wait for the axes whose record of them comes late.
+    /// A frame waits until every axis has told of a later one; so many wait for an axis that tells of none.
     static constexpr std::size_t kFramesWaiting = 64;
 
     using OnLate = std::function<void(const std::string& axis, std::span<const LateStep> steps)>;
     /// `on_late` hears of the steps of each frame, axis by axis.
     explicit SkewMeter(OnLate on_late = {}) : on_late_(std::move(on_late)) {}
 
-    /// Where the steps of an axis are to be told.
-    StepListener& steps_of(const std::string& axis) { return lateness(axis); }
+    /// Call as soon as an axis is heard of.
+    void add(const std::string& axis) { lateness(axis); }
+    /// The next steps of an axis, whose ticks are machine time within clock_error.
+    void take(const std::string& axis, std::span<const MeasuredStep> steps, Ticks clock_error) {
+        lateness(axis).take(steps, clock_error);
+    }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
     /// Call once, at the end of the log. The pairs that had frames together.
     std::vector<PairSkew> finish();
@@ -53,6 +57,8 @@ private:
     };
 
     Lateness& lateness(const std::string& axis);
+    void on_run(const std::string& axis, const Run& run, std::vector<LateStep> steps);
+    bool all_are_past_first_frame() const;
     void take_first_frame();
     /// How often each amount was seen, and the largest error.
     struct Amounts {
@@ -65,6 +71,7 @@ private:
 
     OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
+    std::map<std::string, FrameKey> latest_;  // that each axis has told of
     std::map<FrameKey, Steps> frames_;
     std::map<std::pair<std::string, std::string>, Amounts> skews_;
 };

@@ -86,6 +86,10 @@ void judge_events(const Analysis& analysis, Findings& found) {
 }
 
 void judge_record(const Analysis& analysis, Findings& found) {
+    if (analysis.missing_job_events > 0) {
+        found.push_back({Grade::Doubtful, fmt::format("{} of jobs not in the log: what was asked may not all be known",
+                                                      plural(analysis.missing_job_events, "event"))});
+    }
     std::uint64_t places = 0;
     std::uint64_t bytes = 0;
     for (const Damage& damage : analysis.damages) {

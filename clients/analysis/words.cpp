@@ -150,6 +150,12 @@ std::string axis_notes(const AxisLog& axis) {
         text += axis.name() + ": the last position is " + plural(std::abs(axis.unrecorded_steps()), "step") +
                 " from the last step in the log\n";
     }
+    if (const std::int64_t positions = axis.missing_positions(); positions > 0) {
+        text += fmt::format("{}: {} missing\n", axis.name(), plural(positions, "message") + " of positions");
+    }
+    if (const std::int64_t figures = axis.missing_figures(); figures > 0) {
+        text += fmt::format("{}: {} missing\n", axis.name(), plural(figures, "message") + " of figures");
+    }
     const StreamCounts& counts = axis.counts();
     const std::int64_t left_out = counts.duplicates + counts.late + counts.disordered;
     if (left_out > 0) {

@@ -52,6 +52,7 @@ public:
             merged_.inputs[i].damages = inputs_[i].damages();
         }
         merged_.axes = missing_.finish();
+        merged_.missing_job_events = missing_.missing_job_events();
         return std::move(merged_);
     }
 
@@ -142,7 +143,10 @@ private:
 
 }  // namespace
 
-bool Merged::is_complete() const { return std::ranges::all_of(axes, &AxisRecord::is_complete); }
+bool Merged::is_complete() const {
+    return missing_job_events == 0 &&
+           std::ranges::all_of(axes, [](const AxisRecord& axis) { return axis.missing_messages() == 0; });
+}
 
 std::expected<Merged, std::string> merge_logs(const MergeOptions& options, RecordSink& to) {
     Merger merger(options, to);

@@ -1,6 +1,6 @@
 // Several logs of the same machine made one: every message that any of them has, once, in the order of machine time.
 //
-// Steps and runs are told apart by channel, process and sequence number; positions, figures and jobs by their time and
+// Messages are told apart by channel, process and sequence number; what has none, a log's own losses, by time and
 // content. Messages of channels that are not of the record are kept from each log, at the time of the message before.
 // Memory is bounded by the window, kMostBytesHeld, and a few bytes for each gap in the sequence numbers.
 #pragma once
@@ -43,6 +43,7 @@ struct Merged {
     std::uint64_t late = 0;        // written behind younger ones: later than the window
     std::uint64_t foreign = 0;     // written, of channels that are not of the record
     std::vector<AxisRecord> axes;
+    std::int64_t missing_job_events = 0;
 
     bool is_complete() const;
 };

@@ -9,15 +9,21 @@ namespace {
 
 using Identified = std::expected<std::optional<MessageId>, std::string>;
 
+std::int64_t process_of(const job_t& message) { return message.coordinator; }
+template <typename Message>
+std::int64_t process_of(const Message& message) {
+    return message.incarnation;
+}
+
 template <typename Message>
 Identified identify_as(const LogEvent& event) {
     const auto message = decode_lcm<Message>(event.data);
     if (!message) { return std::unexpected(message.error() + " on " + std::string(event.channel)); }
     MessageId id{.utime = message->utime, .channel = std::string(event.channel), .number = {}};
     if constexpr (requires { message->sequence; }) {
-        id.number = MessageNumber{message->incarnation, message->sequence};
-        if (message->sequence < 0 || !analysis::is_countable(message->sequence)) {
-            return std::unexpected("a message with a number that no axis counts to");
+        id.number = MessageNumber{process_of(*message), message->sequence};
+        if (!analysis::is_message_number(message->sequence)) {
+            return std::unexpected("a message with a number that no machine counts to");
         }
     }
     if constexpr (std::is_same_v<Message, step_batch_t>) {

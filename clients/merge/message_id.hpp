@@ -11,9 +11,9 @@
 
 namespace lockstep::merge {
 
-/// Of steps and runs, which are numbered without gaps from 0 on.
+/// Messages of a channel are numbered without gaps from 0 on.
 struct MessageNumber {
-    std::int64_t incarnation = 0;  // of the axis's process
+    std::int64_t incarnation = 0;  // of the axis's process, or the coordinator's
     std::int64_t sequence = 0;
     auto operator<=>(const MessageNumber&) const = default;
 };

@@ -1,12 +1,12 @@
 #include "clients/merge/missing.hpp"
 
 #include "clients/analysis/log_step.hpp"
-#include "services/wire/lcm_channels.hpp"
 #include "services/wire/lcm_decode.hpp"
 
 namespace lockstep::merge {
 
 using analysis::Break;
+using analysis::Numbers;
 using analysis::StepBatch;
 
 /// Hears an axis's steps in order, and where they break off.
@@ -57,29 +57,48 @@ MissingWatch::Axis& MissingWatch::axis(const std::string& machine, const std::st
     return *axis;
 }
 
+MissingWatch::Axis* MissingWatch::axis_of(RecordKind kind, const std::vector<std::uint8_t>& data) {
+    const auto named = [this](const auto& message) {
+        return message ? &axis(message->machine, message->axis) : nullptr;
+    };
+    switch (kind) {
+        case RecordKind::Run: return named(decode_lcm<run_t>(data));
+        case RecordKind::Position: return named(decode_lcm<axis_position_t>(data));
+        case RecordKind::Health: return named(decode_lcm<axis_health_t>(data));
+        default: return nullptr;
+    }
+}
+
 void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& data) {
     const RecordKind kind = kind_of(id.channel);
-    if (kind == RecordKind::Run) {
-        const auto run = decode_lcm<run_t>(data);
-        if (!run) { return; }
-        Axis& whose = axis(run->machine, run->axis);
-        ++whose.record.runs;
-        runs_[{id.channel, run->incarnation}] = &whose;
+    if (kind == RecordKind::Steps) {
+        const auto message = decode_lcm<step_batch_t>(data);
+        if (!message) { return; }
+        if (auto batch = analysis::to_batch(*message)) {
+            axis(message->machine, message->axis).stream.take(analysis::in_machine_time(std::move(*batch)));
+        }
+        return;
     }
-    if (kind != RecordKind::Steps) { return; }
-    const auto message = decode_lcm<step_batch_t>(data);
-    if (!message) { return; }
-    if (auto batch = analysis::to_batch(*message)) {
-        axis(message->machine, message->axis).stream.take(analysis::in_machine_time(std::move(*batch)));
+    if (!id.number) { return; }
+    const auto known = numbered_.try_emplace({id.channel, id.number->incarnation}, nullptr).first;
+    if (known->second == nullptr) { known->second = axis_of(kind, data); }
+    if (known->second != nullptr && kind == RecordKind::Run) { ++known->second->record.runs; }
+}
+
+void MissingWatch::note_missing_runs(const Whose& whose, AxisRecord& record) const {
+    for (const Numbers& gap : seen_.at(whose).gaps()) {
+        record.missing_run_messages += gap.end - gap.from;
+        if (record.missing_runs.size() < kListed) { record.missing_runs.push_back({record.axis, whose.second, gap}); }
     }
 }
 
 std::vector<AxisRecord> MissingWatch::finish() {
-    for (const auto& [whose, axis] : runs_) {
-        for (const Numbers& gap : seen_[whose].gaps()) {
-            axis->record.missing_run_messages += gap.end - gap.from;
-            if (axis->record.missing_runs.size() == kListed) { continue; }
-            axis->record.missing_runs.push_back({axis->record.axis, whose.second, gap});
+    for (const auto& [whose, axis] : numbered_) {
+        if (axis == nullptr) { continue; }
+        switch (kind_of(whose.first)) {
+            case RecordKind::Run: note_missing_runs(whose, axis->record); break;
+            case RecordKind::Position: axis->record.missing_positions += seen_.at(whose).missing_within(); break;
+            default: axis->record.missing_figures += seen_.at(whose).missing_within();
         }
     }
     std::vector<AxisRecord> out;
@@ -90,6 +109,14 @@ std::vector<AxisRecord> MissingWatch::finish() {
         out.push_back(std::move(axis->record));
     }
     return out;
+}
+
+std::int64_t MissingWatch::missing_job_events() const {
+    std::int64_t missing = 0;
+    for (const auto& [whose, numbers] : seen_) {
+        missing += kind_of(whose.first) == RecordKind::Job ? numbers.missing_within() : 0;
+    }
+    return missing;
 }
 
 }  // namespace lockstep::merge

@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/number_set.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/merge/message_id.hpp"
-#include "clients/merge/number_set.hpp"
+#include "services/wire/lcm_channels.hpp"
 
 namespace lockstep::merge {
 
@@ -31,7 +32,7 @@ struct MissingSteps {
 struct MissingRuns {
     std::string axis;
     std::int64_t incarnation = 0;  // of the axis's process
-    Numbers numbers;
+    analysis::Numbers numbers;
 };
 
 /// What there is of one axis. Its name is that of its channel where logs of several machines are merged.
@@ -45,8 +46,12 @@ struct AxisRecord {
     std::vector<MissingRuns> missing_runs;    // the first kListed
     std::int64_t missing_step_messages = 0;
     std::int64_t missing_run_messages = 0;
+    std::int64_t missing_positions = 0;  // messages, between the first and the last: a log may begin later
+    std::int64_t missing_figures = 0;
 
-    bool is_complete() const { return missing_step_messages == 0 && missing_run_messages == 0; }
+    std::int64_t missing_messages() const {
+        return missing_step_messages + missing_run_messages + missing_positions + missing_figures;
+    }
 };
 
 class MissingWatch {
@@ -62,14 +67,22 @@ public:
     void take(const MessageId& id, const std::vector<std::uint8_t>& data);
     /// By axis. Call once, at the end.
     std::vector<AxisRecord> finish();
+    /// Between the first and the last of each coordinator.
+    std::int64_t missing_job_events() const;
 
 private:
     class Axis;
     Axis& axis(const std::string& machine, const std::string& name);
 
-    std::map<std::pair<std::string, std::int64_t>, NumberSet> seen_;             // by channel and incarnation
+    using Whose = std::pair<std::string, std::int64_t>;  // channel and incarnation
+
+    /// The axis that a channel is of; null: of none that can be told.
+    Axis* axis_of(RecordKind kind, const std::vector<std::uint8_t>& data);
+    void note_missing_runs(const Whose& whose, AxisRecord& record) const;
+
+    std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
-    std::map<std::pair<std::string, std::int64_t>, Axis*> runs_;                 // whose runs a channel has
+    std::map<Whose, Axis*> numbered_;  // whose runs, positions or figures they are
 };
 
 }  // namespace lockstep::merge

@@ -28,6 +28,8 @@ void fill(const AxisRecord& axis, proto::AxisRecordReport& report) {
     report.set_runs(axis.runs);
     report.set_missing_step_messages(axis.missing_step_messages);
     report.set_missing_runs(axis.missing_run_messages);
+    report.set_missing_positions(axis.missing_positions);
+    report.set_missing_figures(axis.missing_figures);
     for (const MissingSteps& missing : axis.missing_steps) { fill(missing, *report.add_missing_steps()); }
     for (const MissingRuns& missing : axis.missing_runs) {
         proto::MissingRunsReport& runs = *report.add_missing_run_numbers();
@@ -47,6 +49,7 @@ proto::MergeReport to_report(const Merged& merged, const std::filesystem::path& 
     report.set_differing(merged.differing);
     report.set_late(merged.late);
     report.set_foreign(merged.foreign);
+    report.set_missing_job_events(merged.missing_job_events);
     for (const MergedInput& input : merged.inputs) { fill(input, *report.add_inputs()); }
     for (const AxisRecord& axis : merged.axes) { fill(axis, *report.add_axes()); }
     return report;

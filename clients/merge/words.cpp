@@ -28,6 +28,11 @@ std::string line_of(const MissingRuns& missing) {
     return fmt::format("  {} missing: runs {} to {}\n", missing.axis, missing.numbers.from, missing.numbers.end - 1);
 }
 
+std::string line_of(const std::string& whose, std::int64_t messages, const char* what) {
+    if (messages == 0) { return ""; }
+    return fmt::format("  {} missing: {} of {}\n", whose, plural(messages, "message"), what);
+}
+
 template <typename Missing>
 std::string lines_of(const std::vector<Missing>& all) {
     std::string text;
@@ -54,8 +59,10 @@ std::string axes_table(const Merged& merged) {
     std::string text = fmt::format("{:<16} {:>14} {:>10} {:>20}\n", "axis", "steps", "runs", "messages missing");
     for (const AxisRecord& axis : merged.axes) {
         text += fmt::format("{:<16} {:>14} {:>10} {:>20}\n", axis.axis, grouped(axis.steps), grouped(axis.runs),
-                            grouped(axis.missing_step_messages + axis.missing_run_messages));
+                            grouped(axis.missing_messages()));
         text += lines_of(axis.missing_steps) + lines_of(axis.missing_runs);
+        text += line_of(axis.axis, axis.missing_positions, "positions") +
+                line_of(axis.axis, axis.missing_figures, "figures");
     }
     return text;
 }
@@ -66,6 +73,7 @@ std::string oddities(const Merged& merged) {
     if (merged.differing > 0) {
         text += count(merged.differing) + " left out that had the number of another, but not its content\n";
     }
+    text += line_of("jobs", merged.missing_job_events, "events");
     if (merged.late > 0) { text += count(merged.late) + " later than the window: written behind younger ones\n"; }
     if (merged.foreign > 0) { text += count(merged.foreign) + " of other channels, kept from each log\n"; }
     return text;
@@ -74,7 +82,7 @@ std::string oddities(const Merged& merged) {
 }  // namespace
 
 std::string to_text(const Merged& merged, const std::filesystem::path& written) {
-    const std::string verdict = merged.is_complete() ? "complete: no step and no run is missing"
+    const std::string verdict = merged.is_complete() ? "complete: no message of the record is missing"
                                                      : "incomplete: what is listed as missing is in none of the logs";
     return inputs_table(merged) + "\n" + axes_table(merged) + "\n" + oddities(merged) +
            fmt::format("{}: {} written, {} left out that came again\n{}\n", written.string(),

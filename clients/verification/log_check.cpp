@@ -35,7 +35,7 @@ void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
 }
 
 void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
-    if (!analysis::is_countable(message.start_tick) ||
+    if (!analysis::is_countable(message.start_tick) || !analysis::is_message_number(message.sequence) ||
         !std::ranges::all_of(message.start_count, analysis::is_countable)) {
         return on_damage(place, "a job with numbers that no machine counts to");
     }
@@ -43,7 +43,10 @@ void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
         return on_damage(place, "a job with overrides that no coordinator takes");
     }
     if (make_follower_) { return; }
-    if (Machine* to = machine(message.machine, place)) { to->jobs.take(message); }
+    Machine* to = machine(message.machine, place);
+    if (to == nullptr) { return; }
+    to->job_numbers.add(message.coordinator, message.sequence);
+    to->jobs.take(message);
 }
 
 void LogCheck::on_damage(analysis::LogPlace place, std::string what) {
@@ -58,7 +61,7 @@ LogCheck::Machine* LogCheck::machine(const std::string& name, analysis::LogPlace
         on_damage(place, "more machines than a log is believed to hold");
         return nullptr;
     }
-    return &machines_.try_emplace(name, JobCheck(findings_)).first->second;
+    return &machines_.try_emplace(name, findings_).first->second;
 }
 
 LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::string& name, analysis::LogPlace place) {
@@ -83,6 +86,11 @@ Findings LogCheck::finish() {
         for (auto& [axis_name, axis] : machine.axes) { axis->runs.finish(); }
         machine.jobs.finish();
         for (auto& [axis_name, axis] : machine.axes) { axis->check.finish(); }
+        if (const std::int64_t missing = machine.job_numbers.missing_within(); missing > 0) {
+            findings_.notes.push_back(
+                "messages of jobs that are missing from the log: " + std::to_string(missing) +
+                "; a difference may be theirs (`lockstep log merge` with the coordinator's own log)");
+        }
     }
     if (damages_ > kDamagesNoted) {
         findings_.notes.push_back("and " + std::to_string(damages_ - kDamagesNoted) + " more damaged places");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "clients/analysis/log_read.hpp"
+#include "clients/analysis/message_numbers.hpp"
 #include "clients/verification/axis_check.hpp"
 #include "clients/verification/job_check.hpp"
 #include "clients/verification/run_stream.hpp"
@@ -45,7 +46,9 @@ private:
         RunStream runs;
     };
     struct Machine {
+        explicit Machine(Findings& findings) : jobs(findings) {}
         JobCheck jobs;
+        analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
     };
 

@@ -88,7 +88,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
         placed_ = false;
     }
     batcher_.poll(clock_.own);
-    if (out.state) { sink_.publish(channels_.position, to_lcm(machine_, *out.state)); }
+    if (out.state) { sink_.publish(channels_.position, to_lcm(machine_, *out.state, {incarnation_, positions_++})); }
 }
 
 }  // namespace lockstep

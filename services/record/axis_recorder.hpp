@@ -27,7 +27,9 @@ public:
     /// the time of: they are missing behind those of this loop. Steps and runs are recorded in the device's time, with
     /// what that is in machine time.
     void loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures);
-    void health(const AxisHealth& health) { sink_.publish(channels_.health, to_lcm(machine_, health)); }
+    void health(const AxisHealth& health) {
+        sink_.publish(channels_.health, to_lcm(machine_, health, {incarnation_, figures_++}));
+    }
     /// At the end: what is still in hand.
     void finish();
 
@@ -43,7 +45,9 @@ private:
     AxisChannels channels_;
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
-    std::uint64_t runs_ = 0;
+    std::uint64_t runs_ = 0;  // recorded, and so on: each is numbered
+    std::uint64_t positions_ = 0;
+    std::uint64_t figures_ = 0;
     std::uint64_t lost_captures_ = 0;
     /// It is known where the device stands: not at first, since it may have outlived another process, nor after steps
     /// without their time.

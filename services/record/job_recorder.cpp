@@ -30,6 +30,7 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
     constexpr std::array<const char*, 4> kEvents{"begun", "epoch", "ended", "override"};
     JobRecord record{.machine = machine_.name,
                      .coordinator = coordinator_,
+                     .sequence = events_++,
                      .job = event.job,
                      .kind = std::string(name_of(event.job_kind)),
                      .event = kEvents[static_cast<std::size_t>(event.kind)],

@@ -20,6 +20,7 @@ private:
     RecordSink& sink_;
     std::string channel_;
     std::string config_;
+    std::uint64_t events_ = 0;  // recorded
 };
 
 /// "home", "move", "run", "own-move"; "done", "stopped", "failed": as the record and the reports have them.

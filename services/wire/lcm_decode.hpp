@@ -24,15 +24,15 @@ namespace lockstep {
 template <typename Message>
 inline constexpr std::string_view kLcmLayout = "";
 template <>
-inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss888888888448881888888888";
+inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss88888888888448881888888888";
 template <>
-inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss8888s148";
+inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss888888s148";
 template <>
 inline constexpr std::string_view kLcmLayout<flight_event_t> = "8ss888ss4s88888";
 template <>
 inline constexpr std::string_view kLcmLayout<flight_head_t> = "84ss888s8s";
 template <>
-inline constexpr std::string_view kLcmLayout<job_t> = "8s88sss88888844ssn8";
+inline constexpr std::string_view kLcmLayout<job_t> = "8s888sss88888844ssn8";
 template <>
 inline constexpr std::string_view kLcmLayout<record_loss_t> = "8ss88";
 template <>

@@ -12,7 +12,7 @@ std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value)
 
 std::int64_t utime_of(Tick machine, std::int64_t tick_ns) { return machine.value * tick_ns / 1000; }
 
-axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
+axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, RecordNumber number) {
     const AxisConfig& axis = machine.axes.at(state.axis);
     const double steps_per_s = state.velocity.steps_per_tick() * machine.ticks_per_second();
     axis_position_t out{};
@@ -20,6 +20,8 @@ axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
     out.tick = state.tick.value;
     out.machine = machine.name;
     out.axis = axis.name;
+    out.incarnation = bits(number.incarnation);
+    out.sequence = bits(number.sequence);
     out.position_steps = state.position.count();
     out.position_mm = to_mm(axis, static_cast<double>(state.position.count()));
     out.velocity_steps_per_s = steps_per_s;
@@ -31,13 +33,15 @@ axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state) {
     return out;
 }
 
-axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health) {
+axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, RecordNumber number) {
     const auto us = [&](Ticks ticks) { return machine.microseconds(ticks); };
     axis_health_t out{};
     out.utime = utime_of(health.tick, machine.tick_ns);
     out.tick = health.tick.value;
     out.machine = machine.name;
     out.axis = machine.axes.at(health.axis).name;
+    out.incarnation = bits(number.incarnation);
+    out.sequence = bits(number.sequence);
     out.steps_compared = bits(health.step_lateness.count);
     out.step_lateness_min_us = us(health.step_lateness.least);
     out.step_lateness_max_us = us(health.step_lateness.most);
@@ -101,6 +105,7 @@ job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns) {
     out.utime = utime_of(now, tick_ns);
     out.machine = record.machine;
     out.coordinator = bits(record.coordinator);
+    out.sequence = bits(record.sequence);
     out.job = bits(record.job);
     out.kind = record.kind;
     out.event = record.event;

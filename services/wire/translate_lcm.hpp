@@ -20,11 +20,17 @@ namespace lockstep {
 /// Microseconds of machine time.
 std::int64_t utime_of(Tick machine, std::int64_t tick_ns);
 
+/// What tells a message of a channel from all others: the process that recorded it, and a number without gaps.
+struct RecordNumber {
+    Identity incarnation = 0;
+    std::uint64_t sequence = 0;
+};
+
 /// Where an axis is. state.axis is an index into the machine's axes.
-axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state);
+axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, RecordNumber number);
 
 /// How well it is doing. health.axis is an index into the machine's axes.
-axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health);
+axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, RecordNumber number);
 
 /// One frame or tail that an axis's device has run.
 struct RunRecord {
@@ -51,6 +57,7 @@ run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);
 struct JobRecord {
     std::string machine;
     Identity coordinator = 0;
+    std::uint64_t sequence = 0;  // events are numbered without gaps
     std::uint64_t job = 0;
     std::string kind;
     std::string event;

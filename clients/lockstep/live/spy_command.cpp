@@ -1,8 +1,10 @@
 #include "clients/lockstep/live/spy_command.hpp"
 
 #include <unistd.h>
+#include <xcb/xcb.h>
 
 #include <cstdlib>
+#include <memory>
 #include <sstream>
 
 #include "clients/lockstep/live/program_folder.hpp"
@@ -32,6 +34,13 @@ bool has_windows(const fs::path& java) {
     return fs::exists(java.parent_path().parent_path() / "lib" / "libawt_xawt.so");
 }
 
+bool answers(const std::string& display) {
+    if (display.empty()) { return false; }
+    const std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)> x(xcb_connect(display.c_str(), nullptr),
+                                                                         &xcb_disconnect);
+    return xcb_connection_has_error(x.get()) == 0;
+}
+
 std::string class_path(const std::vector<fs::path>& jars) {
     std::string text;
     for (const fs::path& jar : jars) { text += (text.empty() ? "" : ":") + jar.string(); }
@@ -41,7 +50,9 @@ std::string class_path(const std::vector<fs::path>& jars) {
 }  // namespace
 
 SpyHost look_at_host() {
-    return {.display = variable("DISPLAY"),
+    const std::string display = variable("DISPLAY");
+    return {.display = display,
+            .display_answers = answers(display),
             .java = find_program("java"),
             .jars = {LOCKSTEP_LCM_JAR, LOCKSTEP_JCHART2D_JAR,
                      program_folder().parent_path() / "share" / "lockstep" / "lockstep-lcm.jar"}};
@@ -53,6 +64,11 @@ std::expected<std::vector<std::string>, Failure> spy_command(const SpyHost& host
         return lacks(
             "draws windows, and DISPLAY names no display: run it on a desktop, or over ssh -X; "
             "without one: lockstep watch");
+    }
+    if (!host.display_answers) {
+        return lacks("draws windows, and display " + host.display +
+                     " does not answer, or refuses: set DISPLAY to that of your desktop (and XAUTHORITY, as another "
+                     "user), or use ssh -X; without one: lockstep watch");
     }
     if (!host.java) { return lacks("needs Java, and PATH has none: apt-get install default-jre"); }
     if (!has_windows(*host.java)) {

@@ -15,6 +15,7 @@ namespace lockstep {
 /// What lcm-spy needs of this host.
 struct SpyHost {
     std::string display;                        // $DISPLAY; empty: none
+    bool display_answers = false;               // it takes our windows
     std::optional<std::filesystem::path> java;  // the program itself, links resolved
     std::vector<std::filesystem::path> jars;    // lcm-spy, its charts, the machine's types
 };

@@ -68,23 +68,36 @@ public:
         state.axis = axis;
         state.tick = Tick{tick};
         state.position = Position::steps(steps);
-        writer_.write_message(channels_of("mill", machine.axes[axis].name).position, tick, to_lcm(machine, state));
+        writer_.write_message(channels_of("mill", machine.axes[axis].name).position, tick,
+                              to_lcm(machine, state, {7, positions_++}));
     }
 
     void job(const std::string& event, std::int64_t tick, const Program& program, std::string outcome = "",
              std::string kind = "run") {
-        JobRecord record{
-            .machine = "mill", .job = 3, .kind = std::move(kind), .event = event, .outcome = std::move(outcome)};
+        JobRecord record{.machine = "mill",
+                         .sequence = job_events_++,
+                         .job = 3,
+                         .kind = std::move(kind),
+                         .event = event,
+                         .outcome = std::move(outcome)};
         record.start = Tick{tick};
         record.config = machine_text(two_axes());
         record.program = program_text(program);
         writer_.write_message(job_channel("mill"), tick, to_lcm(record, Tick{tick}, 1000));
     }
 
+    /// The next `count` of each are not in the log.
+    void lose(std::uint64_t count) {
+        positions_ += count;
+        job_events_ += count;
+    }
+
     void foreign(const std::string& channel) { writer_.write(channel, 0, std::vector<std::uint8_t>{1, 2, 3}); }
 
 private:
     LogWriter writer_;
+    std::uint64_t positions_ = 0;  // numbered so far
+    std::uint64_t job_events_ = 0;
 };
 
 /// A program of straight moves through places in the plane.

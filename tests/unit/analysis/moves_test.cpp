@@ -1,6 +1,8 @@
 // Each move of a job is measured by itself, and whether all was good is said.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <fstream>
 #include <sstream>
 
@@ -97,7 +99,7 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
         auto writer = LogWriter::open(log).value();
         const std::vector<std::uint8_t> unknown(100, 7);
         for (int i = 0; i < 10; ++i) { writer.write("LOCKSTEP_MILL_X_STEPS", i, unknown); }
-        writer.write_message("LOCKSTEP_MILL_Z_POSITION", 11, to_lcm(test::two_axes(), AxisState{}));
+        writer.write_message("LOCKSTEP_MILL_Z_POSITION", 11, to_lcm(test::two_axes(), AxisState{}, {}));
         ASSERT_TRUE(writer.flush());
     }
     const auto report = to_report(analyze_log(log).value());
@@ -108,26 +110,42 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
     EXPECT_EQ(report.unread(0).reason(), "not a step_batch_t of this version on LOCKSTEP_MILL_X_STEPS");
 }
 
-struct Told final : MergedStepListener {
-    std::vector<std::int64_t> ticks;
-    void on_step(std::size_t, const MeasuredStep& step) override { ticks.push_back(step.tick.value); }
-};
+/// Positions and events of jobs are numbered, so that their loss is known, whatever steps say.
+TEST_F(Moves, OfWhichEventsWereLostAreDoubtful) {
+    {
+        test::LogMaker maker(log);
+        maker.position(0, 1000, 0);
+        maker.job("begun", 1000, {});
+        maker.lose(3);
+        maker.position(0, 90'000, 0);
+        maker.job("ended", 90'000, {}, "done");
+    }
+    const auto report = to_report(analyze_log(log).value());
+    EXPECT_EQ(report.missing_job_events(), 3);
+    EXPECT_EQ(report.axes(0).missing_positions(), 3);
+    EXPECT_EQ(report.axes(0).missing_figures(), 0);
+    EXPECT_EQ(report.verdict(), "doubtful");
+    EXPECT_EQ(report.findings(0).text(), "3 events of jobs not in the log: what was asked may not all be known");
+    ASSERT_EQ(report.notes_size(), 1);
+    EXPECT_EQ(report.notes(0), "X: 3 messages of positions missing");
+}
 
 TEST(StepMerge, TellsTheStepsOfAllAxesInTheOrderOfTime) {
-    Told told;
-    StepMerge merge(told);
+    std::vector<std::int64_t> told;
+    const auto tell = [&](std::size_t, const MeasuredStep& step) { told.push_back(step.tick.value); };
+    StepMerge merge;
     const std::size_t x = merge.add_lane();
     const std::size_t y = merge.add_lane();
-    for (int i = 0; i < 100; ++i) { merge.take(x, {.tick = {i * 10}}); }
-    for (int i = 0; i < 100; ++i) { merge.take(y, {.tick = {i * 7 + 3}}); }
-    merge.settle();
-    EXPECT_TRUE(told.ticks.empty()) << "an earlier one may still come";
-    merge.take(x, {.tick = Tick{500} + StepMerge::kPatience});
-    merge.settle();
-    EXPECT_EQ(told.ticks.size(), 50U + 71U);
-    merge.finish();
-    EXPECT_EQ(told.ticks.size(), 201U);
-    EXPECT_TRUE(std::ranges::is_sorted(told.ticks));
+    for (int i = 0; i < 100; ++i) { merge.take(x, std::array{MeasuredStep{.tick = {i * 10}}}); }
+    for (int i = 0; i < 100; ++i) { merge.take(y, std::array{MeasuredStep{.tick = {i * 7 + 3}}}); }
+    merge.settle(tell);
+    EXPECT_TRUE(told.empty()) << "an earlier one may still come";
+    merge.take(x, std::array{MeasuredStep{.tick = Tick{500} + StepMerge::kPatience}});
+    merge.settle(tell);
+    EXPECT_EQ(told.size(), 50U + 71U);
+    merge.finish(tell);
+    EXPECT_EQ(told.size(), 201U);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
 }
 
 }  // namespace

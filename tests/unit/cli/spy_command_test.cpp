@@ -28,7 +28,10 @@ protected:
     }
 
     fs::path folder_ = fs::path(testing::TempDir()) / ("spy-" + std::to_string(getpid()));
-    SpyHost host_{.display = ":0", .java = folder_ / "bin/java", .jars = {folder_ / "spy.jar", folder_ / "types.jar"}};
+    SpyHost host_{.display = ":0",
+                  .display_answers = true,
+                  .java = folder_ / "bin/java",
+                  .jars = {folder_ / "spy.jar", folder_ / "types.jar"}};
 };
 
 TEST_F(SpyCommand, GivesLcmSpyTheMachinesTypesAndItsNetwork) {
@@ -43,6 +46,9 @@ TEST_F(SpyCommand, SaysWhatIsMissingAndWhatToDo) {
     host_.display.clear();
     EXPECT_THAT(refusal(), HasSubstr("run it on a desktop, or over ssh -X"));
     host_.display = ":0";
+    host_.display_answers = false;
+    EXPECT_THAT(refusal(), HasSubstr("display :0 does not answer, or refuses: set DISPLAY"));
+    host_.display_answers = true;
     host_.java.reset();
     EXPECT_THAT(refusal(), HasSubstr("apt-get install default-jre"));
 }

@@ -71,6 +71,7 @@ protected:
         message.utime = message.tick = utime;
         message.machine = "mill";
         message.axis = axis;
+        message.sequence = utime / 10'000;
         log.write_message(channels_of("mill", axis).position, message.utime, message);
     }
 
@@ -143,6 +144,22 @@ TEST_F(Merge, SaysFromWhereToWhereNoLogHasSteps) {
     EXPECT_FALSE(to_report(merged, "out.lcm").complete());
 }
 
+TEST_F(Merge, SaysWhatElseNoLogHas) {
+    auto writer = LogWriter::open(folder / "others.lcm").value();
+    for (const std::uint64_t number : {4, 5, 8}) {
+        const JobRecord event{.machine = "mill", .coordinator = 3, .sequence = number};
+        writer.write_message(job_channel("mill"), 0, to_lcm(event, {}, 1000));
+        write_position(writer, "X", static_cast<std::int64_t>(number) * 10'000);
+    }
+    ASSERT_TRUE(writer.flush());
+    const Merged merged = merge({folder / "others.lcm"});
+    EXPECT_FALSE(merged.is_complete());
+    EXPECT_EQ(merged.axes.at(0).missing_positions, 2)
+        << "between the first and the last: logs begin when they are begun";
+    EXPECT_EQ(merged.missing_job_events, 2);
+    EXPECT_THAT(to_text(merged, "out.lcm"), HasSubstr("X missing: 2 messages of positions"));
+}
+
 TEST_F(Merge, SaysWhichRunsNoLogHas) {
     auto writer = LogWriter::open(folder / "runs.lcm").value();
     for (const std::uint64_t number : {0, 1, 4, 5}) {
@@ -153,7 +170,7 @@ TEST_F(Merge, SaysWhichRunsNoLogHas) {
     const Merged merged = merge({folder / "runs.lcm"});
     EXPECT_FALSE(merged.is_complete());
     ASSERT_EQ(merged.axes.at(0).missing_runs.size(), 1U);
-    EXPECT_EQ(merged.axes[0].missing_runs[0].numbers, (Numbers{2, 4}));
+    EXPECT_EQ(merged.axes[0].missing_runs[0].numbers, (analysis::Numbers{2, 4}));
 }
 
 TEST_F(Merge, EachProcessOfAnAxisCountsAnew) {

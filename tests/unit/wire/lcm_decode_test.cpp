@@ -50,16 +50,19 @@ job_t a_job() {
 MachineConfig a_machine() { return {.name = "mill", .axes = {{.name = "X", .steps_per_mm = 400}}}; }
 
 axis_health_t a_health() {
-    return to_lcm(a_machine(), AxisHealth{.tick = {5000},
-                                          .step_lateness = {7, {-2}, {3}},
-                                          .setpoint_slack = {1, {390'000}, {390'000}},
-                                          .setpoint_age = Ticks{1500},
-                                          .refused = {.frames = 4}});
+    return to_lcm(a_machine(),
+                  AxisHealth{.tick = {5000},
+                             .step_lateness = {7, {-2}, {3}},
+                             .setpoint_slack = {1, {390'000}, {390'000}},
+                             .setpoint_age = Ticks{1500},
+                             .refused = {.frames = 4}},
+                  {.incarnation = 7, .sequence = 3});
 }
 
 axis_position_t a_position() {
     return to_lcm(a_machine(),
-                  AxisState{.homed = true, .position = Position::steps(800), .velocity = {INT64_MAX}, .tick = {5000}});
+                  AxisState{.homed = true, .position = Position::steps(800), .velocity = {INT64_MAX}, .tick = {5000}},
+                  {.incarnation = 7, .sequence = 3});
 }
 
 flight_head_t a_flight_head() {

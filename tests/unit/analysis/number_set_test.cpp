@@ -1,4 +1,4 @@
-#include "clients/merge/number_set.hpp"
+#include "clients/analysis/number_set.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace lockstep::merge {
+namespace lockstep::analysis {
 namespace {
 
 using testing::ElementsAre;
@@ -43,4 +43,4 @@ TEST(NumberSet, AgreesWithASetOfNumbersWhateverTheirOrder) {
 }
 
 }  // namespace
-}  // namespace lockstep::merge
+}  // namespace lockstep::analysis

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-namespace lockstep::merge {
+namespace lockstep::analysis {
 
 /// From `from` up to `end`, which is not among them.
 struct Numbers {
@@ -32,6 +32,14 @@ public:
         return true;
     }
 
+    /// How many are missing between the lowest and the highest that came.
+    std::int64_t missing_within() const {
+        if (ends_.empty()) { return 0; }
+        std::int64_t missing = ends_.rbegin()->second - ends_.begin()->first;
+        for (const auto& [from, end] : ends_) { missing -= end - from; }
+        return missing;
+    }
+
     /// Those that are missing between 0 and the highest that came.
     std::vector<Numbers> gaps() const {
         std::vector<Numbers> out;
@@ -47,4 +55,4 @@ private:
     std::map<std::int64_t, std::int64_t> ends_;  // of each stretch, by where it begins
 };
 
-}  // namespace lockstep::merge
+}  // namespace lockstep::analysis

@@ -1,0 +1,56 @@
+// Tells a listener all that is told to this object, in the same order, on a thread of its own: who reads and measures
+// does not wait for what is made of it.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "clients/analysis/sorted_log.hpp"
+
+namespace lockstep::analysis {
+
+class SecondThread final : public SortedListener {
+public:
+    /// So many messages are handed over at once, and so many times that may wait: this bounds the memory.
+    static constexpr std::size_t kTogether = 64;
+    static constexpr std::size_t kMaxWaiting = 4;
+
+    /// `listener` is the other thread's until finish().
+    explicit SecondThread(SortedListener& listener);
+    SecondThread(const SecondThread&) = delete;
+    SecondThread& operator=(const SecondThread&) = delete;
+    ~SecondThread() override { finish(); }
+
+    void on_axis(const std::string& name) override;
+    void on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) override;
+    void on_position(const axis_position_t& message) override;
+    void on_run(std::size_t lane, const Run& run) override;
+    void on_job(const job_t& message, LogPlace place) override;
+    void on_damage(LogPlace place, const std::string& what) override;
+
+    /// Waits until everything was told.
+    void finish();
+
+private:
+    using Tell = std::move_only_function<void(SortedListener&)>;
+    using Batch = std::vector<Tell>;
+
+    void add(Tell tell);
+    void hand_over();
+    Batch next();  // empty: no more will come
+    void run(SortedListener& listener);
+
+    Batch batch_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<Batch> waiting_;
+    bool done_ = false;
+    std::jthread thread_;
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,108 @@
+#include "clients/analysis/sorter.hpp"
+
+#include <utility>
+
+#include "clients/analysis/log_step.hpp"
+#include "services/documents/names.hpp"
+
+namespace lockstep::analysis {
+
+void Sorter::on_steps(const step_batch_t& message, LogPlace place) {
+    Lane* of = lane(message.machine, message.axis, place);
+    if (of == nullptr) { return; }
+    auto batch = to_batch(message);
+    if (!batch) { return on_damage(place, batch.error()); }
+    of->log->take(in_machine_time(std::move(*batch)));
+}
+
+void Sorter::on_position(const axis_position_t& message, LogPlace place) {
+    Lane* of = lane(message.machine, message.axis, place);
+    if (of == nullptr) { return; }
+    if (!is_countable(message.tick) || !is_countable(message.position_steps) || !is_message_number(message.sequence)) {
+        return on_damage(place, "a position with numbers that no machine counts to");
+    }
+    of->log->position_numbers().add(message.incarnation, message.sequence);
+    listener_.on_position(message);
+    of->log->take(
+        PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
+}
+
+void Sorter::on_health(const axis_health_t& message, LogPlace place) {
+    Lane* of = lane(message.machine, message.axis, place);
+    if (of == nullptr) { return; }
+    if (!is_countable(message.tick) || !is_message_number(message.sequence)) {
+        return on_damage(place, "figures with numbers that no machine counts to");
+    }
+    of->log->figure_numbers().add(message.incarnation, message.sequence);
+    if (message.setpoints > 0) { of->log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms}); }
+}
+
+void Sorter::on_run(const run_t& message, LogPlace place) {
+    const Lane* of = lane(message.machine, message.axis, place);
+    if (of == nullptr) { return; }
+    ++runs_;
+    const auto run = to_run(message);
+    if (!run) { return on_damage(place, run.error()); }
+    listener_.on_run(of->number, *run);
+}
+
+void Sorter::on_job(const job_t& message, LogPlace place) {
+    if (!is_ours(message.machine)) { return; }
+    if (!is_countable(message.utime) || !is_countable(message.start_tick) || !is_message_number(message.sequence)) {
+        return on_damage(place, "a job with numbers that no machine counts to");
+    }
+    job_numbers_.add(message.coordinator, message.sequence);
+    listener_.on_job(message, place);
+}
+
+void Sorter::on_foreign(std::string_view channel) { ++foreign_[std::string(channel)]; }
+
+void Sorter::on_damage(LogPlace place, std::string what) { listener_.on_damage(place, what); }
+
+/// Whether the message is of the machine analysed; the first message says which that is where nobody asked for one.
+bool Sorter::is_ours(const std::string& machine) {
+    if (!machine_) { machine_ = machine; }
+    if (machine == *machine_) { return true; }
+    on_foreign("machine " + machine);
+    return false;
+}
+
+/// Null: it is none of ours, or none that can be.
+Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, LogPlace place) {
+    if (!is_axis_name(axis)) {
+        on_damage(place, "an axis's name is none");
+        return nullptr;
+    }
+    if (!is_ours(machine)) { return nullptr; }
+    const auto known = lanes_.find(axis);
+    if (known != lanes_.end()) { return &known->second; }
+    if (lanes_.size() == kMaxAxes) {
+        on_damage(place, "more axes than a machine can have");
+        return nullptr;
+    }
+    Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis)};
+    lane.log->tell(listener_, lane.number);
+    if (options_.csv_dir) { note_error(lane.log->write_csv(*options_.csv_dir)); }
+    listener_.on_axis(axis);
+    return &(lanes_[axis] = std::move(lane));
+}
+
+void Sorter::note_error(const std::expected<void, std::string>& result) {
+    if (!result && !write_error_) { write_error_ = result.error(); }
+}
+
+std::expected<void, std::string> Sorter::finish() {
+    for (auto& [name, lane] : lanes_) { note_error(lane.log->finish()); }
+    if (write_error_) { return std::unexpected(*write_error_); }
+    return {};
+}
+
+void Sorter::give(Analysis& analysis) {
+    for (auto& [name, lane] : lanes_) { analysis.axes.push_back(std::move(lane.log)); }
+    analysis.machine = machine_.value_or("");
+    analysis.foreign = std::move(foreign_);
+    analysis.runs = runs_;
+    analysis.missing_job_events = job_numbers_.missing_within();
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,60 @@
+// Sorts a log's messages: which are of the machine analysed, and of which of its axes. Each axis's own figures are made
+// here; what concerns several of them, or jobs, is told on.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/analysis/log_read.hpp"
+#include "clients/analysis/message_numbers.hpp"
+#include "clients/analysis/sorted_log.hpp"
+
+namespace lockstep::analysis {
+
+class Sorter final : public LogListener {
+public:
+    Sorter(const AnalysisOptions& options, SortedListener& listener)
+        : options_(options), listener_(listener), machine_(options.machine) {}
+    Sorter(const Sorter&) = delete;
+    Sorter& operator=(const Sorter&) = delete;
+
+    void on_steps(const step_batch_t& message, LogPlace place) override;
+    void on_position(const axis_position_t& message, LogPlace place) override;
+    void on_health(const axis_health_t& message, LogPlace place) override;
+    void on_run(const run_t& message, LogPlace place) override;
+    void on_job(const job_t& message, LogPlace place) override;
+    void on_foreign(std::string_view channel) override;
+    void on_damage(LogPlace place, std::string what) override;
+
+    /// Tells what still waits. Call once, at the end of the log. The error is that of the first file that could not be
+    /// written.
+    std::expected<void, std::string> finish();
+    /// Gives the axes away, by name, and what was counted.
+    void give(Analysis& analysis);
+
+private:
+    struct Lane {
+        std::size_t number = 0;
+        std::unique_ptr<AxisLog> log;
+    };
+
+    bool is_ours(const std::string& machine);
+    Lane* lane(const std::string& machine, const std::string& axis, LogPlace place);
+    void note_error(const std::expected<void, std::string>& result);
+
+    const AnalysisOptions& options_;
+    SortedListener& listener_;
+    std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
+    std::map<std::string, Lane> lanes_;
+    std::map<std::string, std::uint64_t> foreign_;
+    std::uint64_t runs_ = 0;
+    MessageNumbers job_numbers_;
+    std::optional<std::string> write_error_;
+};
+
+}  // namespace lockstep::analysis
