@@ -55,11 +55,19 @@ void JobCheck::take(const job_t& record) {
 }
 
 void JobCheck::handle(const job_t& record) {
+    if (record.event != "begun") { note_owner(record); }
     if (record.event == "override") { return turn(record); }
     close_epoch();
     if (record.event == "begun") { return begin(record); }
     if (record.event == "epoch") { return begin_epoch(record); }
     end(record);
+}
+
+/// Who speaks of a job that another has begun goes on with it after a takeover.
+void JobCheck::note_owner(const job_t& record) {
+    if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
+    job_->coordinator = record.coordinator;
+    findings_.notes.push_back(job_->label + ": another coordinator has taken over and gone on with it");
 }
 
 void JobCheck::begin(const job_t& record) {
