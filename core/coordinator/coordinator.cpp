@@ -78,7 +78,9 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         if (view.state && !same && job_) { fail(FaultCode::AxisLost, state.axis, out); }  // held or not
         if (!same) { orders_[state.axis].reset(); }
         if (view.state && !same) { cut_inherited(TakeoverDoubt::AxisInDoubt, out); }
-        view = {state, now_slot_, {}};
+        const bool is_repeat = same && state.stamp == view.state->stamp;
+        const Slot last_stamp = view.state ? view.state->stamp : 0;
+        view = {state, now_slot_, is_repeat ? view.stamp_before : last_stamp, {}};
     }
     for (const MachineState& other : inputs.others) { ownership_.hear(other, now_slot_); }
 }

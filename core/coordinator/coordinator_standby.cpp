@@ -1,5 +1,6 @@
 // The machine's owner and who stands by: taking over, standing down, and what is done meanwhile, which is to listen.
 #include <algorithm>
+#include <ranges>
 
 #include "core/coordinator/coordinator.hpp"
 
@@ -39,12 +40,11 @@ void Coordinator::stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& 
 }
 
 /// An owner that stalled for so long that another may have taken over says nothing before it has heard every axis in
-/// two slots since: whom do they follow?
+/// two slots since: whom do they follow? But for those that are lost.
 bool Coordinator::must_listen() {
     if (!woken_) { return false; }
-    const bool heard = std::ranges::all_of(
-        views_, [&](const AxisView& view) { return view.state && view.state->stamp > *woken_ + 1; });
-    if (heard || now_slot_ - *woken_ > rules::silence_slots(machine_.timing)) { woken_.reset(); }
+    const auto is_settled = [&](std::size_t i) { return !present(i) || views_[i].stamp_before > *woken_; };
+    if (std::ranges::all_of(std::views::iota(std::size_t{0}, views_.size()), is_settled)) { woken_.reset(); }
     if (woken_) { (void)begins_slot(); }
     return woken_.has_value();
 }

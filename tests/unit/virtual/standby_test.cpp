@@ -126,6 +126,23 @@ TEST_F(Standby, AnOwnerThatWakesUpLateMovesNothingAndStandsDown) {
     expect_moves_without_homing();
 }
 
+/// Its network may need a while to find the axes again: they are first heard just when it would think them lost.
+class Woken : public Standby, public testing::WithParamInterface<int> {};
+
+TEST_P(Woken, AnOwnerMovesNothingBeforeItHasHeardEveryAxisTwice) {
+    start_job();
+    befall(Kind::Freeze, owner, 2);
+    vm.schedule({.kind = Kind::Cut, .process = owner, .at = vm.now(), .lasts = ticks(2 + 0.001 * GetParam())});
+    ASSERT_TRUE(taken_over()) << describe();
+    owners.epochs = 0;
+    wait(2.5);
+    EXPECT_EQ(owners.epochs, 0);
+    EXPECT_EQ(owners.stood_down, 1);
+    expect_moves_without_homing();
+}
+
+INSTANTIATE_TEST_SUITE_P(AfterSilence, Woken, testing::Range(12, 22));
+
 TEST_F(Standby, AnOwnerThatStalledInItsOwnMovesOrdersNothingMore) {
     settle();
     vm.give_program(7, program_of({{90, 90}}, 40));
