@@ -96,6 +96,13 @@ struct RecordConfig {
     bool operator==(const RecordConfig&) const = default;
 };
 
+/// Whether the machine's processes prove to each other who they are.
+struct SecurityConfig {
+    std::string directory;  // with certificates, keys and permissions; empty: nobody is asked who he is
+    bool enabled() const { return !directory.empty(); }
+    bool operator==(const SecurityConfig&) const = default;
+};
+
 /// What the machine's processes ask of the scheduler of their host.
 struct RealTimeConfig {
     int priority = 0;       // of SCHED_FIFO, with memory locked and touched beforehand; 0: nothing is asked
@@ -108,6 +115,7 @@ struct MachineConfig {
     std::int64_t tick_ns = 1000;
     ProtocolTiming timing;
     NetworkConfig network;
+    SecurityConfig security;
     RecordConfig record;
     std::string position_directory;  // where axes keep their positions; empty: where the host keeps such files
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai

@@ -82,6 +82,15 @@ RecordConfig read_record(const proto::Record& message) {
     };
 }
 
+/// A block that asks for security and does not say how must not mean none.
+SecurityConfig read_security(const proto::Machine& message, Reader reader) {
+    SecurityConfig security;
+    if (!message.has_security()) { return security; }
+    reader.require(!message.security().directory().empty(), message.security().directory(), security.directory,
+                   "security.directory");
+    return security;
+}
+
 RealTimeConfig read_real_time(const proto::RealTime& message) {
     return {.priority = message.priority(), .cpus = {message.cpus().begin(), message.cpus().end()}};
 }
@@ -172,6 +181,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
                                               "; it is one of SHARED, NETWORK and PTP");
     }
     draft.machine.network = read_network(message.network());
+    draft.machine.security = read_security(message, Reader(draft.missing));
     draft.machine.record = read_record(message.record());
     draft.machine.position_directory = message.position_directory();
     draft.machine.coordinator_host = message.coordinator_host();

@@ -141,6 +141,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_protocol(machine.timing, problems);
     check_clocks(machine.timing, problems);
     check_network(machine.network, problems);
+    check_directory("security.directory", machine.security.directory, problems);
     check_record(machine.record, problems);
     check_directory("position_directory", machine.position_directory, problems);
     check_real_time(machine.real_time, problems);

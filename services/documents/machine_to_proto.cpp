@@ -88,6 +88,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     message.set_tick_ns(machine.tick_ns);
     write_timing(machine.timing, *message.mutable_timing());
     write_network(machine.network, *message.mutable_network());
+    if (machine.security.enabled()) { message.mutable_security()->set_directory(machine.security.directory); }
     if (machine.record != RecordConfig{}) { write_record(machine.record, *message.mutable_record()); }
     if (!machine.position_directory.empty()) { message.set_position_directory(machine.position_directory); }
     if (!machine.coordinator_host.empty()) { message.set_coordinator_host(machine.coordinator_host); }

@@ -74,6 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("timing { time_source: LOCAL }"), 11, 29, "LOCAL"},
                     Refusal{machine_with("record { directory: \"logs\" }"), 11, 10, "an absolute path"},
                     Refusal{machine_with("position_directory: \"places\""), 11, 1, "an absolute path"},
+                    Refusal{machine_with("security { directory: \"keys\" }"), 11, 12, "an absolute path"},
+                    Refusal{machine_with("security { }"), 11, 1, "security.directory is missing"},
                     Refusal{machine_with("record { size_limit_mb: 0 }"), 11, 10, "1 to 1000000"},
                     Refusal{machine_with("record { flight { memory_kb: 1 } }"), 11, 19, "from 64 to 65536"},
                     Refusal{machine_with("record { flight { files: 0 } }"), 11, 19, "from 1 to 1000"},

@@ -88,6 +88,7 @@ TEST(MachineFile, ZeroIsAValueAndNotAnAbsence) {
 TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
     for (const auto& text : {std::string(kShortest), with("80", "53.333333333333336"), machine_with("tick_ns: 250"),
                              machine_with("record { own_logs: false directory: \"/tmp/x\" size_limit_mb: 7 }"),
+                             machine_with("security { directory: \"/etc/lockstep/keys\" }"),
                              machine_with("record { flight { kept: false memory_kb: 64 files: 3 } }"),
                              machine_with("network { peers: \"10.0.0.1\" peers: \"mill-x\" }"),
                              axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
