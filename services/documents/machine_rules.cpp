@@ -75,11 +75,11 @@ bool is_lcm_url(std::string_view url) {
 
 void check_peers(const std::vector<std::string>& peers, ProblemList& problems) {
     problems.require(
-        peers.size() <= kMaxPeers, "network.peers",
+        peers.size() <= kMaxPeers, "network",
         "network.peers has " + std::to_string(peers.size()) + " hosts; at most " + std::to_string(kMaxPeers));
     for (const std::string& peer : peers) {
         problems.require(
-            is_host_name(peer), "network.peers",
+            is_host_name(peer), "network",
             "network.peers has \"" + peer + "\"; an IPv4 address or a host's name: letters, digits, - and .");
     }
 }
