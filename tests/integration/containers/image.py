@@ -85,8 +85,8 @@ def import_base(podman, root):
 
 
 def build(podman, root, work):
-    """As a user does, but with this host's compiler cache and settings. The exit code."""
-    ran = podman.run("build", "--network", "host", "--pull=never", *compiler_cache(work), *npm_settings(),
+    """As a user does, but with this host's caches. The exit code."""
+    ran = podman.run("build", "--network", "host", "--pull=never", *compiler_cache(work), *npm_cache(),
                      "--tag", NAME, "--file", str(root / "deploy" / "Dockerfile"), str(root), extra=proxy(),
                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     (work / "build.log").write_text(ran.stdout)
@@ -107,9 +107,10 @@ def compiler_cache(work):
             "--build-arg", "CCACHE_CONFIGPATH=/ccache.conf"]
 
 
-def npm_settings():
-    file = pathlib.Path.home() / ".npmrc"
-    return ["--volume", f"{file}:/root/.npmrc:ro"] if file.exists() else []
+def npm_cache():
+    """What this host has fetched already is not fetched again."""
+    cache = pathlib.Path(ask("npm", "config", "get", "cache").stdout.strip() or "/none")
+    return ["--volume", f"{cache}:/root/.npm"] if cache.is_dir() else []
 
 
 def megabytes(podman, name):
