@@ -55,8 +55,8 @@ TEST_F(Moves, HaveTheStepsAskedAndMade) {
 
 /// 999 intervals of 200 us, and what the plan has before the first step and behind the last.
 TEST_F(Moves, LastFromTheFirstStepToTheLast) {
-    const auto& move = there_and_back(1000).jobs(0).moves(0);
-    const double ends = move.real_s() - 999 * 200e-6;
+    const auto report = there_and_back(1000);
+    const double ends = report.jobs(0).moves(0).real_s() - 999 * 200e-6;
     EXPECT_GT(ends, 0);
     EXPECT_LT(ends, 0.01);
 }
