@@ -18,6 +18,7 @@
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/user_signal.hpp"
+#include "services/security/service_admission.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -57,6 +58,7 @@ public:
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
+        log_strangers(monotonic_now());
         return !out.must_quit;
     }
 
@@ -159,7 +161,10 @@ int fail(const std::string& why) {
 int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
     StopSignal stop;
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
-    auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
+    const Member member = options.second ? standby_member() : coordinator_member();
+    const auto admission = admit_service(machine, member);
+    if (!admission) { return fail(admission.error()); }
+    auto bus = open_bus<CoordinatorBus>(machine.network, machine.name, *admission);
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
     CoordinatorService service(machine, identity, std::move(*bus), open_record(machine, "", options.record),

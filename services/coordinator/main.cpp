@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
     app.add_flag("--standby", options.standby,
                  "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
                  "give it to both of two");
+    app.add_flag("--second", options.second,
+                 "where security is on: join by the keys of `standby`, not of `coordinator`; give it to one of two");
     app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"

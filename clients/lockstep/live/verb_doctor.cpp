@@ -73,7 +73,7 @@ void examine_parts_here(const MachineConfig& machine, Findings& findings) {
 }
 
 void examine_processes(const ChosenMachine& machine, Findings& findings) {
-    auto session = Session::join(machine);
+    auto session = Session::join(machine, Purpose::Look);
     if (!session) {
         findings.push_back({Verdict::Bad, "DDS", session.error().errors.front().message, "see: interface"});
         return;

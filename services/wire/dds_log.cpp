@@ -1,0 +1,100 @@
+#include "services/wire/dds_log.hpp"
+
+#include <dds/dds.h>
+#include <dds/ddsrt/log.h>
+
+#include <mutex>
+#include <regex>
+
+#include "services/runtime/clock.hpp"
+#include "services/wire/newcomers.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Ear {
+    std::mutex mutex;
+    std::function<void(const std::string&)> say;
+    RepeatFilter filter;
+    Newcomers newcomers;
+    std::string last;
+    bool joined = false;
+};
+
+/// Never destroyed: threads of DDS may outlive main.
+Ear& the_ear() {
+    static auto* const ear = new Ear;
+    return *ear;
+}
+
+std::string without_end_of_line(std::string text) {
+    while (text.ends_with('\n') || text.ends_with(' ')) { text.pop_back(); }
+    return text;
+}
+
+void on_message(void*, const dds_log_data_t* data) {
+    if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)) == 0) { return; }
+    Ear& ear = the_ear();
+    const std::lock_guard lock(ear.mutex);
+    const std::string message = without_end_of_line(data->message);
+    if (!ear.joined && message.ends_with("not allowed")) { return; }
+    ear.last = message;
+    if (const auto text = ear.filter.pass(monotonic_now(), message)) { ear.say(*text); }
+}
+
+void on_trace(void*, const dds_log_data_t* data) {
+    if ((data->priority & DDS_LC_DISCOVERY) == 0) { return; }
+    Ear& ear = the_ear();
+    const std::lock_guard lock(ear.mutex);
+    const auto news = ear.newcomers.hear(monotonic_now(), data->message);
+    const auto text = news ? ear.filter.pass(monotonic_now(), *news) : std::nullopt;
+    if (text && ear.say) { ear.say(*text); }
+}
+
+std::string kind_of(const std::string& message) {
+    static const auto* const kIdentity = new std::regex("[0-9a-f]+(:[0-9a-f]+)+");  // as the_ear()
+    return std::regex_replace(message, *kIdentity, "ID");
+}
+
+}  // namespace
+
+std::optional<std::string> RepeatFilter::pass(std::chrono::nanoseconds now, const std::string& message) {
+    if (kinds_.size() >= kMaxKinds) { kinds_.clear(); }
+    const auto [entry, is_new] = kinds_.try_emplace(kind_of(message), now);
+    Kind& kind = entry->second;
+    if (!is_new && now - kind.said < kPeriod) {
+        ++kind.held_back;
+        return std::nullopt;
+    }
+    const std::string more = kind.held_back == 0 ? "" : " (and " + std::to_string(kind.held_back) + " more like it)";
+    kind = {now, 0};
+    return message + more;
+}
+
+void hear_dds(std::function<void(const std::string&)> say) {
+    {
+        Ear& ear = the_ear();
+        const std::lock_guard lock(ear.mutex);
+        ear.say = std::move(say);
+    }
+    dds_set_log_sink(on_message, nullptr);
+}
+
+void watch_newcomers() { dds_set_trace_sink(on_trace, nullptr); }
+
+std::vector<std::string> unproved_newcomers(std::chrono::nanoseconds now) {
+    const std::lock_guard lock(the_ear().mutex);
+    return the_ear().newcomers.unproved(now);
+}
+
+std::string dds_said_last() {
+    const std::lock_guard lock(the_ear().mutex);
+    return the_ear().last;
+}
+
+void note_joined() {
+    const std::lock_guard lock(the_ear().mutex);
+    the_ear().joined = true;
+}
+
+}  // namespace lockstep
