@@ -64,7 +64,6 @@ private:
 enum class Discovery { Quiet, Traced };
 
 /// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is none.
-std::expected<std::string, std::string> dds_profile(const NetworkConfig& network,
-                                                    Discovery discovery = Discovery::Quiet);
+std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery told = Discovery::Quiet);
 
 }  // namespace lockstep
