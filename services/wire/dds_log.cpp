@@ -32,23 +32,27 @@ std::string without_end_of_line(std::string text) {
     return text;
 }
 
+/// Its lock is held.
+void pass_on(Ear& ear, const std::string& message) {
+    ear.last = message;
+    const auto text = ear.filter.pass(monotonic_now(), message);
+    if (text && ear.say) { ear.say(*text); }
+}
+
 void on_message(void*, const dds_log_data_t* data) {
     if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)) == 0) { return; }
     Ear& ear = the_ear();
     const std::lock_guard lock(ear.mutex);
     const std::string message = without_end_of_line(data->message);
     if (!ear.joined && message.ends_with("not allowed")) { return; }
-    ear.last = message;
-    if (const auto text = ear.filter.pass(monotonic_now(), message)) { ear.say(*text); }
+    pass_on(ear, message);
 }
 
 void on_trace(void*, const dds_log_data_t* data) {
     if ((data->priority & DDS_LC_DISCOVERY) == 0) { return; }
     Ear& ear = the_ear();
     const std::lock_guard lock(ear.mutex);
-    const auto news = ear.newcomers.hear(monotonic_now(), data->message);
-    const auto text = news ? ear.filter.pass(monotonic_now(), *news) : std::nullopt;
-    if (text && ear.say) { ear.say(*text); }
+    if (const auto news = ear.newcomers.hear(monotonic_now(), data->message)) { pass_on(ear, *news); }
 }
 
 std::string kind_of(const std::string& message) {
@@ -85,6 +89,11 @@ void watch_newcomers() { dds_set_trace_sink(on_trace, nullptr); }
 std::vector<std::string> unproved_newcomers(std::chrono::nanoseconds now) {
     const std::lock_guard lock(the_ear().mutex);
     return the_ear().newcomers.unproved(now);
+}
+
+void tell(const std::string& text) {
+    const std::lock_guard lock(the_ear().mutex);
+    pass_on(the_ear(), text);
 }
 
 std::string dds_said_last() {

@@ -32,7 +32,10 @@ private:
 /// From now on DDS's warnings and errors go there, filtered, on threads of DDS, one at a time; the process's only one.
 void hear_dds(std::function<void(const std::string&)> say);
 
-/// What it said last; empty: nothing yet.
+/// Says something there, as if DDS had.
+void tell(const std::string& text);
+
+/// What was said last; empty: nothing yet.
 std::string dds_said_last();
 
 /// From now on who comes without proof is told as well; the domain's profile must trace discovery. It replaces any

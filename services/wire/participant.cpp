@@ -11,6 +11,7 @@
 #include "services/wire/dds_log.hpp"
 #include "services/wire/interface_sockets.hpp"
 #include "services/wire/partitions.hpp"
+#include "services/wire/protocol_version.hpp"
 #include "services/wire/security_properties.hpp"
 
 namespace lockstep {
@@ -104,8 +105,9 @@ Qos partition_qos(const std::vector<std::string>& partitions) {
     return qos;
 }
 
-Qos participant_qos(const Membership& membership) {
+Qos participant_qos(const std::string& machine, const Membership& membership) {
     Qos qos{dds_create_qos(), &dds_delete_qos};
+    announce_version(*qos, kProtocol, machine);
     if (membership.credentials) { set_security(*qos, *membership.credentials); }
     return qos;
 }
@@ -136,9 +138,11 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     }
     Participant made;
     made.machine_ = machine;
-    made.participant_ = Entity(dds_create_participant(network.domain, participant_qos(membership).get(), nullptr));
+    made.participant_ =
+        Entity(dds_create_participant(network.domain, participant_qos(machine, membership).get(), nullptr));
     if (!made.participant_.good()) { return std::unexpected(cannot_join(network, membership, made.participant_)); }
     note_joined();
+    watch_versions(made.handle(), machine);
     const Qos written = partition_qos({partition_of(machine, membership.axis)});
     const Qos heard = partition_qos(heard_partitions(machine));
     made.publisher_ = Entity(dds_create_publisher(made.handle(), written.get(), nullptr));

@@ -1,15 +1,18 @@
 // Somebody who wants to move the machine, on its network and with what he has got hold of:
 //   integration_security_stranger DOMAIN MACHINE PARTITION KEYS MEMBER
 // PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: whose keys of them.
+//   integration_security_stranger DOMAIN MACHINE protocol NUMBER -     a process of the machine, of another version
 // Tries for a while to speak on every topic that moves something, and to listen; says what came of it, a line each.
 #include <chrono>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 
 #include "services/security/key_directory.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/dds_log.hpp"
+#include "services/wire/protocol_version.hpp"
 
 namespace lockstep {
 namespace {
@@ -72,6 +75,17 @@ Outcome try_all(Participant& participant) {
     return outcome;
 }
 
+/// Takes part under another number, until it is killed.
+int speak_another_protocol(const std::vector<std::string>& words) {
+    const dds_domainid_t domain = static_cast<dds_domainid_t>(std::stoul(words[0]));
+    const auto profile = dds_profile({.domain = domain});
+    if (!profile || dds_create_domain(domain, profile->c_str()) < 0) { return 1; }
+    const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
+    announce_version(*qos, std::stoi(words[3]), words[1]);
+    if (dds_create_participant(domain, qos.get(), nullptr) < 0) { return 1; }
+    for (;;) { std::this_thread::sleep_for(1s); }
+}
+
 int intrude(const std::vector<std::string>& words) {
     hear_dds([](const std::string& text) { std::cout << "dds: " << text << std::endl; });
     const NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(words[0]))};
@@ -94,5 +108,6 @@ int intrude(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    return words.size() == 5 ? lockstep::intrude(words) : 2;
+    if (words.size() != 5) { return 2; }
+    return words[2] == "protocol" ? lockstep::speak_another_protocol(words) : lockstep::intrude(words);
 }
