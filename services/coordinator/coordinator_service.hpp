@@ -1,6 +1,7 @@
 // lockstep-coordinator: the machine's planner as a process, between DDS and the record.
 #pragma once
 
+#include "core/coordinator/takeover.hpp"
 #include "services/runtime/service_options.hpp"
 
 namespace lockstep {
@@ -8,6 +9,7 @@ namespace lockstep {
 struct CoordinatorServiceOptions : ServiceOptions {
     bool second = false;   // where security is on: joins by the keys of "standby", not of "coordinator"
     bool standby = false;  // stands by while another coordinator owns the machine; false: ends then
+    OnTakeover on_takeover = OnTakeover::Stop;
 };
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause
