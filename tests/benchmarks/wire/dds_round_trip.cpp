@@ -14,6 +14,7 @@
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
+#include "services/wire/dds_log.hpp"
 #include "tests/benchmarks/wire/benchmark_keys.hpp"
 #include "tests/benchmarks/wire/frame_sizes.hpp"
 
@@ -106,7 +107,8 @@ int ping(const NetworkConfig& network, bool many_axes, std::size_t count, const 
 }  // namespace lockstep
 
 int main(int argc, char** argv) {
-    std::vector<std::string> words(argv + 1, argv + argc);
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    lockstep::hear_dds([](const std::string&) {});  // standard error is the script's
     lockstep::NetworkConfig network;
     if (words == std::vector<std::string>{"profile"}) { return std::puts(lockstep::dds_profile(network)->c_str()) < 0; }
     if (words.size() < 2) { return 2; }
