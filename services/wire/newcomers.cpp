@@ -18,6 +18,7 @@ std::string described(std::string_view who, std::string_view address) {
 }  // namespace
 
 std::optional<std::string> Newcomers::hear(std::chrono::nanoseconds now, std::string_view line) {
+    line = line.substr(0, line.find('{'));  // behind it stands what the newcomer says of itself
     if (line.find(" succeeded") != line.npos) { pending_.erase(std::string(after(line, "rguid=", ") "))); }
     if (line.find(" delete") != line.npos) { pending_.erase(std::string(after(line, "SPDP ST3 ", " "))); }
     const std::string who(after(line, "SPDP ST0 ", " "));

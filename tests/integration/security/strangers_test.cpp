@@ -82,12 +82,10 @@ TEST_F(Strangers, PermissionsThatWereChangedAreRefusedAtOnce) {
 }
 
 TEST_F(Strangers, AnAxisMayNotSpeakForAnother) {
-    const std::string in_its_place = stranger("0", keys(), "axis-Y");
-    EXPECT_THAT(in_its_place, HasSubstr("refused: cannot open the DDS topic"));
-    expect_untouched();
-
-    const std::string from_its_own = stranger("1", keys(), "axis-Y");
-    EXPECT_THAT(from_its_own, Not(HasSubstr("matched 0\n"))) << "it may speak, for itself";
+    const auto in_its_place = begin_stranger("0", keys(), "axis-Y");
+    const auto in_its_own = begin_stranger("1", keys(), "axis-Y");
+    EXPECT_THAT(in_its_place->wait().out, HasSubstr("refused: cannot open the DDS topic"));
+    EXPECT_THAT(in_its_own->wait().out, Not(HasSubstr("matched 0\n"))) << "it may speak, for itself";
     EXPECT_TRUE(is_logged("coordinator", "speaks for axis 0, which its writer is not"));
     EXPECT_TRUE(is_logged("axis-X", "speaks for axis 0, which its writer is not"));
     expect_untouched();

@@ -11,8 +11,7 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr const char* kOpen =
-    "SPDP ST0 1100a3e:7a:3:1c1 bes c3f NEW (data udp/127.0.0.1:5@1 meta udp/127.0.0.1:9@1) QoS={}";
+constexpr const char* kOpen = "SPDP ST0 1100a3e:7a:3:1c1 bes c3f NEW (data udp/127.0.0.1:5@1 meta udp/127.0.0.1:9@1)";
 constexpr const char* kSecure =
     "SPDP ST0 bcc8f613:b3:c:1c1 bes fc3f (secure) NEW (data udp/10.0.0.7:5@1 meta udp/10.0.0.7:9@1)";
 
@@ -41,6 +40,14 @@ TEST(Newcomers, WhoProvesHimselfOrLeavesIsNot) {
     (void)newcomers.hear(10s, kSecure);
     (void)newcomers.hear(11s, "SPDP ST3 bcc8f613:b3:c:1c1 delete");
     EXPECT_THAT(newcomers.unproved(19s), IsEmpty());
+}
+
+TEST(Newcomers, WhatOneSaysOfItselfDoesNotCount) {
+    Newcomers newcomers;
+    EXPECT_TRUE(newcomers.hear(0s, std::string(kOpen) + " QOS={user_data=\"(secure)\"}"));
+    (void)newcomers.hear(0s, kSecure);
+    EXPECT_TRUE(newcomers.hear(1s, std::string(kOpen) + " QOS={user_data=\"rguid=bcc8f613:b3:c:1c1) succeeded\"}"));
+    EXPECT_EQ(newcomers.unproved(9s).size(), 1U);
 }
 
 TEST(RepeatFilter, SaysOnceWhatIsRepeatedWhoeverItIsOf) {
