@@ -1,4 +1,5 @@
 """Podman with storage, networks and configuration of its own, and its service that docker-compose talks to."""
+import contextlib
 import os
 import pathlib
 import shutil
@@ -80,3 +81,7 @@ class Service:
         self.podman.ask("volume", "prune", "--force")
         self.process.terminate()
         self.process.wait()
+        for control in ("", "*/"):
+            for group in pathlib.Path("/sys/fs/cgroup").glob(f"{control}libpod_parent"):
+                with contextlib.suppress(OSError):  # somebody else's containers are in it
+                    group.rmdir()
