@@ -81,7 +81,13 @@ class Service:
         self.podman.ask("volume", "prune", "--force")
         self.process.terminate()
         self.process.wait()
-        for control in ("", "*/"):
-            for group in pathlib.Path("/sys/fs/cgroup").glob(f"{control}libpod_parent"):
-                with contextlib.suppress(OSError):  # somebody else's containers are in it
+        leave_no_group()
+
+
+def leave_no_group():
+    """The kernel refuses to remove a control group that something is in."""
+    for control in ("", "*/"):
+        for parent in pathlib.Path("/sys/fs/cgroup").glob(f"{control}libpod_parent"):
+            for group in sorted([parent, *parent.glob("**/")], reverse=True):
+                with contextlib.suppress(OSError):
                     group.rmdir()
