@@ -53,7 +53,7 @@ ExitCode watch(const LiveOptions& options) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Look);
     if (!session) { return voice.fail(session.error()); }
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such

@@ -1,4 +1,5 @@
 """Podman with storage, networks and configuration of its own, and its service that docker-compose talks to."""
+import contextlib
 import os
 import pathlib
 import shutil
@@ -80,3 +81,13 @@ class Service:
         self.podman.ask("volume", "prune", "--force")
         self.process.terminate()
         self.process.wait()
+        leave_no_group()
+
+
+def leave_no_group():
+    """The kernel refuses to remove a control group that something is in."""
+    for control in ("", "*/"):
+        for parent in pathlib.Path("/sys/fs/cgroup").glob(f"{control}libpod_parent"):
+            for group in sorted([parent, *parent.glob("**/")], reverse=True):
+                with contextlib.suppress(OSError):
+                    group.rmdir()
