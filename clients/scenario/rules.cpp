@@ -76,6 +76,7 @@ private:
         complaints_.require(is_job || step.during_size() == 0, path + ".during",
                             "during goes with home, run and move; make it a step of its own");
         complaints_.require(is_job || !step.has_ends(), path + ".ends", "ends goes with home, run and move");
+        complaints_.require(!step.has_act() || !step.has_fault(), path + ".fault", "fault goes with jobs and wait");
         if (step.has_fault()) { require_fault(path + ".fault", step.fault()); }
         for (int i = 0; i < step.during_size(); ++i) { check_during(step, i, path + "." + nth("during", i)); }
     }

@@ -30,9 +30,10 @@ class Descent {
 public:
     Descent(const pb::TextFormat::ParseInfoTree& tree, const pb::Descriptor& type) : tree_(&tree), type_(&type) {}
 
-    /// `index` is -1 where the key does not repeat.
+    /// `index` counts where the key repeats: the first where it is below 0.
     void enter(const std::string& key, int index) {
         const pb::FieldDescriptor* field = tree_ == nullptr ? nullptr : type_->FindFieldByName(key);
+        if (field != nullptr) { index = field->is_repeated() ? std::max(index, 0) : -1; }
         const auto at = field == nullptr ? pb::TextFormat::ParseLocation{} : tree_->GetLocation(field, index);
         place_.is_of_key = at.line >= 0;
         if (!place_.is_of_key) {

@@ -67,23 +67,29 @@ void Player::play() {
 }
 
 void Player::play_step(const Step& step) {
-    if (step.has_wait()) { return play_wait(step.wait()); }
+    if (step.has_wait()) { return play_wait(step); }
     if (!step.has_act()) { return play_job(step); }
-    const auto done = acts_.act(step.act());
     tell(text_of(step.act()));
+    const auto done = acts_.act(step.act());
     add_check(title(step), done ? "done" : done.error(), done.has_value());
 }
 
-void Player::play_wait(const Asked::Wait& wait) {
+void Player::play_wait(const Step& step) {
+    const Asked::Wait& wait = step.wait();
     if (wait.has_phase()) {
         const bool is_there = wait_for(wait.phase());
-        add_check("step " + std::to_string(step_) + ": the machine becomes " + text_of(wait.phase()),
-                  is_there ? "it did" : "it did not, and is " + status_report(session_).phase(), is_there);
-        if (!is_there) { seen_.broken = "step " + std::to_string(step_) + " has waited in vain"; }
-        return;
+        if (!is_there) { seen_.broken = title(step) + ": in vain, it is " + status_report(session_).phase(); }
+        tell(title(step) + (is_there ? ": it is" : ": in vain"));
     }
     const nanoseconds until = monotonic_now() + to_time(wait.seconds());
     while (monotonic_now() < until) { glance(); }
+    if (step.has_fault()) { check_found(step); }
+}
+
+void Player::check_found(const Step& step) {
+    const auto fault = session_.state() ? fault_of(session_.state()->state, scenario_.machine) : std::nullopt;
+    const std::string found = fault ? fault->name() : "none";
+    add_check(title(step) + ": the fault is " + step.fault(), found, found == step.fault());
 }
 
 bool Player::wait_for(Asked::Phase phase) {
@@ -91,16 +97,17 @@ bool Player::wait_for(Asked::Phase phase) {
     const nanoseconds since = monotonic_now();
     const auto is_there = [&] {
         const auto& heard = session_.state();
-        return heard && heard->time > since && is_in(phase, heard->state.phase) && hears_all();
+        return heard && heard->time > since && is_in(phase, heard->state.phase) && hears_all(since);
     };
     while (!is_there() && monotonic_now() < deadline) { glance(); }
     return is_there();
 }
 
-bool Player::hears_all() {
+bool Player::hears_all(nanoseconds since) {
     const auto& axes = scenario_.machine.axes;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const bool is_heard = session_.axis_present(i) && (session_.state()->state.axes_present >> i & 1) == 1;
+        const bool is_heard =
+            session_.axis(i) && session_.axis(i)->time > since && (session_.state()->state.axes_present >> i & 1) == 1;
         if (cast_.is_acting("axis-" + axes[i].name) && !is_heard) { return false; }
     }
     return true;
@@ -210,8 +217,8 @@ Moment Player::moment(nanoseconds begun) const {
 void Player::befall(Course& course, nanoseconds begun) {
     while (const Asked::During* during = course.next(moment(begun))) {
         const Tick at = clock_.now();
+        tell(text_of(*during), at);
         const auto done = acts_.act(during->act());
-        tell(text_of(*during));
         add_check(text_of(*during), done ? "done at " + fixed(at_s(at), 3) + " s" : done.error(), done.has_value());
         if (!during->has_rests_within_frames()) { continue; }
         AwaitedRest rest{text_of(during->act()), at, during->rests_within_frames(), {}};
@@ -229,8 +236,8 @@ void Player::glance() {
 
 void Player::undo_due() {
     while (const auto act = acts_.take_due()) {
-        const auto done = acts_.act(*act);
         tell(text_of(*act));
+        const auto done = acts_.act(*act);
         if (!done) { add_check(text_of(*act), done.error(), false); }
     }
 }
@@ -266,11 +273,10 @@ std::string Player::title(const Step& step) const { return "step " + std::to_str
 
 double Player::at_s(Tick tick) const { return scenario_.machine.microseconds(tick - start_) * 1e-6; }
 
-void Player::tell(const std::string& what) {
+void Player::tell(const std::string& what, Tick at) {
     proto::ScenarioHappening& happening = seen_.story.emplace_back();
-    const Tick now = clock_.now();
-    happening.set_tick(now.value);
-    happening.set_at_s(at_s(now));
+    happening.set_tick(at.value);
+    happening.set_at_s(at_s(at));
     happening.set_what(what);
 }
 

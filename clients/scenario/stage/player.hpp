@@ -30,7 +30,8 @@ private:
 
     void play_step(const Asked::Step& step);
     void play_job(const Asked::Step& step);
-    void play_wait(const Asked::Wait& wait);
+    void play_wait(const Asked::Step& step);
+    void check_found(const Asked::Step& step);
     std::expected<Reply, std::string> begin(const Asked::Step& step);
     std::expected<std::uint64_t, std::string> send(const Asked::Step& step);
     std::expected<Program, std::string> program_of_step(const Asked::Step& step, const std::vector<double>& start_mm);
@@ -44,11 +45,12 @@ private:
     void settle();
 
     Moment moment(std::chrono::nanoseconds begun) const;
-    bool hears_all();
+    bool hears_all(std::chrono::nanoseconds since);
     bool all_heard_rest() const;
     std::string title(const Asked::Step& step) const;
     double at_s(Tick tick) const;
-    void tell(const std::string& what);
+    void tell(const std::string& what) { tell(what, clock_.now()); }
+    void tell(const std::string& what, Tick at);
     void add_check(const std::string& asked, const std::string& found, bool held);
 
     const Scenario& scenario_;

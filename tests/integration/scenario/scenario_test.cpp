@@ -15,7 +15,8 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-const std::string kMachineFile = std::string("machine_file: \"") + LOCKSTEP_SCENARIOS + "/machines/plate.textproto\"\n";
+/// By it, this test's processes are told from all others of this host.
+const std::string kMachineName = "stage" + std::to_string(getpid());
 const std::string kShortJob = "step { home {} }\nstep { run { gcode: \"G21 G90\\nG1 X10 Y8 Z6 F1800\" } ";
 
 class ScenarioRun : public testing::Test {
@@ -24,12 +25,16 @@ protected:
         if (geteuid() != 0) { GTEST_SKIP() << "namespaces take root"; }
         folder_ = std::filesystem::path(testing::TempDir()) / ("scenario-" + std::to_string(getpid()));
         std::filesystem::create_directories(folder_);
+        std::ifstream file(std::string(LOCKSTEP_SCENARIOS) + "/machines/plate.textproto");
+        std::string machine{std::istreambuf_iterator<char>(file), {}};
+        machine.replace(machine.find("\"stage\""), 7, '"' + kMachineName + '"');
+        std::ofstream(folder_ / "machine.textproto") << machine;
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
     std::string write(const std::string& text) const {
         const auto path = folder_ / "mine.textproto";
-        std::ofstream(path) << "shows: \"something\"\n" << kMachineFile << text;
+        std::ofstream(path) << "shows: \"something\"\nmachine_file: \"machine.textproto\"\n" << text;
         return path;
     }
     static std::vector<std::string> failures(const proto::ScenarioRunReport& report) {
@@ -42,13 +47,13 @@ protected:
     std::filesystem::path folder_;
 };
 
-/// Those of the machine of the scenarios, on this host, whatever their namespaces.
+/// Whatever their namespaces.
 int processes_on_stage() {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
         std::ifstream file(entry.path() / "cmdline");
         const std::string words{std::istreambuf_iterator<char>(file), {}};
-        count += words.find("/dev/shm/scenario/") != words.npos ? 1 : 0;
+        count += words.find(kMachineName) != words.npos ? 1 : 0;
     }
     return count;
 }

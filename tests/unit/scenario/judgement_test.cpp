@@ -85,7 +85,7 @@ TEST(ScenarioJudgement, NoEpochIsNoProofOfBeingTogether) {
     EXPECT_FALSE(holds("together: \"X\" together: \"Y\"", evidence));
 }
 
-TEST(ScenarioJudgement, VetoesAreByThoseNamedAndNoOthers) {
+TEST(ScenarioJudgement, VetoesAreBySomeOfThoseNamedAndNoOthers) {
     Evidence evidence = good();
     EXPECT_TRUE(holds("vetoes {}", evidence));
     EXPECT_FALSE(holds("vetoes { by: \"X\" }", evidence));
@@ -93,6 +93,8 @@ TEST(ScenarioJudgement, VetoesAreByThoseNamedAndNoOthers) {
     EXPECT_FALSE(holds("vetoes {}", evidence));
     EXPECT_FALSE(holds("vetoes { by: \"X\" }", evidence));
     EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence));
+    evidence.vetoed_by = {"Y"};
+    EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence)) << "the other had not to say it any more";
 }
 
 TEST(ScenarioJudgement, InterruptionsOfAllJobsAreCounted) {

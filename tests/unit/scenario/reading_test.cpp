@@ -60,9 +60,9 @@ TEST_P(BadScenario, IsRefusedWithPlaceValueLimitAndRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Scenarios, BadScenario,
     testing::Values(
-        Bad{"UnknownKey", whole("explode: true"), {"8:1", "explode"}},
+        Bad{"UnknownKey", whole("explode: true"), {"8:8", "explode"}},
         Bad{"KeyTwice", whole("shows: \"again\""), {"8:", "shows"}},
-        Bad{"WrongKind", whole("standby: \"perhaps\""), {"8:", "standby"}},
+        Bad{"WrongKind", whole("standby: \"perhaps\""), {"8:10", "perhaps"}},
         Bad{"NoMachine", "shows: \"x\"\nstep { home {} }", {"1:1", "no machine", "machine_file"}},
         Bad{"TwoMachines", whole("machine_file: \"x\""), {"8:1", "keep one"}},
         Bad{"MachineThatIsNotThere", "machine_file: \"none\" shows: \"x\"", {"1:1", "/tmp/none"}},
@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"AloneTogether", whole("expect { together: \"X\" }"), {"name two at least"}},
         Bad{"UnknownCause", whole("expect { cause { kind: \"ghosts\" } }"), {"ghosts", "process-ended"}},
         Bad{"FewerThanNoInterruptions", whole("expect { interruptions: -1 }"), {"interruptions is -1", "at least 0"}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& bad) { return std::string(bad.param.name); });
 
 TEST(ScenarioReading, AllThatIsWrongIsSaidInTheOrderOfTheText) {
     const std::string errors = errors_of(whole("step {}\nexpect { path_within_mm: -1 }\nplace: CONTAINER"));
