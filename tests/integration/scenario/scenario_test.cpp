@@ -52,7 +52,8 @@ int processes_on_stage() {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
         std::ifstream file(entry.path() / "cmdline");
-        const std::string words{std::istreambuf_iterator<char>(file), {}};
+        std::string words;
+        std::getline(file, words);  // whose process may end as it is read
         count += words.find(kMachineName) != words.npos ? 1 : 0;
     }
     return count;
