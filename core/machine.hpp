@@ -76,6 +76,7 @@ struct NetworkConfig {
     std::string interface = "lo";
     std::uint32_t domain = 0;
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+    std::vector<std::string> peers;  // hosts to look for processes on, without multicast; none: multicast finds them
 };
 
 /// The flight recorder: what each process noted last, kept for the time after a fault.

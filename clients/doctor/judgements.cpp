@@ -25,7 +25,8 @@ std::string text_of(const ProtocolTiming& t) {
 
 }  // namespace
 
-Finding judge_interface(const std::string& name, const InterfaceFacts& facts) {
+Finding judge_interface(const NetworkConfig& network, const InterfaceFacts& facts) {
+    const std::string& name = network.interface;
     const auto bad = [](std::string found, std::string remedy) {
         return Finding{Verdict::Bad, "interface", std::move(found), std::move(remedy)};
     };
@@ -34,14 +35,17 @@ Finding judge_interface(const std::string& name, const InterfaceFacts& facts) {
     }
     if (!facts.up) { return bad(name + " is down", "ip link set " + name + " up"); }
     if (!facts.has_address) { return bad(name + " has no IPv4 address", "ip address add ADDRESS/24 dev " + name); }
-    if (!facts.multicast && name != "lo") {
-        return bad(name + " carries no multicast", "ip link set " + name + " multicast on");
+    if (!facts.multicast && name != "lo" && network.peers.empty()) {
+        return bad(name + " carries no multicast", "ip link set " + name + " multicast on; or network.peers");
     }
     return {Verdict::Good, "interface", name + " is up and has an address", ""};
 }
 
 Finding judge_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
                     std::optional<bool> heard) {
+    if (!network.peers.empty() && !(route && heard.value_or(true))) {
+        return {Verdict::Good, "multicast", "there is none, and network.peers does without; LCM cannot (--no-lcm)", ""};
+    }
     if (!route) {
         return {Verdict::Bad, "multicast", "nothing can be recorded: " + route.error(),
                 "ip route add 224.0.0.0/4 dev " + network.interface};

@@ -17,7 +17,7 @@ struct InterfaceFacts {
     bool has_address = false;  // of IPv4
     bool multicast = false;    // it says so itself; lo does not, and carries it all the same
 };
-Finding judge_interface(const std::string& name, const InterfaceFacts& facts);
+Finding judge_interface(const NetworkConfig& network, const InterfaceFacts& facts);
 
 /// route: what check_multicast says. heard: whether a datagram sent by LCM came back; no value: it was not tried.
 Finding judge_route(const NetworkConfig& network, const std::expected<void, std::string>& route,

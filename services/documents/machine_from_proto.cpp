@@ -59,6 +59,7 @@ NetworkConfig read_network(const proto::Network& message) {
         .interface = message.has_interface() ? message.interface() : preset.interface,
         .domain = message.has_domain() ? message.domain() : preset.domain,
         .lcm_url = message.has_lcm_url() ? message.lcm_url() : preset.lcm_url,
+        .peers = {message.peers().begin(), message.peers().end()},
     };
 }
 

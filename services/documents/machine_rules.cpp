@@ -15,6 +15,7 @@ constexpr int kMaxStallSlots = 200;  // an axis remembers its peers for 512 slot
 constexpr int kMaxSlots = 10'000;
 constexpr std::uint32_t kMaxDomain = 232;  // the last whose ports are below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
+constexpr std::size_t kMaxPeers = 64;
 
 void check_timing(const MachineConfig& machine, ProblemList& problems) {
     const ProtocolTiming& t = machine.timing;
@@ -72,12 +73,24 @@ bool is_lcm_url(std::string_view url) {
            (url.starts_with("udpm://") || url.starts_with("memq://") || url.starts_with("tcpq://"));
 }
 
+void check_peers(const std::vector<std::string>& peers, ProblemList& problems) {
+    problems.require(
+        peers.size() <= kMaxPeers, "network",
+        "network.peers has " + std::to_string(peers.size()) + " hosts; at most " + std::to_string(kMaxPeers));
+    for (const std::string& peer : peers) {
+        problems.require(
+            is_host_name(peer), "network",
+            "network.peers has \"" + peer + "\"; an IPv4 address or a host's name: letters, digits, - and .");
+    }
+}
+
 void check_network(const NetworkConfig& network, ProblemList& problems) {
     problems.require(is_interface_name(network.interface), "network.interface",
                      "network.interface is \"" + network.interface + "\"; name an interface, such as lo or eth0");
     problems.require_range("network.domain", network.domain, 0, kMaxDomain);
     problems.require(is_lcm_url(network.lcm_url), "network.lcm_url",
                      "network.lcm_url is \"" + network.lcm_url + "\"; it begins with udpm://, tcpq:// or memq://");
+    check_peers(network.peers, problems);
 }
 
 void check_directory(const std::string& key, const std::string& directory, ProblemList& problems) {

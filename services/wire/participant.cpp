@@ -10,12 +10,14 @@
 namespace lockstep {
 namespace {
 
+constexpr int kProcessesOfHost = 16;  // that find each other without multicast: each asks as many ports of every peer
+
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 // Why: a lost setpoint must be asked for at once (NackDelay 0; the default 100 ms would cost ten slots), a lost last
 // one must be noticed soon (heartbeats of 2 to 20 ms), and a process that starts or dies must be seen within a second.
+constexpr const char* kSoon = "<SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1 s</LeaseDuration>";
 constexpr const char* kTuning =
-    "<Discovery><SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1 s</LeaseDuration></Discovery>"
     "<Internal><HeartbeatInterval min=\"1 ms\" minsched=\"1 ms\" max=\"20 ms\">2 ms</HeartbeatInterval>"
     "<NackDelay>0 ms</NackDelay><AckDelay>1 ms</AckDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>"
     "<AutoReschedNackDelay>2 ms</AutoReschedNackDelay></Internal>";
@@ -25,6 +27,17 @@ bool is_interface_name(const std::string& name) {
         return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '@';
     };
     return !name.empty() && std::ranges::all_of(name, allowed);
+}
+
+/// How processes find each other. Without multicast each asks every peer, on the ports that DDS gives to one process of
+/// a host after the other.
+std::string discovery(const std::vector<std::string>& peers) {
+    if (peers.empty()) { return std::string("<Discovery>") + kSoon + "</Discovery>"; }
+    std::string listed;
+    for (const std::string& peer : peers) { listed += "<Peer address=\"" + peer + "\"/>"; }
+    return "<General><AllowMulticast>false</AllowMulticast></General><Discovery>" + std::string(kSoon) +
+           "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kProcessesOfHost - 1) +
+           "</MaxAutoParticipantIndex><Peers>" + listed + "</Peers></Discovery>";
 }
 
 std::string place(const NetworkConfig& network) {
@@ -76,8 +89,8 @@ std::expected<std::string, std::string> dds_profile(const NetworkConfig& network
     // lo does not say that it can multicast, but it can; a real interface says it itself.
     const std::string multicast = network.interface == "lo" ? "true" : "default";
     std::string profile = "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface name=\"" +
-                          network.interface + "\" multicast=\"" + multicast + "\"/></Interfaces></General>" + kTuning +
-                          "</Domain></CycloneDDS>";
+                          network.interface + "\" multicast=\"" + multicast + "\"/></Interfaces></General>" +
+                          discovery(network.peers) + kTuning + "</Domain></CycloneDDS>";
     const char* added = std::getenv("CYCLONEDDS_URI");
     return added == nullptr ? profile : profile + "," + added;
 }

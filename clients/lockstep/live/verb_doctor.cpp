@@ -32,7 +32,7 @@ struct DoctorOptions : LiveOptions {
 void examine_network(const MachineConfig& machine, Findings& findings) {
     const NetworkConfig& network = machine.network;
     const auto facts = doctor::look_at_interface(network.interface);
-    findings.push_back(doctor::judge_interface(network.interface, facts));
+    findings.push_back(doctor::judge_interface(network, facts));
     const auto route = check_multicast(network);
     const auto heard = route ? doctor::hears_itself(network.lcm_url) : std::nullopt;
     findings.push_back(doctor::judge_route(network, route, heard));

@@ -12,22 +12,30 @@ namespace {
 using testing::HasSubstr;
 
 constexpr InterfaceFacts kFine{.exists = true, .up = true, .has_address = true, .multicast = true};
+const NetworkConfig kEthernet{.interface = "eth0"};
 
 TEST(DoctorOnTheInterface, NamesWhatIsMissingAndTheCommandThatMendsIt) {
-    EXPECT_EQ(judge_interface("eth0", kFine).verdict, Verdict::Good);
-    EXPECT_THAT(judge_interface("eth7", {}).found, HasSubstr("no interface eth7"));
-    EXPECT_EQ(judge_interface("eth0", {.exists = true}).remedy, "ip link set eth0 up");
-    EXPECT_THAT(judge_interface("eth0", {.exists = true, .up = true}).found, HasSubstr("no IPv4 address"));
+    EXPECT_EQ(judge_interface(kEthernet, kFine).verdict, Verdict::Good);
+    EXPECT_THAT(judge_interface({.interface = "eth7"}, {}).found, HasSubstr("no interface eth7"));
+    EXPECT_EQ(judge_interface(kEthernet, {.exists = true}).remedy, "ip link set eth0 up");
+    EXPECT_THAT(judge_interface(kEthernet, {.exists = true, .up = true}).found, HasSubstr("no IPv4 address"));
     InterfaceFacts silent = kFine;
     silent.multicast = false;
-    EXPECT_EQ(judge_interface("eth0", silent).remedy, "ip link set eth0 multicast on");
-    EXPECT_EQ(judge_interface("lo", silent).verdict, Verdict::Good) << "lo carries it all the same";
+    EXPECT_EQ(judge_interface(kEthernet, silent).remedy, "ip link set eth0 multicast on; or network.peers");
+    EXPECT_EQ(judge_interface({.interface = "lo"}, silent).verdict, Verdict::Good) << "lo carries it all the same";
 }
 
 TEST(DoctorOnMulticast, ARouteIsNeededAndWhatIsSentMustComeBack) {
     EXPECT_EQ(judge_route({}, {}, true).verdict, Verdict::Good);
     EXPECT_EQ(judge_route({}, std::unexpected("no route"), {}).remedy, "ip route add 224.0.0.0/4 dev lo");
     EXPECT_EQ(judge_route({}, {}, false).verdict, Verdict::Bad);
+}
+
+TEST(DoctorOnMulticast, IsNotNeededWherePeersAreNamed) {
+    const NetworkConfig peers{.interface = "eth0", .peers = {"10.0.0.1"}};
+    EXPECT_EQ(judge_interface(peers, {.exists = true, .up = true, .has_address = true}).verdict, Verdict::Good);
+    EXPECT_EQ(judge_route(peers, std::unexpected("no route"), {}).verdict, Verdict::Good);
+    EXPECT_THAT(judge_route(peers, {}, false).found, HasSubstr("LCM cannot"));
 }
 
 TEST(DoctorOnTheBuffer, ASmallerOneThanTheUrlAsksForMayLoseBursts) {

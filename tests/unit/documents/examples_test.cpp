@@ -35,11 +35,13 @@ Program plate() {
 TEST(Examples, MachinesHaveTheAxesTheirNamesSay) {
     EXPECT_EQ(machine("two-axis.textproto").axes.size(), 2U);
     EXPECT_EQ(machine("three-axis.textproto").axes.size(), 3U);
+    EXPECT_EQ(machine("three-containers.textproto").axes.size(), 3U);
     EXPECT_EQ(machine("six-axis.textproto").axes.size(), 6U);
 }
 
 TEST(Examples, HomingIsShort) {
-    for (const auto* file : {"two-axis.textproto", "three-axis.textproto", "six-axis.textproto"}) {
+    for (const auto* file :
+         {"two-axis.textproto", "three-axis.textproto", "three-containers.textproto", "six-axis.textproto"}) {
         for (const AxisConfig& axis : machine(file).axes) {
             const HomingConfig& homing = axis.homing;
             const double search_mm = std::abs(axis.plant.start_position_mm - homing.switch_position_mm);

@@ -82,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("network { interface: \"\" }"), 11, 11, "name an interface"},
                     Refusal{machine_with("network { interface: \"<lo>\" }"), 11, 11, "<lo>"},
                     Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
-                    Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"}));
+                    Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"},
+                    Refusal{machine_with("network { peers: \"10.0.0.1 10.0.0.2\" }"), 11, 1, "an IPv4 address or a"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Hosts, MachineRefused,

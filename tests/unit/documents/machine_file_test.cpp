@@ -90,6 +90,7 @@ TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
                              machine_with("record { own_logs: false directory: \"/tmp/x\" size_limit_mb: 7 }"),
                              machine_with("security { directory: \"/etc/lockstep/keys\" }"),
                              machine_with("record { flight { kept: false memory_kb: 64 files: 3 } }"),
+                             machine_with("network { peers: \"10.0.0.1\" peers: \"mill-x\" }"),
                              axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
                              axis_with("method: CARRICA")}) {
         const MachineConfig machine = parse(text);

@@ -1,0 +1,32 @@
+// What Cyclone DDS is told: it is bound to the configured interface, and multicasts unless it is told whom to ask.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/wire/participant.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(DdsProfile, MulticastFindsTheOthersUnlessPeersAreNamed) {
+    const auto profile = dds_profile({.interface = "eth0"});
+    EXPECT_THAT(*profile, HasSubstr(R"(<NetworkInterface name="eth0")"));
+    EXPECT_THAT(*profile, Not(HasSubstr("AllowMulticast")));
+    EXPECT_THAT(*profile, Not(HasSubstr("Peer")));
+}
+
+TEST(DdsProfile, NamedPeersAreAskedWithoutMulticast) {
+    const auto profile = dds_profile({.interface = "eth0", .peers = {"10.0.0.1", "mill-x"}});
+    EXPECT_THAT(*profile, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
+    EXPECT_THAT(*profile, HasSubstr(R"(<Peers><Peer address="10.0.0.1"/><Peer address="mill-x"/></Peers>)"));
+    EXPECT_THAT(*profile, HasSubstr("<ParticipantIndex>auto</ParticipantIndex>"));
+}
+
+TEST(DdsProfile, ANameThatIsNoInterfacesNeverGetsIn) {
+    EXPECT_FALSE(dds_profile({.interface = "\"/><Tracing"}).has_value());
+}
+
+}  // namespace
+}  // namespace lockstep
