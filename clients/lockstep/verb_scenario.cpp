@@ -25,19 +25,33 @@ struct ScenarioOptions {
     bool json = false;
 };
 
+/// One failure of several files.
+Failure as_one(const std::vector<Failure>& failures) {
+    if (failures.size() == 1) { return failures.front(); }
+    Failure all{.exit = kExitBadInput};
+    for (const Failure& failure : failures) {
+        for (const Diagnostic& error : failure.errors) {
+            all.errors.push_back({.message = to_text(failure.file, error)});
+        }
+    }
+    return all;
+}
+
 /// Nothing where a file is wrong: all that is wrong with all of them has been said.
 std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Voice& voice) {
     std::vector<Scenario> scenarios;
+    std::vector<Failure> failures;
     for (const std::string& file : options.files) {
         auto scenario = scenario::load_scenario(file);
         if (scenario) {
             scenarios.push_back(*std::move(scenario));
         } else {
-            (void)voice.fail(bad_file(file, scenario.error()));
+            failures.push_back(bad_file(file, scenario.error()));
         }
     }
-    if (scenarios.size() < options.files.size()) { return std::nullopt; }
-    return scenarios;
+    if (failures.empty()) { return scenarios; }
+    (void)voice.fail(as_one(failures));
+    return std::nullopt;
 }
 
 std::string coloured(const proto::ScenarioReport& report, bool story) {
@@ -68,7 +82,7 @@ ExitCode run(const ScenarioOptions& options) {
     season.played = [&](const proto::ScenarioReport& report) { voice.say(coloured(report, options.story)); };
     season.interrupted = [&] { return stop.requested(); };
     const auto report = scenario::play_all(*scenarios, season);
-    if (!report) { return voice.fail(failed(report.error())); }
+    if (!report) { return voice.fail(bad_input(report.error())); }
     if (stop.requested()) { voice.warn("interrupted: what was playing is taken down"); }
     return end(options, *report, voice);
 }

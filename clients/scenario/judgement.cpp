@@ -48,6 +48,7 @@ private:
     void check_rest(const AwaitedRest& rest) {
         const std::string asked =
             rest.act + ": " + listed(rest.axes) + " at rest within " + std::to_string(rest.within_frames) + " frames";
+        if (rest.axes.empty()) { return add(asked, "no axis's process ran any more", "as it was played", false); }
         const auto at = evidence_.record.all_at_rest(rest.axes, rest.at);
         if (!at) { return add(asked, "the record knows of no rest after it", kWholeLog, false); }
         const double frames =
@@ -99,7 +100,7 @@ private:
     void check_together() {
         const Names axes{expect_.together().begin(), expect_.together().end()};
         const auto parting = evidence_.record.parting(axes);
-        const std::size_t epochs = evidence_.record.epochs.size();
+        const auto epochs = evidence_.record.epochs_of(axes);
         add(listed(axes) + " ended each epoch with the same frame",
             parting ? *parting : "the same in all " + std::to_string(epochs) + " epochs",
             std::string(kWholeLog) + ", runs", !parting && epochs > 0);

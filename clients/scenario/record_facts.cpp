@@ -1,7 +1,6 @@
 #include "clients/scenario/record_facts.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "clients/analysis/log_read.hpp"
 
@@ -53,6 +52,12 @@ std::optional<Tick> RecordFacts::all_at_rest(const std::vector<std::string>& axe
         }
         if (at == tried) { return at; }
     }
+}
+
+std::ptrdiff_t RecordFacts::epochs_of(const std::vector<std::string>& axes) const {
+    return std::ranges::count_if(epochs, [&](const auto& epoch) {
+        return std::ranges::count_if(axes, [&](const auto& axis) { return epoch.second.contains(axis); }) >= 2;
+    });
 }
 
 std::optional<std::string> RecordFacts::parting(const std::vector<std::string>& axes) const {

@@ -31,6 +31,9 @@ struct RecordFacts {
     /// When these axes were first at rest all together, from then on. Nothing: the record knows of no such time.
     std::optional<Tick> all_at_rest(const std::vector<std::string>& axes, Tick since) const;
 
+    /// How many epochs two of these axes, or more, have run.
+    std::ptrdiff_t epochs_of(const std::vector<std::string>& axes) const;
+
     /// The first epoch that axes of these ended differently, in words; nothing: there is none.
     std::optional<std::string> parting(const std::vector<std::string>& axes) const;
 };

@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kWidth = 100;
 
 std::string line_of(const Check& check) {
-    const std::string text = (check.held() ? "  holds   " : "  FAILED  ") + check.asked() + ": " + check.found() +
+    const std::string text = (check.held() ? "holds   " : "FAILED  ") + check.asked() + ": " + check.found() +
                              (check.held() ? "" : " (" + check.where() + ")");
-    return wrapped(text, kWidth, "            ") + "\n";
+    return "  " + wrapped(text, kWidth, "          ") + "\n";
 }
 
 std::string name_of(const proto::ScenarioReport& report) {

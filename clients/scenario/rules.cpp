@@ -51,6 +51,10 @@ private:
 
     void check_clock(const Asked::WrongClock& clock, const std::string& path) {
         require_axis(path + ".axis", clock.axis());
+        const auto& clocks = asked_.wrong_clock();
+        const auto of_axis = [&](const Asked::WrongClock& other) { return other.axis() == clock.axis(); };
+        complaints_.require(&*std::ranges::find_if(clocks, of_axis) == &clock, path + ".axis",
+                            "axis " + clock.axis() + " has a clock already; say all of it in one block");
         complaints_.require(
             machine_.timing.time_source == TimeSource::Network, path,
             "a wrong clock needs clocks that differ; say timing { time_source: NETWORK } in the machine");

@@ -17,10 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr int kGlance_ms = 100;
 
-/// A new directory for a scenario's logs, open; below 0: they are not kept.
-std::expected<int, std::string> open_folder(const std::optional<fs::path>& keep, const Scenario& scenario) {
-    if (!keep) { return -1; }
-    const fs::path path = *keep / scenario.name();
+/// A new directory for a scenario's logs, open.
+std::expected<int, std::string> open_folder(const fs::path& path) {
     std::error_code error;
     if (fs::exists(path, error)) {
         return std::unexpected(path.string() + ": is there already; name a new directory for the logs");
@@ -35,8 +33,14 @@ class Season {
 public:
     Season(const std::vector<Scenario>& scenarios, const SeasonOptions& options)
         : scenarios_(scenarios), options_(options), reports_(scenarios.size()) {}
+    ~Season() {
+        for (const int folder : folders_) { close(folder); }
+    }
+    Season(const Season&) = delete;
+    Season& operator=(const Season&) = delete;
 
     std::expected<proto::ScenarioRunReport, std::string> play() {
+        if (const auto opened = open_folders(); !opened) { return std::unexpected(opened.error()); }
         while (next_ < scenarios_.size() || !worlds_.empty()) {
             if (options_.interrupted && options_.interrupted()) { break; }
             if (const auto begun = begin_some(); !begun) { return std::unexpected(begun.error()); }
@@ -48,13 +52,22 @@ public:
     }
 
 private:
+    /// All before the first is played.
+    std::expected<void, std::string> open_folders() {
+        for (const Scenario& scenario : scenarios_) {
+            if (!options_.keep) { break; }
+            const auto folder = open_folder(*options_.keep / scenario.name());
+            if (!folder) { return std::unexpected(folder.error()); }
+            folders_.push_back(*folder);
+        }
+        return {};
+    }
+
     std::expected<void, std::string> begin_some() {
         while (next_ < scenarios_.size() && worlds_.size() < static_cast<std::size_t>(options_.at_a_time)) {
             const Scenario& scenario = scenarios_[next_];
-            const auto folder = open_folder(options_.keep, scenario);
-            if (!folder) { return std::unexpected(folder.error()); }
-            auto world = World::begin([&] { return scenario::play(scenario, *folder).SerializeAsString(); });
-            if (*folder >= 0) { close(*folder); }
+            const int folder = options_.keep ? folders_[next_] : -1;
+            auto world = World::begin([&] { return scenario::play(scenario, folder).SerializeAsString(); });
             if (!world) { return std::unexpected(world.error()); }
             worlds_.emplace(next_++, *std::move(world));
         }
@@ -109,6 +122,7 @@ private:
     const std::vector<Scenario>& scenarios_;
     const SeasonOptions& options_;
     std::vector<proto::ScenarioReport> reports_;
+    std::vector<int> folders_;             // of the scenarios, open
     std::map<std::size_t, World> worlds_;  // by the scenario's place
     std::vector<std::size_t> ended_;
     std::size_t next_ = 0;
