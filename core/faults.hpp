@@ -67,7 +67,10 @@ namespace lockstep {
     X(DeviceHasRun, 132, "device-has-run", "the device has run, or was about to, since the axis's position was kept", \
       "home it: lockstep home")                                                                                       \
     X(PositionPushed, 133, "position-pushed", "the encoder says that the axis was moved without pulses",              \
-      "home it: lockstep home")
+      "home it: lockstep home")                                                                                       \
+    X(HomeSwitchUnsteady, 134, "home-switch-unsteady",                                                                \
+      "the home switch closed at another place with every touch",                                                     \
+      "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm")
 
 enum class FaultCode : std::uint16_t {
     None = 0,

@@ -23,11 +23,12 @@ enum class TimeSource : std::uint8_t { Shared, Network, Ptp };
 struct HomingConfig {
     int sequence = 0;  // axes with lower numbers home first; equal ones together
     bool toward_min = true;
-    double search_velocity_mm_s = 0;  // not above start_velocity: the switch stops the pulses at once
-    double latch_velocity_mm_s = 0;   // the slow second approach that sets the zero
-    double pulloff_mm = 0;            // how far off the switch before the latch
-    double switch_position_mm = 0;    // where the switch closes, in machine coordinates
-    double park_mm = 0;               // where the axis waits after homing
+    double search_velocity_mm_s = 0;   // not above start_velocity: the switch stops the pulses at once
+    double latch_velocity_mm_s = 0;    // the slow second approach that sets the zero
+    double pulloff_mm = 0;             // how far off the switch before the latch
+    double touch_tolerance_mm = 0.02;  // by how much two touches of the switch may differ; never less than a step
+    double switch_position_mm = 0;     // where the switch closes, in machine coordinates
+    double park_mm = 0;                // where the axis waits after homing
 };
 
 /// What the simulated hardware behind an axis is like.

@@ -63,6 +63,12 @@ JobLog* Recorder::job(const job_t& message) {
         return job.coordinator == message.coordinator && job.job == number;
     });
     if (known != analysis_.jobs.rend()) { return &*known; }
+    if (message.event != "begun") {  // after a takeover another goes on with the job
+        const auto open = std::ranges::find_if(analysis_.jobs.rbegin(), analysis_.jobs.rend(), [&](const JobLog& job) {
+            return job.job == number && job.begun_us && !job.ended_us;
+        });
+        if (open != analysis_.jobs.rend()) { return &*open; }
+    }
     if (analysis_.jobs.size() == Analysis::kJobsKept) {
         analysis_.jobs_not_kept += message.event == "begun" ? 1 : 0;
         return nullptr;

@@ -99,6 +99,8 @@ std::string coordinator_words(const Incident& incident, const FlightEvent& event
         case Kind::StoodDown: return "stands down: another owns the machine";
         case Kind::JobCutShort:
             return fmt::format("the job of the owner before was cut short near line {}", event.count);
+        case Kind::JobContinued:
+            return fmt::format("goes on with the job of the owner before, near line {}", event.count);
         case Kind::JobBegun: return fmt::format("begins job {}", event.count);
         case Kind::JobEnded:
             return fmt::format(
@@ -141,6 +143,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
         case Kind::AxisGone:
         case Kind::Interrupted:
         case Kind::StoodDown:
+        case Kind::JobContinued:
         case Kind::JobCutShort:
         case Kind::Stalled: return Weight::Telling;
         case Kind::Incident: return is_end(event) ? Weight::Telling : Weight::Routine;

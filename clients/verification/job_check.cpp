@@ -47,19 +47,39 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_err
 
 // ---- Records -----------------------------------------------------------------------------------------------------
 
+/// What a stopped coordinator says late of its job goes before the job that another has begun since.
 void JobCheck::take(const job_t& record) {
-    records_.push_back(record);
+    const auto begins_later = [&](const job_t& r) { return r.event == "begun" && r.job > record.job; };
+    records_.insert(std::ranges::find_if(records_, begins_later), record);
     std::deque<std::pair<std::string, Run>> waiting;
     waiting.swap(waiting_);
     for (const auto& [axis, run] : waiting) { take(axis, run); }
 }
 
 void JobCheck::handle(const job_t& record) {
+    if (is_outdated(record)) { return; }
+    if (record.event != "begun") { note_owner(record); }
     if (record.event == "override") { return turn(record); }
     close_epoch();
     if (record.event == "begun") { return begin(record); }
     if (record.event == "epoch") { return begin_epoch(record); }
     end(record);
+}
+
+/// Of a job that another coordinator's has followed, and of an epoch that nobody ran: a run of it would have been held
+/// to this record before.
+bool JobCheck::is_outdated(const job_t& record) {
+    if (!job_ || record.job >= job_->number || record.coordinator == job_->coordinator) { return false; }
+    findings_.notes.push_back(number_of(record) + ": its coordinator says more of it after another began " +
+                              job_->label + "; nothing was run of that");
+    return true;
+}
+
+/// Who speaks of a job that another has begun goes on with it after a takeover.
+void JobCheck::note_owner(const job_t& record) {
+    if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
+    job_->coordinator = record.coordinator;
+    findings_.notes.push_back(job_->label + ": another coordinator has taken over and gone on with it");
 }
 
 void JobCheck::begin(const job_t& record) {

@@ -63,6 +63,8 @@ private:
     /// No axis moves while its clock may be further off.
     Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
     void handle(const job_t& record);
+    bool is_outdated(const job_t& record);
+    void note_owner(const job_t& record);
     void begin(const job_t& record);
     void begin_epoch(const job_t& record);
     void turn(const job_t& record);

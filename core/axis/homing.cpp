@@ -1,5 +1,8 @@
 #include "core/axis/homing.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace lockstep {
 
 std::int64_t Homing::toward_switch(double mm) const {
@@ -9,6 +12,8 @@ std::int64_t Homing::toward_switch(double mm) const {
 
 HomingStep Homing::begin(bool home_closed) {
     pull_offs_ = 0;
+    touches_ = 0;
+    last_.reset();
     return search(home_closed ? HomingStage::Release : HomingStage::Search);
 }
 
@@ -23,7 +28,7 @@ HomingStep Homing::search(HomingStage stage) {
 
 HomingStep Homing::next(const LocalEnd& end) {
     switch (stage_) {
-        case HomingStage::Search: return end.by_trigger ? pull_off() : fail(FaultCode::HomeSwitchNotFound);
+        case HomingStage::Search: return end.by_trigger ? touch(end) : fail(FaultCode::HomeSwitchNotFound);
         case HomingStage::Release: return end.by_trigger ? pull_off() : fail(FaultCode::HomeSwitchStuck);
         case HomingStage::PullOff: {
             if (end.by_limit) { return fail(FaultCode::LimitHit); }
@@ -32,7 +37,7 @@ HomingStep Homing::next(const LocalEnd& end) {
             const double speed = axis_.homing.latch_velocity_mm_s;
             return {.move = LocalMove{toward_switch(2 * axis_.homing.pulloff_mm), speed, Trigger::HomeCloses}};
         }
-        case HomingStage::Latch: return end.by_trigger ? zero_and_park(end) : fail(FaultCode::HomeSwitchNotFound);
+        case HomingStage::Latch: return end.by_trigger ? touch(end) : miss(end);
         case HomingStage::Park:
             stage_ = HomingStage::Idle;
             return end.by_limit ? fail(FaultCode::LimitHit) : HomingStep{.done = true};
@@ -46,6 +51,22 @@ HomingStep Homing::pull_off() {
     stage_ = HomingStage::PullOff;
     const double speed = axis_.homing.search_velocity_mm_s;
     return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
+}
+
+/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before.
+HomingStep Homing::touch(const LocalEnd& end) {
+    const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(axis_, axis_.homing.touch_tolerance_mm));
+    const bool agrees = last_ && std::abs(end.trigger_count - *last_) <= tolerance;
+    if (agrees && stage_ == HomingStage::Latch) { return zero_and_park(end); }
+    last_ = end.trigger_count;
+    return ++touches_ < kMaxTouches ? pull_off() : fail(FaultCode::HomeSwitchUnsteady);
+}
+
+/// Near the last touch there is no switch: that was none.
+HomingStep Homing::miss(const LocalEnd& end) {
+    if (end.by_limit) { return fail(FaultCode::HomeSwitchNotFound); }
+    last_.reset();
+    return ++touches_ < kMaxTouches ? search(HomingStage::Search) : fail(FaultCode::HomeSwitchUnsteady);
 }
 
 HomingStep Homing::zero_and_park(const LocalEnd& end) {

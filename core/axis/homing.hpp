@@ -1,6 +1,6 @@
-// The homing sequence: search the switch, stop and zero, pull off, latch slowly, park. An axis that stands behind its
-// switch first moves away until it opens. No network between the switch and the stop: the device itself ends a move at
-// the switch.
+// The homing sequence: search the switch, pull off, touch it again slowly, and so on until two touches in a row agree;
+// zero there, and park. An axis that stands behind its switch first moves away until it opens. No network between the
+// switch and the stop: the device itself ends a move at the switch, and keeps the count.
 #pragma once
 
 #include <cstdint>
@@ -56,15 +56,20 @@ public:
 private:
     HomingStep search(HomingStage stage);
     HomingStep pull_off();
+    HomingStep touch(const LocalEnd& end);
+    HomingStep miss(const LocalEnd& end);
     HomingStep zero_and_park(const LocalEnd& end);
     HomingStep fail(FaultCode fault);
     std::int64_t toward_switch(double mm) const;
 
     static constexpr int kMaxPullOffs = 16;
+    static constexpr int kMaxTouches = 4;
 
     AxisConfig axis_;
     HomingStage stage_ = HomingStage::Idle;
     int pull_offs_ = 0;
+    int touches_ = 0;                   // of the switch: those that count and those that missed it
+    std::optional<std::int64_t> last_;  // touch, by the device's count
 };
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@ namespace lockstep {
 struct AxisView {
     std::optional<AxisState> state;
     Slot heard = 0;
+    Slot stamp_before = 0;             // of the state heard before this one
     SecondHearing<Identity> stranger;  // another process that has spoken for the axis
 
     bool present(Slot now, const ProtocolTiming& timing) const {

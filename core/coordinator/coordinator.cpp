@@ -7,10 +7,11 @@
 
 namespace lockstep {
 
-Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, bool to_stand_by)
+Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
+                         std::optional<OnTakeover> standby)
     : machine_(machine),
       config_hash_(config_hash),
-      to_stand_by_(to_stand_by),
+      standby_(standby),
       slot_(machine.slot_ticks()),
       ownership_(identity, machine.timing),
       planner_(machine),
@@ -76,7 +77,10 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
         if (view.state && !same && job_) { fail(FaultCode::AxisLost, state.axis, out); }  // held or not
         if (!same) { orders_[state.axis].reset(); }
-        view = {state, now_slot_, {}};
+        if (view.state && !same) { cut_inherited(TakeoverDoubt::AxisInDoubt, out); }
+        const bool is_repeat = same && state.stamp == view.state->stamp;
+        const Slot last_stamp = view.state ? view.state->stamp : 0;
+        view = {state, now_slot_, is_repeat ? view.stamp_before : last_stamp, {}};
     }
     for (const MachineState& other : inputs.others) { ownership_.hear(other, now_slot_); }
 }
@@ -101,6 +105,7 @@ void Coordinator::watch_axes(CoordinatorOutputs& out) {
             out.notices.push_back({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, i});
             views_[i].state.reset();
             orders_[i].reset();  // what comes back may be another process: it must not do what this one has done
+            cut_inherited(TakeoverDoubt::AxisInDoubt, out);
             if (phase_ == MachinePhase::Idle) { enter(MachinePhase::Waiting, out); }
             if (phase_ != MachinePhase::Waiting) { fail(FaultCode::AxisLost, i, out); }
         } else if (view.state && view.state->config_hash != config_hash_) {
@@ -134,6 +139,7 @@ void Coordinator::fail(FaultCode fault, std::size_t axis, CoordinatorOutputs& ou
         moving_ ? runner_.stop(now_slot_) : halt_own();
         return enter(MachinePhase::Stopping, out);
     }
+    cut_inherited(TakeoverDoubt::AxisInDoubt, out);
     end_job(JobOutcome::Failed, out);
     enter(MachinePhase::Fault, out);
 }
@@ -161,14 +167,30 @@ MachineState Coordinator::state() const {
                    .sent = runner_.sent(),
                    .veto = runner_.veto(),
                    .job = jobs_,
-                   .outcome = job_ ? std::nullopt : outcome_,
+                   .outcome = job_ || inherited_ ? std::nullopt : outcome_,
+                   .job_begun = job_begun_,
                    .line = jobs_ == cut_job_ ? cut_line_ : 0,
                    .overrides = overrides_,
                    .config_hash = config_hash_};
     for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }
     if (in_own_move()) { say_progress_of_own(s); }
+    if (inherited_) { s.line = inherited_->line, s.progress = inherited_->progress; }
     if (moving_ && job_) { say_progress(s); }
+    if (moving_ && job_ && intent_ == Intent::GoOn) { say_rests(s); }
     return s;
+}
+
+/// For a standby. By the LAI method a block is planned in parts, which no place on the program tells apart.
+void Coordinator::say_rests(MachineState& state) const {
+    if (machine_.coordination == StepMethod::Lai) { return; }
+    FrameNumber oldest = runner_.sent();
+    for (const AxisView& view : views_) {
+        const bool follows = view.state && view.state->epoch == runner_.epoch();
+        oldest = std::min(oldest, follows ? view.state->ran : 0);
+    }
+    state.job_kind = job_->kind;
+    state.program = job_->program_id;
+    state.rests = runner_.rests_from(oldest);
 }
 
 Subticks Coordinator::into_path() const {

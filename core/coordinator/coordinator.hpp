@@ -12,15 +12,13 @@
 #include "core/coordinator/epoch_runner.hpp"
 #include "core/coordinator/ownership.hpp"
 #include "core/coordinator/program_plan.hpp"
+#include "core/coordinator/takeover.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
-
-/// MoveOwn: axes to their places each by itself, not coordinated.
-enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
 
 /// What the record says of a job: enough to do it again.
 struct JobEvent {
@@ -54,13 +52,15 @@ struct CoordinatorNotice {
         AxisGone,
         Interrupted,
         EpochBegun,
-        Claimed,     // it owns the machine now
-        StoodDown,   // another does
-        JobCutShort  // by the takeover: where
+        Claimed,      // it owns the machine now
+        StoodDown,    // another does
+        JobCutShort,  // by the takeover: where, and why it is not gone on with
+        JobContinued  // after the takeover: where
     };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // an axis, an epoch, a phase, a term, a line: as the kind says
+    std::uint64_t number = 0;                       // an axis, an epoch, a phase, a term, a line: as the kind says
+    TakeoverDoubt doubt = TakeoverDoubt::NotAsked;  // JobCutShort
 };
 
 struct CoordinatorInputs {
@@ -84,8 +84,9 @@ struct CoordinatorOutputs {
 class Coordinator {
 public:
     /// `identity` is the machine time of its start in ticks, and so new at every start. It listens before it claims the
-    /// machine; where another owns it, it stands by if it is `to_stand_by`.
-    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, bool to_stand_by = false);
+    /// machine; where another owns it, it stands by if it is told what to do on a takeover.
+    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
+                std::optional<OnTakeover> standby = std::nullopt);
 
     /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
     void accept_program(std::uint64_t id, Program program);
@@ -101,6 +102,7 @@ private:
     struct Job {
         std::uint64_t number = 0;
         JobKind kind = JobKind::Run;
+        std::uint64_t program_id = 0;  // Command::program
         std::shared_ptr<const Program> program;
         std::vector<Leg> legs;
         std::size_t leg = 0;
@@ -124,6 +126,10 @@ private:
     void stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
     void change_owner(CoordinatorOutputs& out);
     void take_over(CoordinatorOutputs& out);
+    void inherit(const MachineState& last, CoordinatorOutputs& out);
+    void go_on_with_inherited(CoordinatorOutputs& out);
+    void cut_inherited(TakeoverDoubt doubt, CoordinatorOutputs& out);
+    std::optional<TakeoverDoubt> doubt_of_inherited() const;
     void stand_down(CoordinatorOutputs& out);
     bool begins_slot();
     bool must_listen();
@@ -161,11 +167,13 @@ private:
     Subticks left_of_job() const;
     void note_progress();
     void say_progress(MachineState& state) const;
+    void say_rests(MachineState& state) const;
     void time_legs();
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
                      CoordinatorOutputs& out);
     Epoch next_epoch();
     void begin_leg(CoordinatorOutputs& out);
+    void end_leg(CoordinatorOutputs& out);
     void settle(const EpochEnd& end, CoordinatorOutputs& out);
     void interrupted(const EpochEnd& end, CoordinatorOutputs& out);
     void go_on(CoordinatorOutputs& out);
@@ -188,7 +196,7 @@ private:
 
     MachineConfig machine_;
     std::uint64_t config_hash_;
-    bool to_stand_by_;
+    std::optional<OnTakeover> standby_;  // none: it does not stand by
     Ticks slot_;
     Ownership ownership_;
     ProgramPlanner planner_;
@@ -204,7 +212,10 @@ private:
     Intent intent_ = Intent::GoOn;
     bool moving_ = false;  // an epoch is in progress
     std::optional<Job> job_;
-    std::optional<JobOutcome> outcome_;  // of the last job that ended
+    std::optional<JobOutcome> outcome_;      // of the last job that ended
+    Term job_begun_;                         // in which the last job was begun
+    std::optional<MachineState> inherited_;  // of the owner before, who said this of a job that may be gone on with
+    std::optional<Slot> interrupt_heard_;    // somebody asked another owner to hold or stop
     std::uint64_t jobs_ = 0;
     Epoch epoch_ = 0;            // the newest
     std::uint64_t cut_job_ = 0;  // the job that the takeover ended

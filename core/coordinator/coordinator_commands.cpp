@@ -84,6 +84,7 @@ Reply Coordinator::home(const Command& command, CoordinatorOutputs& out) {
     if (auto refusal = refuse_unless_ready(command)) { return *refusal; }
     const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << views_.size()) - 1);
     if ((command.axes & ~all) != 0) { return refused(command, FaultCode::BadProgram, "no such axis"); }
+    job_begun_ = ownership_.term();
     job_ = Job{.number = ++jobs_, .kind = JobKind::Home, .axes = command.axes == 0 ? all : command.axes};
     job_->sequence = std::numeric_limits<int>::min();
     out.jobs.push_back({.kind = JobEvent::Kind::Begun, .job = job_->number, .job_kind = JobKind::Home});
@@ -109,8 +110,10 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
         const std::string line = plan.error().line > 0 ? "line " + std::to_string(plan.error().line) + ": " : "";
         return refused(command, plan.error().fault, line + plan.error().text);
     }
+    job_begun_ = ownership_.term();
     job_ = Job{.number = ++jobs_,
                .kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run,
+               .program_id = command.program,
                .program = program->second,
                .legs = std::move(*plan)};
     time_legs();
@@ -161,6 +164,10 @@ Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorO
         end_job(JobOutcome::Stopped, out);
         return reply;
     }
+    if (inherited_) {
+        cut_inherited(TakeoverDoubt::Interrupted, out);
+        return accepted(command);
+    }
     if (!moving_) { return refused(command, FaultCode::NothingToDo, "nothing is in motion that could be interrupted"); }
     intent_ = std::max(intent_, intent);
     runner_.stop(now_slot_);
@@ -184,6 +191,7 @@ Reply Coordinator::reset(const Command& command, CoordinatorOutputs& out) {
         return refused(command, FaultCode::Busy, "the machine is in motion");
     }
     if (job_) { end_job(JobOutcome::Stopped, out); }
+    cut_inherited(TakeoverDoubt::Interrupted, out);
     for (std::size_t i = 0; i < views_.size(); ++i) { order(i, AxisCommandKind::Reset); }
     fault_ = FaultCode::None;
     enter(MachinePhase::Waiting, out);

@@ -56,9 +56,9 @@ void Coordinator::advance(CoordinatorOutputs& out) {
     bool orders_open = false;
     for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
     const bool all_rest = std::ranges::all_of(views_, [](const AxisView& v) { return v.state && v.state->at_rest; });
-    if (phase_ == MachinePhase::Waiting && acknowledged && !missing_axis() && !orders_open && all_rest) {
-        enter(MachinePhase::Idle, out);
-    }
+    if (phase_ != MachinePhase::Waiting || !acknowledged || missing_axis() || orders_open || !all_rest) { return; }
+    if (inherited_) { go_on_with_inherited(out); }
+    if (!job_) { enter(MachinePhase::Idle, out); }
 }
 
 void Coordinator::begin_leg(CoordinatorOutputs& out) {
@@ -124,10 +124,16 @@ void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
         case EpochEnd::Kind::Interrupted: return interrupted(end, out);
         case EpochEnd::Kind::Complete: break;
     }
+    if (intent_ == Intent::Stop) { return end_job(JobOutcome::Stopped, out); }
+    if (intent_ == Intent::GoOn) { return end_leg(out); }
+    ++job_->leg;
+    enter(MachinePhase::Paused, out);
+}
+
+void Coordinator::end_leg(CoordinatorOutputs& out) {
     const bool pause = job_->legs[job_->leg].then_pause;
     ++job_->leg;
-    if (intent_ == Intent::Stop) { return end_job(JobOutcome::Stopped, out); }
-    if (pause || intent_ == Intent::Hold) { return enter(MachinePhase::Paused, out); }
+    if (pause) { return enter(MachinePhase::Paused, out); }
     begin_leg(out);
 }
 
@@ -149,10 +155,7 @@ void Coordinator::interrupted(const EpochEnd& end, CoordinatorOutputs& out) {
 }
 
 void Coordinator::go_on(CoordinatorOutputs& out) {
-    if (job_->remaining.empty()) {
-        ++job_->leg;
-        return begin_leg(out);
-    }
+    if (job_->remaining.empty()) { return end_leg(out); }
     begin_epoch(std::move(job_->remaining), job_->resume.along, std::move(job_->positions), job_->resume, out);
 }
 

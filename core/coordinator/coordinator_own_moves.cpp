@@ -54,6 +54,7 @@ double Coordinator::planned_seconds(std::size_t axis, std::int64_t steps, Ticks 
 
 void Coordinator::begin_own(Job job, Ticks ticks, CoordinatorOutputs& out) {
     jobs_ = job.number;
+    job_begun_ = ownership_.term();
     job_ = std::move(job);
     intent_ = Intent::GoOn;
     out.jobs.push_back({.kind = JobEvent::Kind::Begun,

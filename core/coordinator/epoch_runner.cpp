@@ -105,6 +105,17 @@ void EpochRunner::stop(Slot now) {
     veto_ = undecided == in_flight_.end() ? sent_ + 1 : undecided->number;
 }
 
+std::vector<FrameRest> EpochRunner::rests_from(FrameNumber frame) const {
+    std::vector<FrameRest> rests;
+    const FrameNumber oldest = sent_ + 1 - endings_.size();
+    for (FrameNumber k = std::max(frame, oldest); k <= sent_; ++k) {
+        const Ending& ending = endings_[k - oldest];
+        const PathMove& move = path_.moves[std::min(ending.move, path_.moves.size() - 1)];
+        rests.push_back({k, {move.block, ending.along}, ending.complete, digest_of(ending.positions)});
+    }
+    return rests;
+}
+
 std::optional<EpochEnd> EpochRunner::judge(Slot now, std::span<const AxisView> axes) const {
     const Slot first_start = rules::slot_of(start_, slot_);
     std::optional<FrameNumber> ran;

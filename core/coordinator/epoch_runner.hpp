@@ -58,6 +58,9 @@ public:
     /// Nothing while anybody may still move. Axes not present are left out of the judgement.
     std::optional<EpochEnd> judge(Slot now, std::span<const AxisView> axes) const;
 
+    /// Where the machine rests behind this frame and those made after it.
+    std::vector<FrameRest> rests_from(FrameNumber frame) const;
+
     const Path& path() const { return path_; }
     Tick start() const { return start_; }
     Epoch epoch() const { return epoch_; }

@@ -16,6 +16,7 @@ std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
         case Kind::Claimed: return FlightKind::Claimed;
         case Kind::StoodDown: return FlightKind::StoodDown;
         case Kind::JobCutShort: return FlightKind::JobCutShort;
+        case Kind::JobContinued: return FlightKind::JobContinued;
     }
     return std::nullopt;
 }

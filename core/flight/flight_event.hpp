@@ -59,7 +59,8 @@ namespace lockstep {
     X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                             \
     X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */        \
     X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */ \
-    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */
+    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */   \
+    X(JobContinued, "job-continued")       /* count: near this line */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,

@@ -6,6 +6,7 @@
 
 #include "core/machine.hpp"
 #include "core/motion/overrides.hpp"
+#include "core/motion/path_place.hpp"
 #include "core/motion/profile.hpp"
 #include "core/static_vector.hpp"
 
@@ -58,12 +59,6 @@ struct Path {
     Subticks duration() const { return moves.empty() ? Subticks{} : moves.back().end(); }
     /// The move in progress at t, the later one where two meet; the last one after the end.
     std::size_t move_at(Subticks t) const;
-};
-
-/// A place on a path that is at rest: in `block`, `along` its move's lead axis.
-struct PathPlace {
-    std::uint32_t block = 0;
-    Displacement along;
 };
 
 }  // namespace lockstep

@@ -5,11 +5,13 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/machine.hpp"
 #include "core/motion/overrides.hpp"
+#include "core/motion/path_place.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"
 
@@ -129,6 +131,30 @@ enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding
 
 enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
+/// MoveOwn: axes to their places each by itself, not coordinated.
+enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
+
+/// Positions of all axes in 64 bits: of two places that differ in any bit it differs but once in 2^64.
+constexpr std::uint64_t digest_of(std::span<const Position> positions) {
+    std::uint64_t digest = 0xcbf29ce484222325U;
+    for (const Position position : positions) {
+        for (const std::uint64_t word : {static_cast<std::uint64_t>(position.count()), position.phase()}) {
+            digest = (digest ^ word) * 0x9e3779b97f4a7c15U;
+            digest ^= digest >> 32;
+        }
+    }
+    return digest;
+}
+
+/// Where the machine comes to rest if no frame behind this one is run; frame 0: where the epoch starts.
+struct FrameRest {
+    FrameNumber frame = 0;
+    PathPlace place;           // on the program
+    bool last = false;         // the epoch ends with it
+    std::uint64_t digest = 0;  // digest_of where each axis then rests
+    bool operator==(const FrameRest&) const = default;
+};
+
 /// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
 struct MachineState {
     Term term;  // Standby: the highest number known, and who stands by
@@ -142,12 +168,17 @@ struct MachineState {
     std::optional<FrameNumber> veto;    // the coordinator's own, of this epoch
     std::uint64_t job = 0;              // counts the jobs done or begun since start
     std::optional<JobOutcome> outcome;  // of that job; nothing while it is in progress
+    Term job_begun;                     // in which term: another owner may have gone on with it
     std::int32_t line = 0;              // of the G-code now in motion, or where a takeover has ended the job
     double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
     Overrides overrides;             // of what is planned from now on
     std::uint32_t axes_present = 0;  // bit i: axis i is heard
     std::uint64_t config_hash = 0;
+    // What another needs to go on with the job, while one is in motion:
+    JobKind job_kind = JobKind::Run;
+    std::uint64_t program = 0;     // Command::program of the job; 0: none is in motion
+    std::vector<FrameRest> rests;  // of the frames of the epoch that may be the last ones run, rising
     bool operator==(const MachineState&) const = default;
 };
 

@@ -29,10 +29,10 @@ using std::chrono::nanoseconds;
 class CoordinatorService {
 public:
     CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorBus bus,
-                       std::unique_ptr<RecordSink> sink, bool to_stand_by)
+                       std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby)
         : machine_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
-          coordinator_(machine, identity, config_hash(machine), to_stand_by),
+          coordinator_(machine, identity, config_hash(machine), standby),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
           flight_log_(open_flight(machine, "", identity)),
@@ -50,8 +50,9 @@ public:
         const CoordinatorInputs in{now, states_, others_, commands_};
         const CoordinatorOutputs out = coordinator_.step(in);
         flight_.take(in, out);
-        for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
+        // First where frames come to rest, then the frames: a standby knows of every frame that axes may have.
         if (out.state) { (void)bus_.machine.write(*out.state); }
+        for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
         for (const AxisCommand& command : out.axis_commands) { (void)bus_.axis_commands.write(command); }
         for (const Reply& reply : out.replies) { (void)bus_.replies.write(reply); }
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
@@ -96,9 +97,13 @@ private:
                 return log_warning("stands down: another coordinator owns the machine, term " +
                                    std::to_string(notice.number));
             case Kind::JobCutShort:
-                return log_warning(
-                    "the job of the coordinator before was cut short near line " + std::to_string(notice.number) +
-                    "; the axes rest; go on: lockstep run FILE --from-line " + std::to_string(notice.number));
+                return log_warning("the job of the coordinator before was cut short near line " +
+                                   std::to_string(notice.number) + ": " + std::string(text_of(notice.doubt)) +
+                                   "; the axes rest; go on: lockstep run FILE --from-line " +
+                                   std::to_string(notice.number));
+            case Kind::JobContinued:
+                return log_info("goes on with the job of the coordinator before, near line " +
+                                std::to_string(notice.number));
             case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -163,7 +168,7 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
     CoordinatorService service(machine, identity, std::move(*bus), open_record(machine, "", options.record),
-                               options.standby);
+                               options.standby ? std::optional(options.on_takeover) : std::nullopt);
     log_info("coordinator of machine " + machine.name + " is up");
 
     ServiceManager manager;
@@ -196,6 +201,11 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
         std::cerr
             << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, which "
                "another host's cannot carry on; use SHARED (one host) or PTP\n";
+        return kServiceBadInput;
+    }
+    if (options.on_takeover == OnTakeover::Continue && machine->coordination == StepMethod::Lai) {
+        std::cerr << "--on-takeover continue: by coordination LAI a block is planned in parts, which another "
+                     "coordinator cannot tell apart; use stop, or coordination: RANADE\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"coordinator", "", options.log_file}); !log) {

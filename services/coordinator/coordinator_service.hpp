@@ -1,12 +1,14 @@
 // lockstep-coordinator: the machine's planner as a process, between DDS and the record.
 #pragma once
 
+#include "core/coordinator/takeover.hpp"
 #include "services/runtime/service_options.hpp"
 
 namespace lockstep {
 
 struct CoordinatorServiceOptions : ServiceOptions {
     bool standby = false;  // stands by while another coordinator owns the machine; false: ends then
+    OnTakeover on_takeover = OnTakeover::Stop;
 };
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause

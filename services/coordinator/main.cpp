@@ -1,7 +1,16 @@
 // lockstep-coordinator: the command line.
 #include <CLI/CLI.hpp>
+#include <map>
+#include <string>
 
 #include "services/coordinator/coordinator_service.hpp"
+
+namespace {
+
+const std::map<std::string, lockstep::OnTakeover> kOnTakeover{{"stop", lockstep::OnTakeover::Stop},
+                                                              {"continue", lockstep::OnTakeover::Continue}};
+
+}  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app{
@@ -11,13 +20,20 @@ int main(int argc, char** argv) {
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
-    app.add_flag("--standby", options.standby,
-                 "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
-                 "give it to both of two");
+    CLI::Option* standby = app.add_flag(
+        "--standby", options.standby,
+        "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
+        "give it to both of two");
+    app.add_option("--on-takeover", options.on_takeover,
+                   "with --standby, what becomes of a program in motion when this one takes over: stop; or continue, "
+                   "if every axis rests where the last owner's frames end")
+        ->transform(CLI::CheckedTransformer(kOnTakeover).description("{stop,continue}"))
+        ->needs(standby)
+        ->default_str("stop");
     app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"
-        "  lockstep-coordinator --machine machine.textproto --standby\n"
+        "  lockstep-coordinator --machine machine.textproto --standby --on-takeover continue\n"
         "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {

@@ -78,6 +78,7 @@ private:
         speed("homing.search_velocity_mm_s", axis_.homing.search_velocity_mm_s);
         speed("homing.latch_velocity_mm_s", axis_.homing.latch_velocity_mm_s);
         length("homing.pulloff_mm", axis_.homing.pulloff_mm);
+        length("homing.touch_tolerance_mm", axis_.homing.touch_tolerance_mm);
         place("homing.switch_position_mm", axis_.homing.switch_position_mm);
         place("homing.park_mm", axis_.homing.park_mm);
         place("plant.start_position_mm", axis_.plant.start_position_mm);
@@ -170,6 +171,11 @@ private:
         problems_.require_between(
             {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
             what + ", not less than the travel from the switch, " + number_text(room) + "; lower it");
+        const double tolerance = axis_.homing.touch_tolerance_mm;
+        problems_.require_between({"homing.touch_tolerance_mm", "homing.pulloff_mm"}, tolerance < pulloff,
+                                  "homing.touch_tolerance_mm is " + number_text(tolerance) +
+                                      ", not less than homing.pulloff_mm " + number_text(pulloff) +
+                                      ": no two touches would differ; lower it");
     }
 
     void check_plant() {

@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kDefaultLatchShare = 0.2;  // of the search velocity
 constexpr double kDefaultPulloff_mm = 2;
+constexpr double kDefaultTouchTolerance_mm = 0.02;
 constexpr double kDefaultPulloffShare = 0.1;  // of the travel, where that is less
 constexpr double kDefaultTravelMargin_mm = 2;
 constexpr const char* kMethodNames = "RANADE, SPIELAUER, LAI, LAM and CARRICA";
@@ -111,6 +112,9 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
                                                                    : homing.search_velocity_mm_s * kDefaultLatchShare;
     homing.pulloff_mm =
         message.has_pulloff_mm() ? message.pulloff_mm() : std::min(kDefaultPulloff_mm, travel * kDefaultPulloffShare);
+    homing.touch_tolerance_mm = message.has_touch_tolerance_mm()
+                                    ? message.touch_tolerance_mm()
+                                    : std::min(kDefaultTouchTolerance_mm, homing.pulloff_mm / 2);
     homing.switch_position_mm = message.has_switch_position_mm() ? message.switch_position_mm()
                                 : homing.toward_min              ? axis.position_min_mm
                                                                  : axis.position_max_mm;

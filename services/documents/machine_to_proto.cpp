@@ -48,6 +48,7 @@ void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_search_velocity_mm_s(homing.search_velocity_mm_s);
     message.set_latch_velocity_mm_s(homing.latch_velocity_mm_s);
     message.set_pulloff_mm(homing.pulloff_mm);
+    message.set_touch_tolerance_mm(homing.touch_tolerance_mm);
     message.set_switch_position_mm(homing.switch_position_mm);
     message.set_park_mm(homing.park_mm);
 }

@@ -82,7 +82,8 @@ void VirtualMachine::power_up() {
 void VirtualMachine::start(std::size_t process) {
     if (is_coordinator(process)) {
         const Identity identity = static_cast<Identity>(now_.value) + process;
-        coordinator(process).emplace(options_.machine, identity, options_.config_hash, coordinators_.size() > 1);
+        coordinator(process).emplace(options_.machine, identity, options_.config_hash,
+                                     coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
     } else {
         const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash,
                                     axes_[process].kept};

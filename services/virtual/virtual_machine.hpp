@@ -42,6 +42,7 @@ struct VirtualOptions {
     Tick start{1'000'000};
     int loops_per_slot = 2;        // each process's loop, at a phase of its own
     bool keeps_positions = false;  // axes' positions outlive their processes
+    OnTakeover on_takeover = OnTakeover::Stop;
     std::size_t coordinators = 1;  // the first to claim owns the machine, the others stand by
     /// By axis; those not here read the machine's time. The coordinator's is the machine's, and the true one. More than
     /// one time asks for a machine whose time_source is Network.

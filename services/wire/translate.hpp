@@ -38,11 +38,18 @@ struct SetpointMessage : lockstep_wire_Setpoint {
     } storage;
 };
 
+/// A machine state and what it points to; not copyable either.
+struct MachineStateMessage : lockstep_wire_MachineState {
+    MachineStateMessage() : lockstep_wire_MachineState{} {}
+    MachineStateMessage(MachineStateMessage&&) = default;
+    std::vector<lockstep_wire_FrameRest> rest_storage;
+};
+
 SetpointMessage to_wire(const Frame& frame);
 lockstep_wire_AxisState to_wire(const AxisState& state);
 lockstep_wire_AxisHealth to_wire(const AxisHealth& health);
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command);
-lockstep_wire_MachineState to_wire(const MachineState& state);
+MachineStateMessage to_wire(const MachineState& state);
 lockstep_wire_ClockRequest to_wire(const ClockRequest& request);
 lockstep_wire_ClockReply to_wire(const ClockReply& reply);
 lockstep_wire_Command to_wire(const Command& command);

@@ -16,14 +16,15 @@ JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, 
       command_(command),
       voice_(voice),
       stop_(stop),
-      asked_(session.state()->state.term) {}
+      asked_(session.state()->state.term),
+      runs_it_(asked_) {}
 
 std::expected<JobVerdict, Failure> JobWatch::wait() {
     for (;;) {
         session_.listen(kGlance);
         if (session_.is_silent()) { return std::unexpected(silent()); }
         const MachineState& state = session_.state()->state;
-        const JobVerdict verdict = judge(state, number_, asked_);
+        const JobVerdict verdict = judge(state, number_, asked_, runs_it_);
         if (verdict != JobVerdict::InProgress) { return verdict; }
         if (stop_.requested() && !stop_sent_) {
             if (auto sent = send_stop(); !sent) { return std::unexpected(sent.error()); }
@@ -51,6 +52,11 @@ std::expected<void, Failure> JobWatch::send_stop() {
 
 void JobWatch::tell(const MachineState& state) {
     if (state.line > 0) { line_ = state.line; }
+    if (state.term != runs_it_ && state.phase != MachinePhase::Waiting) {
+        runs_it_ = state.term;
+        voice_.say("another coordinator has taken over and goes on with the job" +
+                   (line_ > 0 ? " at line " + std::to_string(line_) : ""));
+    }
     const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
     if (rests && state.phase != told_) {
         const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";

@@ -33,6 +33,7 @@ private:
     Voice& voice_;
     const StopSignal& stop_;
     Term asked_;
+    Term runs_it_;  // who was last heard to
     bool stop_sent_ = false;
     std::int32_t line_ = 0;  // the last in motion
     std::optional<MachinePhase> told_;

@@ -16,7 +16,8 @@ enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's proces
 /// What of it there is a choice about.
 struct Layout {
     FpgaKind fpga = FpgaKind::AsConfigured;
-    bool standby = false;  // a second coordinator stands by
+    bool standby = false;    // a second coordinator stands by
+    bool continues = false;  // and goes on with a program in motion when it takes over
 };
 
 struct ServiceLine {

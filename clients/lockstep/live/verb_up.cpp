@@ -14,6 +14,7 @@ namespace {
 struct UpOptions : LiveOptions {
     std::string fpga;
     bool standby = false;
+    std::string on_takeover = "stop";
     bool foreground = false;
 };
 
@@ -32,7 +33,8 @@ ExitCode up(const UpOptions& options) {
     const StateDirectory state(machine->config.name);
     const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
     const auto kind = kinds.find(options.fpga);
-    const Layout layout{kind == kinds.end() ? FpgaKind::AsConfigured : kind->second, options.standby};
+    const Layout layout{kind == kinds.end() ? FpgaKind::AsConfigured : kind->second, options.standby,
+                        options.on_takeover == "continue"};
     const auto lines = prepare(*machine, layout, state, voice);
     if (!lines) { return voice.fail(lines.error()); }
     if (options.foreground) {
@@ -62,8 +64,14 @@ void add_up(CLI::App& app, Action& action) {
                      "the devices, instead of the configuration's: sim, simulated in the axes' processes; shm, in "
                      "processes of their own")
         ->check(CLI::IsMember({"sim", "shm"}));
-    verb->add_flag("--standby", options->standby,
-                   "start a second coordinator that takes over, at rest, when the first one fails");
+    CLI::Option* standby = verb->add_flag(
+        "--standby", options->standby, "start a second coordinator that takes over, at rest, when the first one fails");
+    verb->add_option("--on-takeover", options->on_takeover,
+                     "with --standby, what becomes of a program in motion then: stop; or continue, if every axis rests "
+                     "where the first one's frames end")
+        ->check(CLI::IsMember({"stop", "continue"}))
+        ->needs(standby)
+        ->capture_default_str();
     verb->add_flag("--foreground", options->foreground,
                    "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_live_options(*verb, *options);
@@ -71,7 +79,7 @@ void add_up(CLI::App& app, Action& action) {
         "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; where that is not set, in\n"
         "/run/lockstep/MACHINE (root) or $XDG_RUNTIME_DIR/lockstep/MACHINE.\n" +
         footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"
-               "  lockstep up --machine mill.textproto --standby\n"));
+               "  lockstep up --machine mill.textproto --standby --on-takeover continue\n"));
     verb->callback([&action, options] { action = [options] { return up(*options); }; });
 }
 

@@ -16,9 +16,10 @@ constexpr const char* kThereAndBack = "G21 G90\nG1 X150 Y30 F1200\nG1 X20 Y0\nM2
 
 class TwoCoordinators : public OwnMachine {
 protected:
+    explicit TwoCoordinators(Words up = {"--standby"}) : words_(std::move(up)) {}
     void SetUp() override {
         OwnMachine::SetUp();
-        bring_up({"--standby"});
+        bring_up(words_);
         record();
         const Ran home = run_lockstep({"home"});
         ASSERT_EQ(home.code, 0) << home.out << home.err;
@@ -35,6 +36,9 @@ protected:
         const proto::StatusReport report = status();
         for (const auto& axis : report.axes()) { EXPECT_TRUE(axis.at_rest() && axis.homed()) << axis.name(); }
     }
+
+private:
+    Words words_;
 };
 
 TEST_F(TwoCoordinators, AKilledOwnerIsReplacedAtRestAndTheMachineMovesOnWithoutHoming) {
@@ -69,6 +73,29 @@ TEST_F(TwoCoordinators, AnOwnerThatWasStoppedWakesUpAndStandsDown) {
     expect_at_rest();
     EXPECT_EQ(status().axes(0).position_steps(), 800) << "nothing moved when it woke up";
     EXPECT_EQ(run_lockstep({"move", "X=20", "Y=0"}).code, 0);
+    expect_verified();
+}
+
+class ContinuingCoordinators : public TwoCoordinators {
+protected:
+    ContinuingCoordinators() : TwoCoordinators({"--standby", "--on-takeover", "continue"}) {}
+};
+
+TEST_F(ContinuingCoordinators, AKilledOwnersJobIsGoneOnWithToItsEnd) {
+    ASSERT_TRUE(eventually([&] { return status().standby(); }));
+    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+    ASSERT_TRUE(becomes("Running"));
+    ASSERT_TRUE(eventually([&] { return status().axes(0).position_mm() > 30; }));
+    const std::string killed = owner();
+    kill(process(killed), SIGKILL);
+    const Ran ran = run.wait();
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_EQ(ran.json<proto::RunReport>().outcome(), "done");
+    const std::string heir = killed == "coordinator" ? "coordinator-2" : "coordinator";
+    EXPECT_THAT(text_of_log(heir), HasSubstr("goes on with the job"));
+    EXPECT_EQ(status().axes(0).position_steps(), 1600);
+    EXPECT_EQ(status().axes(1).position_steps(), 0);
+    expect_at_rest();
     expect_verified();
 }
 

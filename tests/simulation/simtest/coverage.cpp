@@ -19,7 +19,8 @@ constexpr std::string_view kAltered = "altered messages";
 constexpr std::array kCheckNames{"armed when due",        "armed late",
                                  "vetoed when due",       "vetoed late",
                                  "too late, next vetoed", "vetoed early, for its own reasons"};
-constexpr std::array kOwnershipNames{"claimed", "stood down", "job cut short by a takeover"};
+constexpr std::array kOwnershipNames{"claimed", "stood down", "job cut short by a takeover",
+                                     "job gone on with after a takeover"};
 constexpr std::array kInjectedNames{"freeze of an axis that must not stop the machine",
                                     "freeze of the coordinator that must not stop the machine",
                                     "longer freeze of an axis",
@@ -155,6 +156,7 @@ void CoverageWatch::on_coordinator(std::size_t /*process*/, Tick /*now*/, const 
         if (notice.kind == Kind::Claimed) { coverage_.hit(kOwnership, kOwnershipNames[0]); }
         if (notice.kind == Kind::StoodDown) { coverage_.hit(kOwnership, kOwnershipNames[1]); }
         if (notice.kind == Kind::JobCutShort) { coverage_.hit(kOwnership, kOwnershipNames[2]); }
+        if (notice.kind == Kind::JobContinued) { coverage_.hit(kOwnership, kOwnershipNames[3]); }
         if (notice.fault != FaultCode::None) { coverage_.hit(kFaults, name_of(notice.fault)); }
     }
     for (const Reply& reply : out.replies) {

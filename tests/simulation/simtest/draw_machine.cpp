@@ -45,6 +45,7 @@ HomingConfig draw_homing(Draw& draw, const AxisConfig& axis, const Dynamics& d) 
     h.latch_velocity_mm_s = h.search_velocity_mm_s * draw.real(0.3, 1);
     const double step = 1 / axis.steps_per_mm;
     h.pulloff_mm = step * draw.real(2, std::min(0.2 * d.travel, 4 + 0.1 * d.start));
+    h.touch_tolerance_mm = step;
     const double end = h.toward_min ? axis.position_min_mm : axis.position_max_mm;
     const double inwards = h.toward_min ? 1 : -1;
     h.switch_position_mm = end + inwards * draw.real(-0.8 * axis.plant.travel_margin_mm, 0.1 * d.travel * step);

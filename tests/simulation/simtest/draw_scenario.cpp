@@ -122,6 +122,7 @@ void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scen
     Draw draw(seed ^ 0x0a0b0c0d0e0f0102U);
     if (mixed && draw.chance(0.6)) { return; }
     scenario.coordinators = 2;
+    if (Draw(seed ^ 0x0c04715e0e0f0102U).chance(0.5)) { scenario.on_takeover = OnTakeover::Continue; }
     if (!others.breaks_processes()) { scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}}); }
     if (draw.chance(0.25)) { scenario.homing_faults = draw_takeover_of_homing(draw, scenario.machine); }
     for (std::size_t n = 0; n + 1 < scenario.tasks.size(); ++n) {

@@ -50,6 +50,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::Switch, FaultCode::LimitHit},
     Explanation{Cause::Switch, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Switch, FaultCode::HomeSwitchNotFound},
+    Explanation{Cause::Switch, FaultCode::HomeSwitchUnsteady},
+    Explanation{Cause::Push, FaultCode::HomeSwitchUnsteady},
     Explanation{Cause::Push, FaultCode::FollowingError},
     Explanation{Cause::Push, FaultCode::LimitHit},
     Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},

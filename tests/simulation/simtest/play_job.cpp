@@ -25,13 +25,16 @@ double protocol_seconds(const Bench& bench) {
     return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
 }
 
+/// With a switch that has to be searched again and again.
 double homing_seconds(const Bench& bench) {
+    constexpr int kSearches = 4;
     double seconds = protocol_seconds(bench);
     for (const AxisConfig& axis : bench.machine().axes) {
         const HomingConfig& h = axis.homing;
         const double travel = axis.position_max_mm - axis.position_min_mm + 2 * axis.plant.travel_margin_mm;
-        seconds += travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
-                   2 * h.pulloff_mm / h.latch_velocity_mm_s + 2 * travel / axis.start_velocity_mm_s;
+        const double search = travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
+                              2 * h.pulloff_mm / h.latch_velocity_mm_s;
+        seconds += kSearches * search + 2 * travel / axis.start_velocity_mm_s;
     }
     return seconds;
 }

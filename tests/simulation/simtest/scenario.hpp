@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/coordinator/takeover.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
@@ -100,6 +101,7 @@ struct Scenario {
     Tick power_up{1'000'000};
     std::vector<AxisClocks> clocks;  // none: one clock for all
     std::size_t coordinators = 1;
+    OnTakeover on_takeover = OnTakeover::Stop;
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
     bool asks_in_fault = false;                // for a homing, which must then be refused

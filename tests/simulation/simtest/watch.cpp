@@ -8,19 +8,23 @@ void Watch::on_coordinator(std::size_t process, Tick /*now*/, const CoordinatorO
     for (const JobEvent& job : out.jobs) { take_job(process, job); }
 }
 
-/// Another one has taken the job's machine over when it has heard all axes follow it: then it waits no more.
+/// Another one has taken the job's machine over when it has heard all axes follow it: then it waits no more. Unless it
+/// goes on with the job, and says so before.
 void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
     using Kind = CoordinatorNotice::Kind;
     if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
-    if (notice.kind == Kind::StoodDown && process == job_of_) { cut_short(JobOutcome::Stopped); }
+    if (notice.kind == Kind::StoodDown && process == job_of_) { orphan(JobOutcome::Stopped); }
+    if (notice.kind == Kind::JobContinued) { job_of_ = process, orphaned_ = false; }
     if (notice.kind != Kind::Phase) { return; }
     phases_[process] = static_cast<MachinePhase>(notice.number);
-    if (process != job_of_ && phases_[process] == MachinePhase::Idle) { cut_short(JobOutcome::Stopped); }
+    const bool is_idle = phases_[process] == MachinePhase::Idle;
+    if (is_idle && (process != job_of_ || orphaned_)) { cut_short(JobOutcome::Stopped); }
 }
 
 void Watch::take_job(std::size_t process, const JobEvent& job) {
     if (job.kind == JobEvent::Kind::Begun) {
         job_of_ = process;
+        orphaned_ = false;
         outcome_.reset();
     }
     if (job.kind == JobEvent::Kind::Ended && process == job_of_) { outcome_ = job.outcome; }
@@ -31,7 +35,13 @@ void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     moved_ = now;
     if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process < axes_.size()) { return; }
     phases_.erase(fault.process);
-    if (fault.process == job_of_) { cut_short(JobOutcome::Failed); }
+    if (fault.process == job_of_) { orphan(JobOutcome::Failed); }
+}
+
+/// Its coordinator has left it: it is at its end, or another may go on with it.
+void Watch::orphan(JobOutcome outcome) {
+    orphaned_ = true;
+    if (on_takeover_ == OnTakeover::Stop) { cut_short(outcome); }
 }
 
 void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {

@@ -11,7 +11,8 @@ namespace lockstep::simtest {
 
 class Watch : public VirtualObserver {
 public:
-    explicit Watch(const VirtualMachine& vm) : vm_(vm), axes_(vm.machine().axes.size()) {}
+    Watch(const VirtualMachine& vm, OnTakeover on_takeover)
+        : vm_(vm), on_takeover_(on_takeover), axes_(vm.machine().axes.size()) {}
 
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     /// With a coordinator goes what it was doing.
@@ -37,17 +38,20 @@ public:
 private:
     void take_notice(std::size_t process, const CoordinatorNotice& notice);
     void take_job(std::size_t process, const JobEvent& job);
+    void orphan(JobOutcome outcome);
     void cut_short(JobOutcome outcome) {
         if (!outcome_) { outcome_ = outcome; }
     }
 
     const VirtualMachine& vm_;
+    OnTakeover on_takeover_;
     std::vector<AxisState> axes_;
     std::optional<Tick> disturbed_;
     Tick moved_;
     std::map<std::size_t, MachinePhase> phases_;  // by coordinator
     FaultCode fault_ = FaultCode::None;
-    std::size_t job_of_ = 0;  // the coordinator that began the last job
+    std::size_t job_of_ = 0;  // the coordinator that began the last job, or went on with it
+    bool orphaned_ = false;   // which has ended since, or stood down
     std::optional<JobOutcome> outcome_;
     std::map<std::uint64_t, MachinePhase> phase_at_command_;
 };

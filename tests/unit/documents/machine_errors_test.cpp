@@ -137,6 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{axis_with("homing { pulloff_mm: 0 }"), 10, 12, "above 0"},
         Refusal{axis_with("homing { pulloff_mm: .01 }"), 10, 12, "less than a step"},
         Refusal{axis_with("homing { pulloff_mm: 200 }"), 10, 12, "the travel from the switch"},
+        Refusal{axis_with("homing { touch_tolerance_mm: 2 }"), 10, 12, "not less than homing.pulloff_mm 2"},
+        Refusal{axis_with("homing { touch_tolerance_mm: 0 }"), 10, 12, "above 0"},
         Refusal{axis_with("homing { switch_position_mm: 101 }"), 10, 12, "-2 to 100"},
         Refusal{axis_with("homing { switch_position_mm: -2 }"), 10, 12, "not on the limit switch"},
         Refusal{axis_with("homing { toward_min: false switch_position_mm: 0 }"), 10, 30, "100 to 202"},

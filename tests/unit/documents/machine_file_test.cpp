@@ -52,6 +52,7 @@ TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     EXPECT_EQ(homing.search_velocity_mm_s, 10);
     EXPECT_EQ(homing.latch_velocity_mm_s, 2);
     EXPECT_EQ(homing.pulloff_mm, 2);
+    EXPECT_EQ(homing.touch_tolerance_mm, 0.02);
     EXPECT_EQ(homing.switch_position_mm, 0);
     EXPECT_EQ(homing.park_mm, 0);
     const HomingConfig upward = parse(axis_with("homing { toward_min: false }")).axes.at(0).homing;
@@ -108,7 +109,7 @@ TEST(MachineFile, TheHashIsOfWhatIsMeantAndNotOfHowItIsWritten) {
     EXPECT_NE(config_hash(parse(axis_with("homing { park_mm: 1 }"))), hash);
 }
 
-TEST(MachineFile, TheHashIsTheSameOnEveryHost) { EXPECT_EQ(config_hash(parse(kShortest)), 16736186074892331303U); }
+TEST(MachineFile, TheHashIsTheSameOnEveryHost) { EXPECT_EQ(config_hash(parse(kShortest)), 11046635133784902430U); }
 
 }  // namespace
 }  // namespace lockstep

@@ -236,7 +236,7 @@ TEST(Coordinators, WhoHearsAnOwnerBeforeItOwnsAnythingEnds) {
     Coordinator second(small_machine(), 2'000, 1);
     const std::vector<MachineState> owner{{.term = {900, 800}, .stamp = 3'000}, {.term = {900, 800}, .stamp = 3'001}};
     EXPECT_TRUE(second.step({.now = {3'001'000}, .others = owner}).must_quit);
-    Coordinator to_stand_by(small_machine(), 2'000, 1, true);
+    Coordinator to_stand_by(small_machine(), 2'000, 1, OnTakeover::Stop);
     const auto out = to_stand_by.step({.now = {3'001'000}, .others = owner});
     EXPECT_FALSE(out.must_quit);
     EXPECT_EQ(out.state->phase, MachinePhase::Standby);

@@ -39,7 +39,10 @@ public:
 /// Axes X (process 0) and Y (1), the coordinators (2, 3). Slots of 1 ms; silence is 16 slots.
 class Standby : public Rig {
 protected:
-    Standby() : Rig({.machine = small_machine(), .coordinators = 2}) { vm.observe(owners); }
+    explicit Standby(OnTakeover on_takeover = OnTakeover::Stop)
+        : Rig({.machine = small_machine(), .on_takeover = on_takeover, .coordinators = 2}) {
+        vm.observe(owners);
+    }
     void TearDown() override { owners.expect_one_writer_each(); }
 
     static Ticks ticks(double seconds) { return {static_cast<std::int64_t>(seconds * 1e6)}; }
@@ -60,7 +63,7 @@ protected:
         vm.schedule({.kind = kind, .process = process, .at = vm.now(), .lasts = ticks(seconds), .peer = peer});
     }
     bool taken_over() {
-        return vm.advance_until([&] { return vm.owner() == other && idle(); }, ticks(3));
+        return vm.advance_until([&] { return vm.owner() == other && idle(); }, ticks(12));
     }
     bool idle() const { return vm.state()->term > term && vm.state()->phase == MachinePhase::Idle; }
     void expect_moves_without_homing() {
@@ -122,6 +125,23 @@ TEST_F(Standby, AnOwnerThatWakesUpLateMovesNothingAndStandsDown) {
     EXPECT_EQ(vm.owner(), other);
     expect_moves_without_homing();
 }
+
+/// Its network may need a while to find the axes again: they are first heard just when it would think them lost.
+class Woken : public Standby, public testing::WithParamInterface<int> {};
+
+TEST_P(Woken, AnOwnerMovesNothingBeforeItHasHeardEveryAxisTwice) {
+    start_job();
+    befall(Kind::Freeze, owner, 2);
+    vm.schedule({.kind = Kind::Cut, .process = owner, .at = vm.now(), .lasts = ticks(2 + 0.001 * GetParam())});
+    ASSERT_TRUE(taken_over()) << describe();
+    owners.epochs = 0;
+    wait(2.5);
+    EXPECT_EQ(owners.epochs, 0);
+    EXPECT_EQ(owners.stood_down, 1);
+    expect_moves_without_homing();
+}
+
+INSTANTIATE_TEST_SUITE_P(AfterSilence, Woken, testing::Range(12, 22));
 
 TEST_F(Standby, AnOwnerThatStalledInItsOwnMovesOrdersNothingMore) {
     settle();
@@ -235,6 +255,149 @@ TEST_F(Standby, TakesAnEmergencyStopThatTheOwnerNeverAnswered) {
     EXPECT_EQ(vm.reply_to(asked)->status, ReplyStatus::Accepted) << vm.reply_to(asked)->text;
     EXPECT_EQ(fault(), FaultCode::EmergencyStopped);
 }
+
+/// Who takes over goes on with the job.
+class Continue : public Standby {
+protected:
+    Continue() : Standby(OnTakeover::Continue) {
+        vm.observe(steps);
+        vm.observe(doubts);
+    }
+    static Program there_and_back() { return program_of({{85, 45}, {20, 60}, {20, 60}, {30, 20}}, 40); }
+
+    /// From the job's first step to its end, the owner ending after so long.
+    void run_with_crash_after(double seconds) {
+        settle();
+        steps.steps.clear();
+        ASSERT_EQ(run(there_and_back()).status, ReplyStatus::Accepted);
+        wait(seconds);
+        befall(Kind::Crash, owner, 100);
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 30)) << describe();
+    }
+    /// The steps of each axis in their order, without their times: the path.
+    std::vector<std::vector<int>> path() const {
+        std::vector<std::vector<int>> path(2);
+        for (const StepLog::Step& step : steps.steps) { path[step.axis].push_back(step.direction); }
+        return path;
+    }
+
+    class Doubts : public VirtualObserver {
+    public:
+        void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
+            for (const CoordinatorNotice& notice : out.notices) {
+                if (notice.kind == CoordinatorNotice::Kind::JobCutShort) { cut.push_back(notice.doubt); }
+                continued += notice.kind == CoordinatorNotice::Kind::JobContinued ? 1 : 0;
+            }
+        }
+        std::vector<TakeoverDoubt> cut;
+        int continued = 0;
+    };
+    StepLog steps;
+    Doubts doubts;
+};
+
+TEST_F(Continue, GoesOnWithTheJobToItsEndAsTheSameJob) {
+    start_job();
+    const auto job = vm.state()->job;
+    befall(Kind::Crash, owner, 100);
+    ASSERT_TRUE(taken_over()) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    EXPECT_EQ(vm.state()->job, job);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
+    EXPECT_EQ(doubts.continued, 1);
+    EXPECT_TRUE(doubts.cut.empty());
+    expect_moves_without_homing();
+}
+
+TEST_F(Continue, StopsWhereSomebodyHasAskedForThatMeanwhile) {
+    start_job();
+    befall(Kind::Crash, owner, 100);
+    wait(0.002);
+    (void)vm.command(CommandKind::Hold);
+    ASSERT_TRUE(taken_over()) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
+    EXPECT_EQ(doubts.cut, std::vector{TakeoverDoubt::Interrupted});
+}
+
+TEST_F(Continue, StopsAJobThatWasHeld) {
+    start_job();
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 3));
+    befall(Kind::Crash, owner, 100);
+    ASSERT_TRUE(taken_over()) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
+    EXPECT_EQ(doubts.cut, std::vector{TakeoverDoubt::NotRunning});
+}
+
+TEST_F(Continue, StopsWhereAnAxisWasStartedAnew) {
+    start_job();
+    befall(Kind::Crash, owner, 100);
+    befall(Kind::Crash, 1, 0.01);
+    ASSERT_TRUE(taken_over()) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
+    ASSERT_EQ(doubts.cut.size(), 1u);
+    EXPECT_EQ(doubts.continued, 0);
+}
+
+TEST_F(Continue, CanBeStoppedAndHeldLikeAnyOther) {
+    start_job();
+    befall(Kind::Crash, owner, 100);
+    ASSERT_TRUE(vm.advance_until([&] { return doubts.continued == 1; }, ticks(3)));
+    wait(0.3);
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(vm.advance_until([&] { return vm.state()->phase == MachinePhase::Holding; }, ticks(3)));
+    ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+    wait(0.1);
+    ASSERT_EQ(ask(CommandKind::Stop).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(vm.advance_until([&] { return vm.state()->phase == MachinePhase::Idle; }, ticks(3)));
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
+}
+
+TEST_F(Continue, AnOwnerThatWakesUpLateLeavesTheJobToTheOther) {
+    start_job();
+    befall(Kind::Freeze, owner, 1.5);
+    ASSERT_TRUE(taken_over()) << describe();
+    wait(2);
+    EXPECT_EQ(owners.stood_down, 1);
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
+    expect_moves_without_homing();
+}
+
+/// X hears only the first coordinator, Y only the second: the job stands still until the network is mended.
+TEST_F(Continue, NobodyGoesOnWithAMachineWhoseAxesAreSplit) {
+    start_job();
+    befall(Kind::Cut, 1, 2, owner);
+    befall(Kind::Cut, 0, 2, other);
+    befall(Kind::Cut, owner, 2, other);
+    wait(1.5);
+    const auto at = counts();
+    wait(0.4);
+    EXPECT_EQ(counts(), at);
+    EXPECT_EQ(doubts.continued, 0);
+}
+
+/// The same job on the same machine; the owner ends at an instant of it, or never.
+class ContinueAt : public Continue, public testing::WithParamInterface<int> {};
+
+TEST_P(ContinueAt, AnyInstantEndsWhereTheUndisturbedJobDoesOnTheSamePath) {
+    run_with_crash_after(0.001 * GetParam());
+    const bool is_undisturbed = GetParam() == 20'000;
+    EXPECT_EQ(doubts.continued, is_undisturbed ? 0 : 1);
+    EXPECT_TRUE(doubts.cut.empty());
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{3000, 2000}));
+    std::vector<std::vector<int>> expected(2);
+    const auto run_of = [&](std::size_t axis, int from, int to) {
+        expected[axis].insert(expected[axis].end(), static_cast<std::size_t>(std::abs(to - from)), to > from ? 1 : -1);
+    };
+    run_of(0, 500, 8500), run_of(0, 8500, 2000), run_of(0, 2000, 3000);
+    run_of(1, 500, 4500), run_of(1, 4500, 6000), run_of(1, 6000, 2000);
+    EXPECT_EQ(path(), expected) << "each step once, none to and fro";
+}
+
+INSTANTIATE_TEST_SUITE_P(Slots, ContinueAt, testing::Range(3, 60, 3));
+INSTANTIATE_TEST_SUITE_P(Job, ContinueAt, testing::Range(100, 5000, 217));
 
 }  // namespace
 }  // namespace lockstep

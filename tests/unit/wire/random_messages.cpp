@@ -76,6 +76,15 @@ ClockReply RandomMessages::clock_reply() {
     return {.request = clock_request(), .received = {far()}, .answered = {far()}};
 }
 
+std::vector<FrameRest> RandomMessages::rests() {
+    std::vector<FrameRest> rests(index(64 + 1));
+    for (FrameRest& rest : rests) {
+        const Int128 along = Int128{far()} * kOneStep + Int128{bits()};
+        rest = {bits(), {static_cast<std::uint32_t>(bits()), {along}}, coin(), bits()};
+    }
+    return rests;
+}
+
 MachineState RandomMessages::machine_state() {
     return {.term = term(),
             .stamp = far(),
@@ -88,12 +97,16 @@ MachineState RandomMessages::machine_state() {
             .veto = veto(),
             .job = bits(),
             .outcome = index(2) == 0 ? std::nullopt : std::optional(static_cast<JobOutcome>(index(3))),
+            .job_begun = term(),
             .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
             .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
             .axes_present = static_cast<std::uint32_t>(bits()),
-            .config_hash = bits()};
+            .config_hash = bits(),
+            .job_kind = coin() ? JobKind::Run : JobKind::Move,
+            .program = bits(),
+            .rests = rests()};
 }
 
 Command RandomMessages::command() {

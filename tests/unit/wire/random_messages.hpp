@@ -18,6 +18,7 @@ public:
     ClockRequest clock_request();
     ClockReply clock_reply();
     MachineState machine_state();
+    std::vector<FrameRest> rests();
     Command command();
     ProgramChunk chunk();
     Reply reply();

@@ -1,0 +1,90 @@
+// The homing sequence by itself: what each move's end leads to.
+#include <gtest/gtest.h>
+
+#include "core/axis/homing.hpp"
+
+namespace lockstep {
+namespace {
+
+class HomingSequence : public testing::Test {
+protected:
+    static AxisConfig axis() {
+        AxisConfig axis{.name = "X", .steps_per_mm = 100, .position_max_mm = 100};
+        axis.max_velocity_mm_s = 50;
+        axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
+        return axis;
+    }
+    static LocalEnd closes_at(std::int64_t count) {
+        return {.by_trigger = true, .home_closed = true, .count = count, .trigger_count = count};
+    }
+    static LocalEnd stands_at(std::int64_t count) { return {.count = count}; }
+
+    /// A touch, and pulling off it.
+    HomingStep touch(std::int64_t count) {
+        const HomingStep step = homing.next(closes_at(count));
+        return homing.stage() == HomingStage::PullOff ? homing.next(stands_at(count + 100)) : step;
+    }
+
+    Homing homing{axis()};
+};
+
+TEST_F(HomingSequence, TwoTouchesThatAgreeSetTheZeroAtTheSecond) {
+    EXPECT_EQ(homing.begin(false).move->trigger, Trigger::HomeCloses);
+    EXPECT_EQ(touch(-700).move->speed_mm_s, 2);
+    const HomingStep zero = touch(-701);
+    EXPECT_TRUE(zero.zeroed);
+    EXPECT_EQ(zero.zero_count, -701);
+    EXPECT_EQ(zero.move->steps, 500);
+    EXPECT_TRUE(homing.next(stands_at(-201)).done);
+}
+
+TEST_F(HomingSequence, TouchesFurtherApartThanTheToleranceAreTriedAgain) {
+    homing.begin(false);
+    touch(-700);
+    EXPECT_FALSE(touch(-697).zeroed) << "3 steps: 0.03 mm, and the tolerance is 0.02";
+    EXPECT_EQ(homing.stage(), HomingStage::Latch);
+    EXPECT_EQ(touch(-699).zero_count, -699);
+}
+
+TEST_F(HomingSequence, ASwitchThatClosesSomewhereElseEachTimeIsRefused) {
+    homing.begin(false);
+    for (const std::int64_t count : {-700, -600, -650}) { EXPECT_FALSE(touch(count).zeroed); }
+    EXPECT_EQ(touch(-620).fault, FaultCode::HomeSwitchUnsteady);
+    EXPECT_EQ(homing.stage(), HomingStage::Idle);
+}
+
+TEST_F(HomingSequence, AToleranceBelowAStepIsAStep) {
+    AxisConfig coarse = axis();
+    coarse.homing.touch_tolerance_mm = 0.0001;
+    homing = Homing(coarse);
+    homing.begin(false);
+    touch(-700);
+    EXPECT_TRUE(touch(-699).zeroed);
+}
+
+TEST_F(HomingSequence, WhereTheSecondTouchMissesTheSwitchIsSearchedAnew) {
+    homing.begin(false);
+    touch(-300);
+    const HomingStep missed = homing.next(stands_at(-400));
+    EXPECT_EQ(homing.stage(), HomingStage::Search);
+    EXPECT_EQ(missed.move->speed_mm_s, 10);
+    touch(-700);
+    EXPECT_TRUE(touch(-700).zeroed);
+}
+
+TEST_F(HomingSequence, AnAxisThatStartsBehindItsSwitchTouchesItTwiceToo) {
+    EXPECT_EQ(homing.begin(true).move->trigger, Trigger::HomeOpens);
+    homing.next({.by_trigger = true, .count = 0, .trigger_count = 0});
+    homing.next(stands_at(100));
+    EXPECT_FALSE(touch(0).zeroed) << "where it opens is not where it closes";
+    EXPECT_TRUE(touch(0).zeroed);
+}
+
+TEST_F(HomingSequence, ALimitSwitchOnTheWayToTheSwitchEndsIt) {
+    homing.begin(false);
+    touch(-700);
+    EXPECT_EQ(homing.next({.by_limit = true, .count = -800}).fault, FaultCode::HomeSwitchNotFound);
+}
+
+}  // namespace
+}  // namespace lockstep
