@@ -126,7 +126,7 @@ void Player::play_job(const Step& step) {
     if (reply->status == ReplyStatus::Refused) {
         end = Ended{Step::REFUSED, std::string(name_of(static_cast<FaultCode>(reply->fault)))};
     } else {
-        end = watch(*reply, asked, course);
+        end = watch({reply->job, asked, asked}, course);
     }
     if (!end) {
         seen_.broken = title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
@@ -173,21 +173,24 @@ std::expected<Program, std::string> Player::program_of_step(const Step& step, co
     return move_program(scenario_.machine, start_mm, options);
 }
 
-std::optional<Player::Ended> Player::watch(const Reply& begun, const Term& asked, Course& course) {
+std::optional<Player::Ended> Player::watch(Watched watched, Course& course) {
     const nanoseconds since = monotonic_now();
     while (monotonic_now() - since < kJobPatience) {
         befall(course, since);
-        if (const auto end = ended(begun.job, asked)) { return end; }
+        if (const auto end = ended(watched)) { return end; }
         glance();
     }
     return std::nullopt;
 }
 
-std::optional<Player::Ended> Player::ended(std::uint64_t job, const Term& asked) {
+std::optional<Player::Ended> Player::ended(Watched& watched) {
     if (session_.is_silent()) { return all_heard_rest() ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt; }
     const MachineState& state = session_.state()->state;
-    const JobVerdict verdict = lockstep::judge(state, job, asked);
-    if (verdict == JobVerdict::InProgress) { return std::nullopt; }
+    const JobVerdict verdict = lockstep::judge(state, watched.job, watched.asked, watched.runs_it);
+    if (verdict == JobVerdict::InProgress) {
+        if (state.phase != MachinePhase::Waiting) { watched.runs_it = state.term; }
+        return std::nullopt;
+    }
     const auto fault = fault_of(state, scenario_.machine);
     return Ended{ending_of(verdict), fault ? fault->name() : ""};
 }

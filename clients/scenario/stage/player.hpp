@@ -23,6 +23,11 @@ public:
     const Seen& seen() const { return seen_; }
 
 private:
+    struct Watched {
+        std::uint64_t job = 0;
+        Term asked;    // whose coordinator began it
+        Term runs_it;  // whose was last heard to run it
+    };
     struct Ended {
         Asked::Step::Ending ending;
         std::string fault;  // by name; empty: none
@@ -35,8 +40,8 @@ private:
     std::expected<Reply, std::string> begin(const Asked::Step& step);
     std::expected<std::uint64_t, std::string> send(const Asked::Step& step);
     std::expected<Program, std::string> program_of_step(const Asked::Step& step, const std::vector<double>& start_mm);
-    std::optional<Ended> watch(const Reply& begun, const Term& asked, Course& course);
-    std::optional<Ended> ended(std::uint64_t job, const Term& asked);
+    std::optional<Ended> watch(Watched watched, Course& course);
+    std::optional<Ended> ended(Watched& watched);
     void befall(Course& course, std::chrono::nanoseconds begun);
     void undo_due();
     void glance();

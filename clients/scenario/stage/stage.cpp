@@ -37,7 +37,8 @@ std::string clock_error_text(const Asked::WrongClock& clock) {
 
 /// The command lines of all processes, each begun where its network is.
 std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const StateDirectory& state) {
-    const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby()};
+    const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
+                        scenario.asked.continues()};
     auto lines =
         service_lines(scenario.machine, placed_on(scenario.machine, host_name()), layout, program_folder(), state);
     for (ServiceLine& line : lines) {

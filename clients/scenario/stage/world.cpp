@@ -5,7 +5,6 @@
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/prctl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +18,6 @@ namespace {
 
 constexpr char kResult = '+';  // what comes first out of a world
 constexpr char kError = '-';
-constexpr const char* kNamespaces = "/run/netns";  // where `ip netns` keeps them
 
 std::string why(const std::string& what) {
     return what + ": " + std::strerror(errno) + "; a scenario is played in namespaces of its own, which root may make";
@@ -40,8 +38,7 @@ std::string make_own_folders() {
     if (mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) != 0) {
         return why("cannot mount /proc");
     }
-    mkdir(kNamespaces, 0755);
-    for (const char* path : {"/dev/shm", kNamespaces}) {
+    for (const char* path : {"/dev/shm", "/run"}) {  // /run: names of networks, the firewall's lock
         if (mount("tmpfs", path, "tmpfs", MS_NOSUID | MS_NODEV, nullptr) != 0) {
             return why("cannot mount " + std::string(path));
         }

@@ -72,6 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"NothingToShow", with_machine("step { home {} }"), {"no shows", "say in one sentence"}},
         Bad{"NoStep", with_machine("shows: \"x\""), {"no step", "step { home {} }"}},
         Bad{"Container", whole("place: CONTAINER"), {"8:1", "CONTAINER", "PROCESS or NAMESPACE"}},
+        Bad{"ContinuedByNobody", whole("continues: true"), {"8:1", "standby"}},
         Bad{"EmptyStep", whole("step {}"), {"8:1", "does nothing", "home, run, move, wait or act"}},
         Bad{"RunOfNothing", whole("step { run {} }"), {"8:8", "file:", "gcode:"}},
         Bad{"RunOfTwo", whole("step { run { file: \"a\" gcode: \"G4 P1\" } }"), {"8:8", "one program"}},
