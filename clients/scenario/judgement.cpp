@@ -56,6 +56,9 @@ private:
         add(asked, "after " + fixed(frames, 2) + " frames", place_at(*at), frames <= rest.within_frames);
     }
 
+    /// Where the processes' notes are, of what --keep keeps.
+    std::string notes() const { return "state/" + machine_.name + "/record/incidents"; }
+
     static std::string place_at(Tick tick) { return std::string(kWholeLog) + ", tick " + std::to_string(tick.value); }
 
     const proto::AxisAnalysis* analysis_of(const std::string& name) const {
@@ -111,7 +114,7 @@ private:
         std::ranges::sort(asked);
         const Names found{evidence_.vetoed_by.begin(), evidence_.vetoed_by.end()};
         const bool held = std::ranges::includes(asked, found) && found.empty() == asked.empty();
-        add("vetoes by " + nobody_or(asked), "by " + nobody_or(found), kIncidents, held);
+        add("vetoes by " + nobody_or(asked), "by " + nobody_or(found), notes(), held);
     }
 
     void check_cause() {
@@ -124,8 +127,7 @@ private:
             found += (found.empty() ? "" : "; ") + one.kind + ": " + one.text;
         }
         add("cause " + cause.kind() + (cause.has_process() ? " of " + cause.process() : ""),
-            found.empty() ? "no incident was noted" : found, kIncidents,
-            std::ranges::any_of(evidence_.causes, is_asked));
+            found.empty() ? "no incident was noted" : found, notes(), std::ranges::any_of(evidence_.causes, is_asked));
     }
 
     void check_axis(const Asked::AxisEnd& end) {

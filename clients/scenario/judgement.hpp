@@ -8,9 +8,8 @@
 
 namespace lockstep::scenario {
 
-/// The logs, as --keep keeps them.
+/// The log, of those that --keep keeps, that the others are merged into.
 inline constexpr const char* kWholeLog = "whole.lcm";
-inline constexpr const char* kIncidents = "incidents";
 
 /// One check for each thing expected, and for each rest that was awaited: what was asked, what was found, and where.
 std::vector<Check> judge(const Scenario& scenario, const Seen& seen, const Evidence& evidence);

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 
+#include "clients/analysis/analysis.hpp"
 #include "clients/lockstep/live/flight_files.hpp"
 #include "clients/lockstep/live/program_folder.hpp"
 #include "clients/lockstep/live/words.hpp"
+#include "clients/report_page/report_page.hpp"
 #include "clients/scenario/judgement.hpp"
 #include "clients/scenario/stage/evidence.hpp"
 #include "clients/scenario/stage/player.hpp"
@@ -16,8 +18,6 @@
 #include "core/gcode/number_text.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/text_file.hpp"
-#include "services/flight/incident_file.hpp"
-#include "services/runtime/directories.hpp"
 #include "services/runtime/host_name.hpp"
 
 namespace lockstep::scenario {
@@ -151,12 +151,13 @@ Seen put_on(const Scenario& scenario, const fs::path& folder) {
     return seen;
 }
 
-void keep_logs(const MachineConfig& machine, const fs::path& folder, int directory) {
-    const fs::path to = "/proc/self/fd/" + std::to_string(directory);
+/// With a page of the run.
+void keep_logs(const fs::path& folder, int directory) {
+    if (const auto found = analysis::analyze_log(folder / kWholeLog)) {
+        (void)analysis::write_html(*found, folder / "whole.html");
+    }
     std::error_code error;
-    const auto options = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
-    fs::copy(folder, to, options, error);
-    fs::copy(incident_directory(machine), to / kIncidents, options, error);
+    fs::copy(folder, "/proc/self/fd/" + std::to_string(directory), fs::copy_options::recursive, error);
 }
 
 proto::ScenarioReport report_of(const Scenario& scenario, const Seen& seen, const std::vector<Check>& judged) {
@@ -183,7 +184,7 @@ proto::ScenarioReport play(const Scenario& scenario, int keep) {
     std::vector<Check> judged;
     if (seen.broken.empty()) { judged = judge(scenario, seen, read_evidence(scenario.machine, folder)); }
     proto::ScenarioReport report = report_of(scenario, seen, judged);
-    if (keep >= 0) { keep_logs(scenario.machine, folder, keep); }
+    if (keep >= 0) { keep_logs(folder, keep); }
     report.set_took_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     return report;
 }
