@@ -68,8 +68,7 @@ namespace lockstep {
       "home it: lockstep home")                                                                                       \
     X(PositionPushed, 133, "position-pushed", "the encoder says that the axis was moved without pulses",              \
       "home it: lockstep home")                                                                                       \
-    X(HomeSwitchUnsteady, 134, "home-switch-unsteady",                                                                \
-      "the home switch closed at another place with every touch",                                                     \
+    X(HomeSwitchUnsteady, 134, "home-switch-unsteady", "the home switch closed at another place with every touch",    \
       "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm")
 
 enum class FaultCode : std::uint16_t {

@@ -149,4 +149,15 @@ Finding judge_process(const ProcessFacts& facts, std::uint64_t config_hash) {
     return {Verdict::Good, facts.name, "is heard, with this configuration", ""};
 }
 
+Finding judge_keys(const KeyFacts& facts) {
+    const std::string what = "keys of " + facts.member;
+    constexpr const char* kSee = "see: lockstep keys check";
+    if (!facts.here) {
+        return {Verdict::Bad, what, "are not on this host, where it runs", "copy them here; " + std::string(kSee)};
+    }
+    if (facts.is_out) { return {Verdict::Bad, what, facts.trouble, kSee}; }
+    if (!facts.trouble.empty()) { return {Verdict::Doubtful, what, facts.trouble, kSee}; }
+    return {Verdict::Good, what, "are in order for " + std::to_string(facts.days_left) + " days", ""};
+}
+
 }  // namespace lockstep::doctor

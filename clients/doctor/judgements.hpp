@@ -59,6 +59,16 @@ Finding judge_device(const AxisConfig& axis, const std::expected<void, std::stri
 /// writable: empty, or why not.
 Finding judge_directory(const std::string& what, const std::string& path, const std::string& not_writable);
 
+/// A member's keys on this host.
+struct KeyFacts {
+    std::string member;
+    bool here = false;
+    bool is_out = false;  // by what is wrong with them it cannot join
+    std::string trouble;  // what is wrong or will be soon, and the remedy; empty: nothing
+    int days_left = 0;
+};
+Finding judge_keys(const KeyFacts& facts);
+
 /// One of the machine's processes, as it is heard on the network.
 struct ProcessFacts {
     std::string name;

@@ -28,6 +28,7 @@ void add_status(CLI::App& app, Action& action);
 void add_watch(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
 void add_flight(CLI::App& app, Action& action);
+void add_keys(CLI::App& app, Action& action);  // make, show, check
 void add_spy(CLI::App& app, Action& action);
 void add_home(CLI::App& app, Action& action);
 void add_move(CLI::App& app, Action& action);

@@ -21,6 +21,7 @@
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/user_signal.hpp"
+#include "services/security/service_admission.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -85,6 +86,7 @@ public:
         if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
+        log_strangers(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
         say_health(skipped_loops);
         return !doubled_;
@@ -189,7 +191,9 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     if (!device) { return fail(device.error()); }
     auto node = AxisNode::attach(setup, std::move(*device));
     if (!node) { return fail(node.error()); }
-    auto bus = open_bus<AxisBus>(machine.network, machine.name);
+    const auto admission = admit_service(machine, axis_member(machine, axis));
+    if (!admission) { return fail(admission.error()); }
+    auto bus = open_bus<AxisBus>(machine.network, machine.name, *admission);
     if (!bus) { return fail(bus.error()); }
     AxisService service(setup, clock, std::move(*node), std::move(*bus),
                         open_record(machine, machine.axes[axis].name, options.record));

@@ -1,6 +1,9 @@
 #include "services/coordinator/coordinator_service.hpp"
 
+#include <array>
+#include <charconv>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
@@ -18,6 +21,7 @@
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/user_signal.hpp"
+#include "services/security/service_admission.hpp"
 #include "services/wire/bus.hpp"
 #include "services/wire/clock_link.hpp"
 
@@ -25,6 +29,12 @@ namespace lockstep {
 namespace {
 
 using std::chrono::nanoseconds;
+
+std::string hash_text(std::uint64_t hash) {
+    std::array<char, 16> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
+    return {digits.data(), end};
+}
 
 class CoordinatorService {
 public:
@@ -58,6 +68,7 @@ public:
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         complain(now);
+        log_strangers(monotonic_now());
         return !out.must_quit;
     }
 
@@ -72,7 +83,10 @@ private:
             if (coordinator_.owns_machine()) { (void)bus_.replies.write(taken.reply); }
         });
         bus_.states.take([&](AxisState&& m) {
-            if (m.axis < machine_.axes.size()) { heard_ |= std::uint32_t{1} << m.axis; }
+            if (m.axis < machine_.axes.size()) {
+                heard_ |= std::uint32_t{1} << m.axis;
+                configs_[m.axis] = m.config_hash;
+            }
             states_.push_back(m);
         });
         bus_.other_coordinators.take([&](MachineState&& m) { others_.push_back(m); });
@@ -127,7 +141,14 @@ private:
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
             if ((heard_ >> i & 1) == 0) { log_info("waits for axis " + machine_.axes[i].name); }
         }
+        for (const auto& [axis, hash] : configs_) {
+            if (hash == config_hash_) { continue; }
+            log_warning("axis " + axis_name(axis) + " runs configuration " + hash_text(hash) + ", this coordinator " +
+                        hash_text(config_hash_) +
+                        ": nothing moves; give all hosts the same machine file, then lockstep down and up");
+        }
         heard_ = 0;
+        configs_.clear();
         const std::uint64_t refused =
             bus_.states.refusals().count + bus_.commands.refusals().count + bus_.chunks.refusals().count;
         if (refused != refused_) {
@@ -153,6 +174,8 @@ private:
     std::vector<Command> commands_;
     Tick complained_ = clock_.now();
     std::uint32_t heard_ = 0;
+    std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes heard
+    std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;
 };
 
@@ -164,7 +187,10 @@ int fail(const std::string& why) {
 int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
     StopSignal stop;
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
-    auto bus = open_bus<CoordinatorBus>(machine.network, machine.name);
+    const Member member = options.second ? standby_member() : coordinator_member();
+    const auto admission = admit_service(machine, member);
+    if (!admission) { return fail(admission.error()); }
+    auto bus = open_bus<CoordinatorBus>(machine.network, machine.name, *admission);
     if (!bus) { return fail(bus.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
     CoordinatorService service(machine, identity, std::move(*bus), open_record(machine, "", options.record),

@@ -7,6 +7,7 @@
 namespace lockstep {
 
 struct CoordinatorServiceOptions : ServiceOptions {
+    bool second = false;   // where security is on: joins by the keys of "standby", not of "coordinator"
     bool standby = false;  // stands by while another coordinator owns the machine; false: ends then
     OnTakeover on_takeover = OnTakeover::Stop;
 };

@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
         ->transform(CLI::CheckedTransformer(kOnTakeover).description("{stop,continue}"))
         ->needs(standby)
         ->default_str("stop");
+    app.add_flag("--second", options.second,
+                 "where security is on: join by the keys of `standby`, not of `coordinator`; give it to one of two");
     app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"

@@ -48,21 +48,26 @@ struct CoordinatorBus {
     Writer<Reply> replies{participant};
 };
 
-struct ClientBus {
+/// What one hears who looks on.
+struct ViewerBus {
     Participant participant;
-    std::unique_ptr<Arrivals> arrivals = std::make_unique<Arrivals>();  // of replies and machine states
-    Reader<Reply> replies{participant, [to = arrivals.get()] { to->notify(); }};
+    std::unique_ptr<Arrivals> arrivals = std::make_unique<Arrivals>();  // of machine states, and of a client's replies
     Reader<MachineState> machine{participant, [to = arrivals.get()] { to->notify(); }};
     Reader<AxisState> states{participant};
     Reader<AxisHealth> healths{participant};
+};
+
+struct ClientBus : ViewerBus {
+    Reader<Reply> replies{participant, [to = arrivals.get()] { to->notify(); }};
     Writer<Command> commands{participant};
     Writer<ProgramChunk> chunks{participant};
 };
 
 /// Error: the participant's, or the first topic's that could not be opened.
 template <typename Bus>
-std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine) {
-    auto participant = Participant::open(network, machine);
+std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine,
+                                         const Membership& membership = {}) {
+    auto participant = Participant::open(network, machine, membership);
     if (!participant) { return std::unexpected(participant.error()); }
     Bus bus{std::move(*participant)};
     if (const auto& failure = bus.participant.failure()) { return std::unexpected(*failure); }

@@ -1,4 +1,5 @@
-// Typed readers and writers of core's messages: what they send is translated, what they receive is checked first.
+// Typed readers and writers of core's messages: what they send is translated, what they receive is checked first, and
+// what is said of an axis is believed from who speaks for it alone.
 #pragma once
 
 #include <algorithm>
@@ -6,10 +7,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 
 #include "services/wire/entity.hpp"
 #include "services/wire/participant.hpp"
+#include "services/wire/speakers.hpp"
 #include "services/wire/topics.hpp"
 #include "services/wire/translate.hpp"
 
@@ -24,6 +28,15 @@ Entity make_writer(Participant& participant, const TopicSpec& spec);
 Entity make_reader(Participant& participant, const TopicSpec& spec, const OnData* on_data);
 std::uint32_t matched_readers(const Entity& writer);
 std::uint32_t matched_writers(const Entity& reader);
+
+/// The axis for which a message speaks; nothing: for none, and whoever may write the topic may say it.
+template <typename T>
+std::optional<std::uint32_t> spoken_for(const T& message) {
+    constexpr bool kIsAnAxiss =
+        std::is_same_v<T, AxisState> || std::is_same_v<T, AxisHealth> || std::is_same_v<T, ClockRequest>;
+    if constexpr (kIsAnAxiss) { return message.axis; }
+    return std::nullopt;
+}
 }  // namespace detail
 
 template <typename T>
@@ -56,7 +69,8 @@ class Reader {
 public:
     explicit Reader(Participant& participant, OnData on_data = {})
         : on_data_(on_data ? std::make_unique<OnData>(std::move(on_data)) : nullptr),
-          entity_(detail::make_reader(participant, Topic<T>::kSpec, on_data_.get())) {}
+          entity_(detail::make_reader(participant, Topic<T>::kSpec, on_data_.get())),
+          speakers_(participant.machine()) {}
 
     /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many. A
     /// message that is not moved away leaves its memory to the next.
@@ -100,6 +114,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             if (!loan.infos[i].valid_data) { continue; }  // a sender left
             auto believed = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]), value_);
+            if (believed) { believed = check_speaker(loan.infos[i].publication_handle); }
             if (believed) {
                 use(std::move(value_));
                 ++used;
@@ -111,8 +126,16 @@ private:
         return count;
     }
 
+    std::expected<void, std::string> check_speaker(dds_instance_handle_t writer) {
+        const auto axis = detail::spoken_for(value_);
+        if (!axis || speakers_.speaks_for(entity_.handle(), writer, *axis)) { return {}; }
+        return std::unexpected(std::string(Topic<T>::kSpec.name) + ": speaks for axis " + std::to_string(*axis) +
+                               ", which its writer is not");
+    }
+
     std::unique_ptr<OnData> on_data_;  // DDS holds its address: it stays put and outlives the entity
     Entity entity_;
+    Speakers speakers_;
     T value_{};  // the message at hand
     Refusals refusals_;
 };

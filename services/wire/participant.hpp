@@ -1,10 +1,12 @@
-// A process's place in DDS: one domain, one interface, one machine.
+// A process's place in DDS: one domain, one interface, one machine, and who it is there.
 //
 // The profile is built from the configuration, not read from the environment, so that every process of a machine has
-// the same. Where CYCLONEDDS_URI is set it is read after ours: it may add to it (security, tracing) or override it.
+// the same. Where CYCLONEDDS_URI is set it is read after ours: it may add to it (tracing) or override it.
 #pragma once
 
+#include <cstdint>
 #include <expected>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -13,12 +15,31 @@
 
 namespace lockstep {
 
+/// The files by which DDS Security knows a process and what it may: certificates and keys in PEM, documents signed.
+struct Credentials {
+    std::filesystem::path identity_ca;
+    std::filesystem::path certificate;
+    std::filesystem::path private_key;
+    std::filesystem::path permissions_ca;
+    std::filesystem::path governance;
+    std::filesystem::path permissions;
+};
+
+/// As whom a process joins a machine.
+struct Membership {
+    std::optional<std::uint32_t> axis;       // for which it speaks; none: for none
+    std::optional<Credentials> credentials;  // none: without security
+};
+
 class Participant {
 public:
-    /// The machine's name becomes the DDS partition: machines in one domain do not hear each other.
+    /// The machine's name is the DDS partition (partitions.hpp): machines in one domain do not hear each other.
     /// Error: the domain, the interface, what DDS said, and the remedy. All participants of a process in one domain
     /// use one interface.
-    static std::expected<Participant, std::string> open(const NetworkConfig& network, const std::string& machine);
+    static std::expected<Participant, std::string> open(const NetworkConfig& network, const std::string& machine,
+                                                        const Membership& membership = {});
+
+    const std::string& machine() const { return machine_; }
 
     dds_entity_t handle() const { return participant_.handle(); }
     dds_entity_t publisher() const { return publisher_.handle(); }
@@ -32,13 +53,17 @@ public:
 private:
     Participant() = default;
 
+    std::string machine_;
     Entity participant_;
     Entity publisher_;
     Entity subscriber_;
     std::optional<std::string> failure_;
 };
 
+/// Whether DDS tells who comes and goes (dds_log.hpp).
+enum class Discovery { Quiet, Traced };
+
 /// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is none.
-std::expected<std::string, std::string> dds_profile(const NetworkConfig& network);
+std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery told = Discovery::Quiet);
 
 }  // namespace lockstep

@@ -59,6 +59,9 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
         if (axis.has_fault()) { add(sentence(axis.fault())); }
         if (!axis.present()) { add("axis " + axis.name() + " is not heard: is its process running? lockstep status"); }
     }
+    if (status.has_fault() && status.has_incidents()) {
+        add("what led to it: lockstep analyze --incident " + status.incidents().directory());
+    }
     for (const proto::AxisStatus& axis : status.axes()) {
         if (axis.has_health()) { add_health_alarms(axis, scale, alarms); }
     }

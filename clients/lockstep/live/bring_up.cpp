@@ -158,7 +158,7 @@ std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirecto
 
 std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const StateDirectory& state,
                                               nanoseconds since) {
-    auto session = Session::join(machine);
+    auto session = Session::join(machine, Purpose::Look);
     if (!session) { return session; }
     while (!is_up(*session)) {
         if (const auto what = trouble(*session, state, since)) { return std::unexpected(failed(*what)); }

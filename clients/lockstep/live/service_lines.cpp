@@ -25,6 +25,7 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         std::vector<std::string> more{"--log", state.log_file(name).string()};
         if (layout.standby) { more.emplace_back("--standby"); }  // both: who ends and is started again stands by
         if (layout.continues) { more.insert(more.end(), {"--on-takeover", "continue"}); }
+        if (name != std::string_view("coordinator")) { more.emplace_back("--second"); }
         lines.push_back(line(name, begin("lockstep-coordinator"), more));
         if (!layout.standby) { break; }
     }

@@ -7,6 +7,8 @@
 #include "core/protocol/rules.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/security/admission.hpp"
+#include "services/wire/dds_log.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,6 +22,14 @@ constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that reads or plans
 
 static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
 
+template <typename Bus>
+std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const MachineConfig& machine,
+                                                                       const Membership& membership) {
+    auto bus = open_bus<Bus>(machine.network, machine.name, membership);
+    if (!bus) { return std::unexpected(bus.error()); }
+    return std::move(*bus);
+}
+
 Identity new_identity() {
     std::random_device source;
     return Identity{source()} << 32 | source();
@@ -27,29 +37,41 @@ Identity new_identity() {
 
 }  // namespace
 
-Session::Session(const ChosenMachine& machine, ClientBus bus)
+Session::Session(const ChosenMachine& machine, Bus bus)
     : machine_(machine),
       bus_(std::move(bus)),
       client_(new_identity()),
       axes_(machine.config.axes.size()),
       healths_(axes_.size()) {}
 
-std::expected<Session, Failure> Session::join(const ChosenMachine& machine) {
-    auto bus = open_bus<ClientBus>(machine.config.network, machine.config.name);
+std::expected<Session, Failure> Session::join(const ChosenMachine& machine, Purpose purpose) {
+    hear_dds([](const std::string&) {});  // for silent(): what is on the terminal is the verb's
+    const bool looks = purpose == Purpose::Look;
+    auto admission = admit(machine.config, looks ? viewer_member() : client_member());
+    if (!admission) { return std::unexpected(failed(admission.error())); }
+    auto bus = looks ? open_as<ViewerBus>(machine.config, admission->membership)
+                     : open_as<ClientBus>(machine.config, admission->membership);
     if (!bus) { return std::unexpected(unreachable(bus.error())); }
     return Session(machine, std::move(*bus));
 }
 
-std::expected<Session, Failure> Session::open(const ChosenMachine& machine) {
-    auto session = join(machine);
+std::expected<Session, Failure> Session::open(const ChosenMachine& machine, Purpose purpose) {
+    auto session = join(machine, purpose);
     if (!session) { return session; }
     if (auto reached = session->reach(); !reached) { return std::unexpected(reached.error()); }
     return session;
 }
 
+/// A client waits for those who listen to it, too.
+bool Session::is_reached() {
+    if (!state_) { return false; }
+    const ClientBus* bus = std::get_if<ClientBus>(&bus_);
+    return bus == nullptr || (bus->commands.matched() > 0 && bus->chunks.matched() > 0 && bus->replies.matched() > 0);
+}
+
 std::expected<void, Failure> Session::reach(nanoseconds patience) {
     const nanoseconds deadline = monotonic_now() + patience;
-    while (!state_ || bus_.commands.matched() == 0 || bus_.chunks.matched() == 0 || bus_.replies.matched() == 0) {
+    while (!is_reached()) {
         if (monotonic_now() > deadline) { return std::unexpected(silent()); }
         listen(50ms);
     }
@@ -78,13 +100,13 @@ void Session::await_healths(nanoseconds patience) {
 }
 
 void Session::listen(nanoseconds at_most) {
-    (void)bus_.arrivals->wait_for(at_most);
+    (void)heard().arrivals->wait_for(at_most);
     take();
 }
 
 void Session::take() {
     const nanoseconds now = monotonic_now();
-    bus_.machine.take([&](MachineState&& state) {
+    heard().machine.take([&](MachineState&& state) {
         if (state.phase == MachinePhase::Standby) {
             standby_ = {state, now};
             return;
@@ -93,13 +115,14 @@ void Session::take() {
         const bool is_lower = state_ && state.term < state_->state.term;
         if (!is_lower || now - state_->time > 1s) { state_ = {state, now}; }
     });
-    bus_.states.take([&](AxisState&& state) {
+    heard().states.take([&](AxisState&& state) {
         if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
     });
-    bus_.healths.take([&](AxisHealth&& health) {
+    heard().healths.take([&](AxisHealth&& health) {
         if (health.axis < healths_.size()) { healths_[health.axis] = health; }
     });
-    bus_.replies.take([&](Reply&& reply) {
+    if (!std::holds_alternative<ClientBus>(bus_)) { return; }
+    asking().replies.take([&](Reply&& reply) {
         if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }
     });
 }
@@ -132,7 +155,8 @@ Failure Session::silent() const {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (axis_present(i)) { heard += (heard.empty() ? "" : ", ") + config().axes[i].name; }
     }
-    const std::string none = "no coordinator of " + whereabouts();
+    const std::string refused = dds_said_last().empty() ? "" : " (DDS says: " + dds_said_last() + ")";
+    const std::string none = "no coordinator of " + whereabouts() + refused;
     if (heard.empty()) { return unreachable(none + ": is it up? " + start); }
     return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " +
                        start);
@@ -147,7 +171,7 @@ std::expected<Reply, Failure> Session::command(Command command) {
         const nanoseconds now = monotonic_now();
         if (now > deadline) { return std::unexpected(silent()); }
         if (now >= repeat_at) {
-            (void)bus_.commands.write(command);
+            (void)asking().commands.write(command);
             repeat_at = now + kRepeatCommandAfter;
         }
         listen(50ms);
@@ -159,7 +183,7 @@ std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
     const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
     const nanoseconds deadline = monotonic_now() + patience;
     while (!replies_.contains(command.sequence) && monotonic_now() < deadline) {
-        (void)bus_.commands.write(command);
+        (void)asking().commands.write(command);
         listen(20ms);
     }
     if (!replies_.contains(command.sequence)) { return std::nullopt; }
@@ -173,7 +197,7 @@ std::expected<std::uint64_t, Failure> Session::send(const Program& program) {
     nanoseconds deadline = monotonic_now() + kPlanPatience;
     while (!chunks.done()) {
         if (monotonic_now() > deadline) { return std::unexpected(silent()); }
-        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)bus_.chunks.write(chunk); }
+        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)asking().chunks.write(chunk); }
         listen(50ms);
         for (const auto& [sequence, reply] : std::exchange(replies_, {})) {
             if (reply.status == ReplyStatus::Refused) { return std::unexpected(failed(reply.text)); }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "clients/lockstep/live/failure.hpp"
@@ -25,12 +26,15 @@ struct Heard {
     std::chrono::nanoseconds time;  // CLOCK_MONOTONIC of this host
 };
 
+/// What a session is for: where security is on, it takes the keys of a viewer or of a client.
+enum class Purpose { Look, Command };
+
 class Session {
 public:
-    /// On the machine's network; hears nobody yet. Error: DDS cannot be opened.
-    static std::expected<Session, Failure> join(const ChosenMachine& machine);
+    /// On the machine's network; hears nobody yet. Error: DDS cannot be opened, or security does not let it in.
+    static std::expected<Session, Failure> join(const ChosenMachine& machine, Purpose purpose);
     /// join, and reach.
-    static std::expected<Session, Failure> open(const ChosenMachine& machine);
+    static std::expected<Session, Failure> open(const ChosenMachine& machine, Purpose purpose);
 
     /// Waits until a coordinator speaks and listens. Error: none does; who is heard at all, and what to do.
     std::expected<void, Failure> reach(std::chrono::nanoseconds patience = kReachPatience);
@@ -66,14 +70,21 @@ public:
     std::expected<std::uint64_t, Failure> send(const Program& program);
 
 private:
-    Session(const ChosenMachine& machine, ClientBus bus);
+    using Bus = std::variant<ViewerBus, ClientBus>;
+    Session(const ChosenMachine& machine, Bus bus);
+    ViewerBus& heard() {
+        return std::visit([](ViewerBus& bus) -> ViewerBus& { return bus; }, bus_);
+    }
+    /// Only of a session that is to command.
+    ClientBus& asking() { return std::get<ClientBus>(bus_); }
+    bool is_reached();
 
     void take();
     std::chrono::nanoseconds longest_silence() const;
     std::string whereabouts() const;
 
     ChosenMachine machine_;
-    ClientBus bus_;
+    Bus bus_;
     Identity client_;
     std::uint64_t sequence_ = 0;
     std::optional<Heard<MachineState>> state_;  // the owner's

@@ -1,8 +1,10 @@
 // lockstep doctor
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "clients/doctor/probes.hpp"
+#include "clients/lockstep/live/keys_report.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -14,6 +16,7 @@
 #include "services/runtime/directories.hpp"
 #include "services/runtime/host_name.hpp"
 #include "services/runtime/multicast.hpp"
+#include "services/security/rights.hpp"
 
 namespace lockstep {
 namespace {
@@ -72,8 +75,27 @@ void examine_parts_here(const MachineConfig& machine, Findings& findings) {
     findings.push_back(doctor::judge_directory("own logs", directory, doctor::why_not_writable(directory)));
 }
 
+/// Of what is placed here, and of whoever else has keys here.
+void examine_keys(const MachineConfig& machine, Findings& findings) {
+    if (!machine.security.enabled()) { return; }
+    const Placement here = placed_on(machine, host_name());
+    std::set<std::string> needed;
+    if (here.coordinator) { needed.insert(coordinator_member().name); }
+    for (const std::size_t i : here.axes) { needed.insert(axis_member(machine, i).name); }
+    const proto::KeysReport keys = keys_report(machine, machine.security.directory);
+    for (const proto::MemberKeys& member : keys.members()) {
+        if (!member.here() && !needed.contains(member.name())) { continue; }
+        const auto& wrong = member.problems().empty() ? member.warnings() : member.problems();
+        findings.push_back(doctor::judge_keys({.member = member.name(),
+                                               .here = member.here(),
+                                               .is_out = !member.problems().empty(),
+                                               .trouble = wrong.empty() ? "" : wrong[0],
+                                               .days_left = member.days_left()}));
+    }
+}
+
 void examine_processes(const ChosenMachine& machine, Findings& findings) {
-    auto session = Session::join(machine);
+    auto session = Session::join(machine, Purpose::Look);
     if (!session) {
         findings.push_back({Verdict::Bad, "DDS", session.error().errors.front().message, "see: interface"});
         return;
@@ -126,6 +148,7 @@ ExitCode examine(const DoctorOptions& options) {
     examine_network(machine->config, findings);
     examine_host(machine->config, options.seconds, voice, findings);
     examine_parts_here(machine->config, findings);
+    examine_keys(machine->config, findings);
     examine_processes(*machine, findings);
     const bool well = std::ranges::none_of(findings, [](const Finding& f) { return f.verdict == Verdict::Bad; });
     for (const Finding& finding : findings) { say(finding, voice); }

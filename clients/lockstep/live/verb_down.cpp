@@ -17,7 +17,7 @@ constexpr auto kRestPatience = 10s;
 
 /// A machine in motion comes to rest on its path first. One that does not answer is taken down as it is.
 void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
-    auto session = Session::join(machine);
+    auto session = Session::join(machine, Purpose::Command);
     if (!session || !session->reach(1s)) { return; }
     const auto moves = [&] {
         const MachinePhase phase = session->state()->state.phase;

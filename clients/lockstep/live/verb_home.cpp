@@ -27,7 +27,7 @@ ExitCode home(const HomeOptions& options) {
     if (!machine) { return voice.fail(machine.error()); }
     const auto axes = axes_of(machine->config, options.axes);
     if (!axes) { return voice.fail(axes.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
     return run_job(*session, {.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes}, voice);
 }

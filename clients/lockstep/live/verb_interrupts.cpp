@@ -69,7 +69,7 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
     const auto reply = session->command({.kind = interrupt.command});
     if (!reply) { return voice.fail(reply.error()); }
@@ -100,7 +100,7 @@ ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::join(*machine);
+    auto session = Session::join(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
     const auto reply = session->stop_at_once(kStopPatience);
     return reply ? say_outcome(*session, interrupt, *reply, voice) : say_axes(*session, voice);

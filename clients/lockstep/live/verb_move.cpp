@@ -40,7 +40,7 @@ ExitCode move(const MoveVerbOptions& options) {
     if (auto program = move_program(machine->config, anywhere, options.move); !program && !options.move.relative) {
         return voice.fail(bad_input(program.error()));
     }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
     const auto start_mm = start_places(*session);
     if (!start_mm) { return voice.fail(start_mm.error()); }

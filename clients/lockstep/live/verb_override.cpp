@@ -23,7 +23,7 @@ ExitCode turn(const OverrideOptions& options) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
     Overrides overrides = session->state()->state.overrides;
     if (options.feed_percent != 0) { overrides.feed_percent = options.feed_percent; }

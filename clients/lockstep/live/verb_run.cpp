@@ -63,7 +63,7 @@ ExitCode run(const RunOptions& options) {
     }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
     const auto start_mm = start_places(*session);
     if (!start_mm) { return voice.fail(start_mm.error()); }

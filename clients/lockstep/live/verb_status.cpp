@@ -16,7 +16,7 @@ ExitCode status(const LiveOptions& options) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Look);
     if (!session) { return voice.fail(session.error()); }
     (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such
     session->await_healths(300ms);

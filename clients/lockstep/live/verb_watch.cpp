@@ -18,12 +18,19 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kRedrawPeriod = 100ms;  // on a terminal
 constexpr nanoseconds kLinePeriod = 1s;       // elsewhere
 
+/// With the incident files where there is a fault that they may explain.
+proto::StatusReport watched(const Session& session) {
+    proto::StatusReport report = status_report(session);
+    if (report.has_fault()) { add_incidents(session.config(), report); }
+    return report;
+}
+
 /// Both go on while nobody speaks, which the age then shows.
 void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
     const SlackScale scale = slack_scale(session.config().timing);
     Screen screen;
     while (!stop.requested() && !screen.pressed('q')) {
-        screen.draw(watch_text(status_report(session), scale, ink) + "\nq or Ctrl-C leaves; the machine goes on\n");
+        screen.draw(watch_text(watched(session), scale, ink) + "\nq or Ctrl-C leaves; the machine goes on\n");
         const nanoseconds next = monotonic_now() + kRedrawPeriod;
         while (!stop.requested() && monotonic_now() < next) { session.listen(next - monotonic_now()); }
     }
@@ -32,7 +39,7 @@ void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
 void watch_in_lines(Session& session, const StopSignal& stop, Voice& voice) {
     const SlackScale scale = slack_scale(session.config().timing);
     while (!stop.requested()) {
-        const proto::StatusReport report = status_report(session);
+        const proto::StatusReport report = watched(session);
         voice.report(report);
         voice.say(watch_line(report, scale));
         const nanoseconds next = monotonic_now() + kLinePeriod;
@@ -46,7 +53,7 @@ ExitCode watch(const LiveOptions& options) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    auto session = Session::open(*machine);
+    auto session = Session::open(*machine, Purpose::Look);
     if (!session) { return voice.fail(session.error()); }
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such

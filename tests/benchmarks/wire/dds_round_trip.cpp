@@ -1,7 +1,10 @@
 // Half the time of a frame's way to another process and back, through DDS, translation and checks:
-//   dds_round_trip pong DOMAIN             sends back what it gets, until SIGTERM
-//   dds_round_trip ping DOMAIN AXES COUNT  prints the median of COUNT half round trips in microseconds; AXES: 3 or 32
-//   dds_round_trip profile                 prints the DDS profile both use, for ddsperf to use the same
+//   dds_round_trip pong DOMAIN [KEYS]             sends back what it gets, until SIGTERM
+//   dds_round_trip ping DOMAIN AXES COUNT [KEYS]  prints the median of COUNT half round trips in microseconds; AXES: 3,
+//   32 dds_round_trip match DOMAIN COUNT [KEYS]      prints how many milliseconds it takes to find COUNT pongs
+//   dds_round_trip profile                        prints the DDS profile all use, for ddsperf to use the same
+//   dds_round_trip keys DOMAIN KEYS               makes keys, in a new directory, with which each may say what both say
+// With KEYS: with DDS Security.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -11,6 +14,8 @@
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
+#include "services/wire/dds_log.hpp"
+#include "tests/benchmarks/wire/benchmark_keys.hpp"
 #include "tests/benchmarks/wire/frame_sizes.hpp"
 
 namespace lockstep {
@@ -18,9 +23,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr const char* kMachine = "benchmark";
+
 /// Answers on a thread of DDS, as soon as a frame comes.
-int pong(const NetworkConfig& network) {
-    auto participant = Participant::open(network, "benchmark");
+int pong(const NetworkConfig& network, const Membership& membership) {
+    auto participant = Participant::open(network, kMachine, membership);
     if (!participant) { return 1; }
     Writer<Frame> answers(*participant);
     Reader<Frame>* self = nullptr;
@@ -74,8 +81,19 @@ private:
     Reader<Frame> reader_;
 };
 
-int ping(const NetworkConfig& network, bool many_axes, std::size_t count) {
-    auto participant = Participant::open(network, "benchmark");
+int match(const NetworkConfig& network, std::size_t count, const Membership& membership) {
+    const auto begun = monotonic_now();
+    auto participant = Participant::open(network, kMachine, membership);
+    if (!participant) { return 1; }
+    const Writer<Frame> writer(*participant);
+    const Reader<Frame> reader(*participant);
+    while (writer.matched() < count || reader.matched() < count) { std::this_thread::sleep_for(1ms); }
+    std::printf("%.0f\n", std::chrono::duration<double, std::milli>(monotonic_now() - begun).count());
+    return 0;
+}
+
+int ping(const NetworkConfig& network, bool many_axes, std::size_t count, const Membership& membership) {
+    auto participant = Participant::open(network, kMachine, membership);
     if (!participant) { return 1; }
     auto halves = Ping(*participant, many_axes ? frame_of_32_axes() : frame_of_3_axes()).measure(count);
     if (halves.empty()) { return 1; }
@@ -90,10 +108,17 @@ int ping(const NetworkConfig& network, bool many_axes, std::size_t count) {
 
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
+    lockstep::hear_dds([](const std::string&) {});  // standard error is the script's
     lockstep::NetworkConfig network;
     if (words == std::vector<std::string>{"profile"}) { return std::puts(lockstep::dds_profile(network)->c_str()) < 0; }
     if (words.size() < 2) { return 2; }
     network.domain = static_cast<std::uint32_t>(std::stoul(words[1]));
-    if (words[0] == "pong") { return lockstep::pong(network); }
-    return words.size() == 4 ? lockstep::ping(network, words[2] == "32", std::stoul(words[3])) : 2;
+    if (words[0] == "keys" && words.size() == 3) { return lockstep::make_benchmark_keys(network, words[2]) ? 0 : 1; }
+    const std::size_t without_keys = words[0] == "ping" ? 4 : words[0] == "match" ? 3 : 2;
+    lockstep::Membership membership;
+    if (words.size() > without_keys) { membership.credentials = lockstep::benchmark_credentials(words[without_keys]); }
+    if (words[0] == "pong") { return lockstep::pong(network, membership); }
+    if (words.size() < without_keys) { return 2; }
+    if (words[0] == "match") { return lockstep::match(network, std::stoul(words[2]), membership); }
+    return lockstep::ping(network, words[2] == "32", std::stoul(words[3]), membership);
 }

@@ -48,6 +48,7 @@ void OwnMachine::SetUp() {
     machine.network = network;
     machine.axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)};
     machine.axes[0].method = StepMethod::Spielauer;  // X homes and moves on its own by it
+    configure(machine);
     file_ = write("machine.textproto", machine_text(machine));
     setenv("LOCKSTEP_STATE", (folder_ / "state").c_str(), 1);
     setenv("LOCKSTEP_MACHINE", file_.c_str(), 1);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "clients/lockstep/live/state_directory.hpp"
+#include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
 #include "tests/integration/cli/command.hpp"
 
@@ -20,6 +21,8 @@ class OwnMachine : public testing::Test {
 protected:
     void SetUp() override;
     void TearDown() override;
+    /// What a fixture wants otherwise, before the file is written.
+    virtual void configure(MachineConfig&) {}
 
     /// Writes a file beside the machine's; its path.
     std::string write(const std::string& name, const std::string& text) const;
@@ -37,6 +40,7 @@ protected:
 
     StateDirectory state() const { return StateDirectory(name_); }
     const std::string& file() const { return file_; }
+    const std::filesystem::path& folder() const { return folder_; }
     const std::string& lcm_url() const { return lcm_url_; }
 
 private:

@@ -16,8 +16,9 @@ namespace {
 using namespace std::chrono_literals;
 
 template <typename Bus>
-Bus open_or_throw(const NetworkConfig& network, const std::string& machine = "mill") {
-    auto bus = open_bus<Bus>(network, machine);
+Bus open_or_throw(const NetworkConfig& network, const std::string& machine = "mill",
+                  std::optional<std::uint32_t> axis = {}) {
+    auto bus = open_bus<Bus>(network, machine, {.axis = axis, .credentials = {}});
     if (!bus) { throw std::runtime_error(bus.error()); }
     return std::move(*bus);
 }
@@ -89,8 +90,8 @@ TEST(Dds, MachinesInOneDomainDoNotHearEachOther) {
 
 TEST(Dds, AnAxisDoesNotHearItself) {
     const NetworkConfig network = own_network();
-    auto first = open_or_throw<AxisBus>(network);
-    auto second = open_or_throw<AxisBus>(network);
+    auto first = open_or_throw<AxisBus>(network, "mill", 0);
+    auto second = open_or_throw<AxisBus>(network, "mill", 1);
     ASSERT_TRUE(eventually([&] { return first.states.matched() == 1 && second.states.matched() == 1; }));
     std::map<std::uint32_t, int> heard_by_first;
     ASSERT_TRUE(eventually([&] {
@@ -100,6 +101,24 @@ TEST(Dds, AnAxisDoesNotHearItself) {
         return heard_by_first[1] > 3;
     }));
     EXPECT_EQ(heard_by_first[0], 0);
+}
+
+TEST(Dds, WhatIsSaidOfAnAxisIsBelievedFromItAlone) {
+    const NetworkConfig network = own_network();
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    auto axis = open_or_throw<AxisBus>(network, "mill", 1);
+    std::size_t believed = 0;
+    ASSERT_TRUE(eventually([&] {
+        axis.state.write({.axis = 0});
+        believed += coordinator.states.take([](AxisState&&) {});
+        return coordinator.states.refusals().count > 3;
+    }));
+    EXPECT_EQ(believed, 0U);
+    EXPECT_EQ(coordinator.states.refusals().last, "lockstep/axis_state: speaks for axis 0, which its writer is not");
+    ASSERT_TRUE(eventually([&] {
+        axis.state.write({.axis = 1});
+        return coordinator.states.take([](AxisState&&) {}) > 0;
+    }));
 }
 
 TEST(Dds, ALateJoinerGetsNoOldCommand) {

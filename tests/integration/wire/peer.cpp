@@ -42,7 +42,7 @@ bool answer_chunks(CoordinatorBus& bus) {
 
 template <typename Bus>
 int play(bool (*role)(Bus&), const NetworkConfig& network) {
-    auto bus = open_bus<Bus>(network, "mill");
+    auto bus = open_bus<Bus>(network, "mill", {.axis = 0, .credentials = {}});
     return bus && role(*bus) ? 0 : 1;
 }
 

@@ -121,6 +121,7 @@ void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
 void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scenario& scenario) {
     Draw draw(seed ^ 0x0a0b0c0d0e0f0102U);
     if (mixed && draw.chance(0.6)) { return; }
+    Draw late(seed ^ 0x1a7e0e0f01020304U);
     scenario.coordinators = 2;
     if (Draw(seed ^ 0x0c04715e0e0f0102U).chance(0.5)) { scenario.on_takeover = OnTakeover::Continue; }
     if (!others.breaks_processes()) { scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}}); }
@@ -129,6 +130,7 @@ void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scen
         Task& task = scenario.tasks[n];
         if (!task.faults.empty() && draw.chance(0.3)) { continue; }
         task.faults = draw_takeover(draw, scenario.machine);
+        draw_late_network(late, scenario.machine, task.faults);
     }
 }
 

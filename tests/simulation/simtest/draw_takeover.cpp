@@ -121,4 +121,17 @@ std::vector<PlannedFault> draw_takeover_of_homing(Draw& draw, const MachineConfi
     return planned;
 }
 
+void draw_late_network(Draw& draw, const MachineConfig& machine, std::vector<PlannedFault>& planned) {
+    if (planned.empty() || planned.front().fault.kind != Kind::Freeze || !draw.chance(0.3)) { return; }
+    const auto slots = static_cast<double>(rules::silence_slots(machine.timing)) + draw.real(-4, 4);
+    const Ticks behind{static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value))};
+    PlannedFault cut = planned.front();
+    cut.edge = Edge::Before;
+    cut.slots = 0;
+    cut.fault.kind = Kind::Cut;
+    cut.fault.in_loop = false;
+    cut.fault.lasts += behind;
+    planned.insert(planned.begin() + 1, cut);
+}
+
 }  // namespace lockstep::simtest

@@ -15,4 +15,7 @@ std::vector<PlannedFault> draw_takeover(Draw& draw, const MachineConfig& machine
 /// For a homing.
 std::vector<PlannedFault> draw_takeover_of_homing(Draw& draw, const MachineConfig& machine);
 
+/// Now and then the network finds who was frozen only about when those that it does not hear would count as lost.
+void draw_late_network(Draw& draw, const MachineConfig& machine, std::vector<PlannedFault>& planned);
+
 }  // namespace lockstep::simtest

@@ -13,6 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::Contains;
 using testing::ElementsAre;
+using testing::Not;
 
 ProcessRecord this_process() { return {"test", getpid(), *start_of(getpid())}; }
 
@@ -85,6 +86,8 @@ TEST(ServiceLines, WithAStandbyHaveTwoCoordinatorsOfEqualRank) {
     const auto lines = service_lines(two_axes(), all(), {.standby = true}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "coordinator-2", "axis-X", "axis-Y"));
     for (const std::size_t i : {0, 1}) { EXPECT_THAT(lines[i].words, Contains("--standby")); }
+    EXPECT_THAT(lines[0].words, Not(Contains("--second")));
+    EXPECT_THAT(lines[1].words, Contains("--second")) << "it has keys of its own";
 }
 
 TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {

@@ -103,6 +103,15 @@ TEST(Watch, SaysWhatIsWrongAndWhatToDo) {
     EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("Z            not heard\n"));
 }
 
+TEST(Watch, NamesTheIncidentFilesWhereThereIsAFault) {
+    proto::StatusReport status = cutting();
+    status.mutable_incidents()->set_directory("/var/lib/lockstep/mill/record/incidents");
+    EXPECT_THAT(alarms_of(status, kScale), IsEmpty()) << "those of former faults are no alarm";
+    *status.mutable_fault() = fault_report(FaultCode::LimitHit, "X");
+    EXPECT_THAT(alarms_of(status, kScale).back(),
+                HasSubstr("lockstep analyze --incident /var/lib/lockstep/mill/record/incidents"));
+}
+
 TEST(Watch, AStepIsBesideItsTimeOnlyBeyondWhatTheClockMayBeOff) {
     proto::StatusReport status = cutting();
     set_lateness(*status.mutable_axes(0), -40, 12);

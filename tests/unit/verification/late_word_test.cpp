@@ -1,4 +1,5 @@
-// A coordinator that was stopped says late what it had decided: after another has taken over and begun a job of its own.
+// A coordinator that was stopped says late what it had decided: after another has taken over and begun a job of its
+// own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

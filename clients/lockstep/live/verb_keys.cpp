@@ -1,0 +1,137 @@
+// lockstep keys
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "clients/lockstep/live/keys_report.hpp"
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "services/security/key_directory.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct KeysOptions : LiveOptions {
+    std::string directory;
+    int days = 1825;
+    bool force = false;
+};
+
+struct Keys {
+    ChosenMachine machine;
+    fs::path directory;
+};
+
+std::expected<Keys, Failure> choose_keys(const KeysOptions& options) {
+    auto machine = choose_machine(options.machine_file);
+    if (!machine) { return std::unexpected(machine.error()); }
+    const std::string& named =
+        options.directory.empty() ? machine->config.security.directory : fs::absolute(options.directory).string();
+    if (!named.empty()) { return Keys{*std::move(machine), fs::path(named).lexically_normal()}; }
+    return std::unexpected(bad_input(machine->file.string() +
+                                     ": has no security { directory: ... }; write it there, or say --directory DIR"));
+}
+
+void say_member(const proto::MemberKeys& member, bool with_fingerprint, Voice& voice) {
+    constexpr std::size_t kColumn = 22;
+    const std::string mark = !member.problems().empty() ? "BAD  " : member.here() ? "ok   " : "-    ";
+    std::string name = member.name();
+    name.resize(std::max(name.size() + 1, kColumn), ' ');
+    const std::string until = "until " + member.until() + ", " + std::to_string(member.days_left()) + " days";
+    voice.say(mark + name + (member.here() ? until : "not on this host"));
+    if (with_fingerprint && member.here()) { voice.say("     " + member.subject() + "\n     " + member.fingerprint()); }
+    for (const std::string& problem : member.problems()) { voice.say("     " + problem); }
+    for (const std::string& warning : member.warnings()) { voice.say("     " + warning); }
+}
+
+ExitCode look(const KeysOptions& options, bool with_fingerprint) {
+    Voice voice(options.json);
+    const auto keys = choose_keys(options);
+    if (!keys) { return voice.fail(keys.error()); }
+    const proto::KeysReport report = keys_report(keys->machine.config, keys->directory);
+    const bool any = std::ranges::any_of(report.members(), [](const auto& member) { return member.here(); });
+    if (!any) {
+        return voice.fail(failed(keys->directory.string() + ": no member of machine '" + keys->machine.config.name +
+                                 "' has keys here; make them: lockstep keys make --machine " +
+                                 keys->machine.file.string()));
+    }
+    voice.report(report);
+    voice.say(keys->directory.string());
+    for (const proto::MemberKeys& member : report.members()) { say_member(member, with_fingerprint, voice); }
+    const bool well =
+        std::ranges::all_of(report.members(), [](const auto& member) { return member.problems().empty(); });
+    return well ? kExitDone : kExitFailed;
+}
+
+ExitCode make(const KeysOptions& options) {
+    Voice voice(options.json);
+    const auto keys = choose_keys(options);
+    if (!keys) { return voice.fail(keys.error()); }
+    const MachineConfig& machine = keys->machine.config;
+    const auto made = make_keys(machine, keys->directory, std::chrono::days(options.days), options.force);
+    if (!made) { return voice.fail(failed(made.error())); }
+    proto::KeysReport report = keys_report(machine, keys->directory);
+    if (!made->replaced.empty()) { report.set_replaced(made->replaced); }
+    voice.report(report);
+    voice.say("made keys for " + std::to_string(report.members_size()) + " members of machine '" + machine.name +
+              "' in " + keys->directory.string());
+    if (!made->replaced.empty()) {
+        voice.say("the ones before are in " + made->replaced + "; delete them when all is well");
+    }
+    voice.say(
+        "each host needs identity-ca.pem, permissions-ca.pem, governance.p7s, and .pem, .key and .p7s of what runs\n"
+        "there; keep ca/ off the machine: who has it can make members");
+    if (!machine.security.enabled()) {
+        voice.say("the machine's file does not ask for security yet; add to it:\n    security { directory: \"" +
+                  keys->directory.string() + "\" }");
+    }
+    return kExitDone;
+}
+
+CLI::App* add_part(CLI::App& keys, const char* name, const char* what, const std::shared_ptr<KeysOptions>& options) {
+    CLI::App* verb = keys.add_subcommand(name, what);
+    add_live_options(*verb, *options);
+    verb->add_option("--directory", options->directory, "where the keys are; else the machine's security.directory");
+    return verb;
+}
+
+void add_make(CLI::App& keys, Action& action) {
+    const auto options = std::make_shared<KeysOptions>();
+    CLI::App* verb =
+        add_part(keys, "make", "make certificates, keys and permissions for all members of a machine", options);
+    verb->add_option("--days", options->days, "how long they are valid")
+        ->check(CLI::Range(1, 36500))
+        ->capture_default_str();
+    verb->add_flag("--force", options->force, "where there are keys: put them aside and make all anew");
+    verb->footer(
+        footer("  lockstep keys make --machine mill.textproto\n"
+               "  lockstep keys make --machine mill.textproto --directory /root/mill-keys --days 365\n"));
+    verb->callback([&action, options] { action = [options] { return make(*options); }; });
+}
+
+void add_look(CLI::App& keys, Action& action, const char* name, const char* what, bool with_fingerprint) {
+    const auto options = std::make_shared<KeysOptions>();
+    CLI::App* verb = add_part(keys, name, what, options);
+    verb->footer(footer(std::string("  lockstep keys ") + name + "\n  lockstep keys " + name +
+                        " --json | jq '.members[] | [.name, .until]'\n"));
+    verb->callback([&action, options, with_fingerprint] {
+        action = [options, with_fingerprint] { return look(*options, with_fingerprint); };
+    });
+}
+
+}  // namespace
+
+void add_keys(CLI::App& app, Action& action) {
+    CLI::App* keys = app.add_subcommand("keys", "who may join the machine (DDS Security): make, show, check");
+    keys->require_subcommand(1);
+    keys->footer("Example:\n  lockstep keys make --machine mill.textproto\n\nOptions: lockstep keys make --help");
+    add_make(*keys, action);
+    add_look(*keys, action, "show", "each member's certificate: subject, fingerprint, end", true);
+    add_look(*keys, action, "check", "whether the keys on this host are in date, kept from others, and this machine's",
+             false);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,123 @@
+#include "services/security/admission.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "services/documents/text_file.hpp"
+#include "services/security/access_documents.hpp"
+#include "services/security/key_directory.hpp"
+#include "services/wire/security_properties.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::days kNearEnd{30};
+constexpr mode_t kForbidden = S_IRWXO | S_IWGRP | S_IXGRP;  // a group may read: the services' own
+
+/// Looks at one file after the other and notes what is wrong.
+class Inspection {
+public:
+    Inspection(const MachineConfig& machine, const Member& member) : machine_(machine), member_(member) {}
+
+    /// Empty where it cannot be read.
+    std::string read(const fs::path& path) {
+        auto text = read_text_file(path);
+        if (text) { return *std::move(text); }
+        wrong(path, text.error().message,
+              "copy it here from where `lockstep keys make` was run, for the user who runs this");
+        return "";
+    }
+    void look_at_key_mode(const fs::path& path) {
+        struct stat facts {};
+        if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & kForbidden) == 0) { return; }
+        wrong(path, "others may read or change this private key", "chmod 600 " + path.string());
+    }
+    void look_at_dates(const fs::path& path, std::chrono::sys_seconds now) {
+        if (!check_.certificate) { return; }
+        const auto [from, until] = std::pair(check_.certificate->from, check_.certificate->until);
+        if (now < from) { wrong(path, "is valid only from " + time_text(from), "set this host's clock"); }
+        if (now >= until) { wrong(path, "expired on " + time_text(until), kRenew); }
+        if (now < until && until - now < kNearEnd) {
+            check_.warnings.push_back(path.string() + ": expires on " + time_text(until) + "; " + kRenew);
+        }
+    }
+    void certificate(const fs::path& path, const std::string& pem) {
+        auto facts = read_certificate(pem);
+        if (!facts) { return wrong(path, facts.error(), kRenew); }
+        check_.certificate = *std::move(facts);
+    }
+    template <typename Outcome>
+    void require(const fs::path& path, const Outcome& outcome) {
+        if (!outcome) { wrong(path, outcome.error(), kSame); }
+    }
+    /// What was signed is what this machine's file asks for.
+    void require_content(const fs::path& path, const std::expected<std::string, std::string>& content,
+                         const std::string& wanted) {
+        require(path, content);
+        if (content && !content->contains(wanted)) {
+            wrong(path, "was made for another machine, domain or order of axes than this file's", kRenew);
+        }
+    }
+    MemberCheck done() { return std::move(check_); }
+
+private:
+    static constexpr const char* kRenew = "lockstep keys make --force, then give every host its files";
+    static constexpr const char* kSame = "take all files from one run of lockstep keys make";
+
+    void wrong(const fs::path& path, const std::string& what, const std::string& remedy) {
+        check_.errors.push_back("machine '" + machine_.name + "', " + member_.name + ": " + path.string() + ": " +
+                                what + "; " + remedy);
+    }
+
+    const MachineConfig& machine_;
+    const Member& member_;
+    MemberCheck check_;
+};
+
+}  // namespace
+
+MemberCheck check_member(const MachineConfig& machine, const fs::path& directory, const Member& member,
+                         std::chrono::sys_seconds now) {
+    Inspection look(machine, member);
+    const Credentials files = credentials_in(directory, member);
+    const std::string identity_ca = look.read(files.identity_ca);
+    const std::string certificate = look.read(files.certificate);
+    const std::string key = look.read(files.private_key);
+    const std::string permissions_ca = look.read(files.permissions_ca);
+    const std::string governance = look.read(files.governance);
+    const std::string permissions = look.read(files.permissions);
+    look.look_at_key_mode(files.private_key);
+    if (!certificate.empty()) { look.certificate(files.certificate, certificate); }
+    look.look_at_dates(files.certificate, now);
+    if (!certificate.empty() && !identity_ca.empty()) {
+        look.require(files.certificate, check_certificate(certificate, identity_ca));
+    }
+    if (!certificate.empty() && !key.empty()) { look.require(files.private_key, check_key(certificate, key)); }
+    if (permissions_ca.empty()) { return look.done(); }
+    if (!governance.empty()) {
+        look.require_content(files.governance, signed_content(governance, permissions_ca), governance_xml(machine));
+    }
+    if (!permissions.empty()) {
+        look.require_content(files.permissions, signed_content(permissions, permissions_ca),
+                             allow_rule_xml(machine, member));
+    }
+    return look.done();
+}
+
+std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member) {
+    Admission admission{.membership = {.axis = member.axis, .credentials = {}}, .warnings = {}};
+    if (!machine.security.enabled()) { return admission; }
+    keep_openssl_alive();
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    MemberCheck check = check_member(machine, machine.security.directory, member, now);
+    if (!check.errors.empty()) { return std::unexpected(check.errors.front()); }
+    admission.membership.credentials = credentials_in(machine.security.directory, member);
+    admission.warnings = std::move(check.warnings);
+    return admission;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,36 @@
+// Whether a process may join a machine: its files are there, kept from others, in date, and made for this machine.
+#pragma once
+
+#include <chrono>
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "services/security/certificates.hpp"
+#include "services/security/rights.hpp"
+#include "services/wire/participant.hpp"
+
+namespace lockstep {
+
+struct MemberCheck {
+    std::vector<std::string> errors;    // each names the file and the remedy
+    std::vector<std::string> warnings;  // an end that is near
+    std::optional<CertificateFacts> certificate;
+};
+
+MemberCheck check_member(const MachineConfig& machine, const std::filesystem::path& directory, const Member& member,
+                         std::chrono::sys_seconds now);
+
+struct Admission {
+    Membership membership;
+    std::vector<std::string> warnings;
+};
+
+/// As a member of this machine, by the files that its configuration names; without security, as anybody.
+/// Error: the first thing that is wrong.
+std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member);
+
+}  // namespace lockstep

@@ -1,0 +1,56 @@
+// Certificates, keys and signed documents, by OpenSSL: EC keys on P-256, X.509 certificates, S/MIME signatures, all in
+// PEM.
+#pragma once
+
+#include <chrono>
+#include <expected>
+#include <memory>
+#include <string>
+
+namespace lockstep {
+
+/// A certificate and its private key, as one who signs needs both. Copies share them.
+class Signer {
+public:
+    struct Parts;
+    explicit Signer(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
+    std::string certificate_pem() const;
+    std::string key_pem() const;
+    const Parts& parts() const { return *parts_; }
+
+private:
+    std::shared_ptr<const Parts> parts_;
+};
+
+struct Subject {
+    std::string organization;  // the machine's name
+    std::string name;
+};
+
+/// Signed by itself; may sign others.
+std::expected<Signer, std::string> make_authority(const Subject& subject, std::chrono::days valid);
+
+/// Signed by `authority`.
+std::expected<Signer, std::string> issue(const Subject& subject, const Signer& authority, std::chrono::days valid);
+
+/// The document with its signature, as S/MIME text.
+std::expected<std::string, std::string> sign(const std::string& document, const Signer& signer);
+
+/// The document that was signed. Error: `authority_pem` did not sign it as it is.
+std::expected<std::string, std::string> signed_content(const std::string& signed_document,
+                                                       const std::string& authority_pem);
+
+struct CertificateFacts {
+    std::string subject;      // as RFC 2253 writes it
+    std::string fingerprint;  // SHA-256, in hex with colons
+    std::chrono::sys_seconds from;
+    std::chrono::sys_seconds until;
+};
+std::expected<CertificateFacts, std::string> read_certificate(const std::string& pem);
+
+/// Whether `authority_pem` signed the certificate, and the key is the certificate's. Error: which is not so.
+std::expected<void, std::string> check_certificate(const std::string& pem, const std::string& authority_pem);
+std::expected<void, std::string> check_key(const std::string& certificate_pem, const std::string& key_pem);
+
+}  // namespace lockstep

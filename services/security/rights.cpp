@@ -1,0 +1,50 @@
+#include "services/security/rights.hpp"
+
+#include "services/wire/topics.hpp"
+
+namespace lockstep {
+namespace {
+
+using enum Role;
+
+template <typename T>
+TopicRights of(std::vector<Role> writers, std::vector<Role> readers) {
+    return {Topic<T>::kSpec.name, std::move(writers), std::move(readers)};
+}
+
+}  // namespace
+
+std::string_view name_of(Role role) {
+    constexpr std::string_view kNames[] = {"coordinator", "axis", "client", "viewer"};
+    return kNames[static_cast<std::size_t>(role)];
+}
+
+Member axis_member(const MachineConfig& machine, std::size_t axis) {
+    return {"axis-" + machine.axes[axis].name, Axis, static_cast<std::uint32_t>(axis)};
+}
+
+std::vector<Member> members_of(const MachineConfig& machine) {
+    std::vector<Member> members{coordinator_member(), standby_member()};
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) { members.push_back(axis_member(machine, i)); }
+    members.push_back(client_member());
+    members.push_back(viewer_member());
+    return members;
+}
+
+std::span<const TopicRights> rights() {
+    static const std::vector<TopicRights> kRights{
+        of<Frame>({Coordinator}, {Axis}),
+        of<AxisCommand>({Coordinator}, {Axis}),
+        of<MachineState>({Coordinator}, {Coordinator, Axis, Client, Viewer}),
+        of<AxisState>({Axis}, {Coordinator, Axis, Client, Viewer}),
+        of<AxisHealth>({Axis}, {Client, Viewer}),
+        of<Command>({Client}, {Coordinator, Axis}),  // axes hear an emergency stop themselves
+        of<ProgramChunk>({Client}, {Coordinator}),
+        of<Reply>({Coordinator}, {Client}),
+        of<ClockRequest>({Axis}, {Coordinator}),
+        of<ClockReply>({Coordinator}, {Axis}),
+    };
+    return kRights;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,16 @@
+// Keys for the benchmark: protected as a machine's, but each side may send frames and receive them, which no role may.
+#pragma once
+
+#include <filesystem>
+
+#include "core/machine.hpp"
+#include "services/wire/participant.hpp"
+
+namespace lockstep {
+
+/// False: the directory cannot be made, or is not empty.
+bool make_benchmark_keys(const NetworkConfig& network, const std::filesystem::path& directory);
+
+Credentials benchmark_credentials(const std::filesystem::path& directory);
+
+}  // namespace lockstep

@@ -1,0 +1,126 @@
+"""The image: a Debian to begin with, made from its mirror, and what deploy/Dockerfile makes of it.
+
+No registry of images is asked: `debian:bookworm-slim` is bootstrapped here, as slim as the one of that name.
+"""
+import json
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+import engine
+
+BASE = "docker.io/library/debian:bookworm-slim"
+NAME = "docker.io/library/lockstep:latest"
+# What the slim image leaves out.
+LEFT_OUT = ("./usr/share/doc/*", "./usr/share/man/*", "./usr/share/locale/*", "./usr/share/info/*",
+            "./var/cache/apt/*.bin", "./var/cache/apt/archives/*.deb", "./var/lib/apt/lists/*")
+
+
+def ask(*words, **how):
+    return subprocess.run(words, capture_output=True, text=True, **how)
+
+
+def last_line(text):
+    return (text.strip().splitlines() or ["it does not say why"])[-1]
+
+
+def sources():
+    """What this host's apt reads of Debian 12, as (mirror, suite): with it the compiler's cache fits to the image too."""
+    said = ask("apt-get", "indextargets", "--format", "$(SITE) $(RELEASE)", "Created-By: Packages", "Component: main").stdout
+    found = dict.fromkeys(tuple(line.split()) for line in said.splitlines())
+    return [(site, suite) for site, suite in found if suite.startswith("bookworm")]
+
+
+def mirror():
+    """Empty where this host's apt reads none."""
+    return next((site for site, suite in sources() if suite == "bookworm"), "")
+
+
+def apt_settings():
+    return [line for line in ask("apt-config", "dump").stdout.splitlines() if line.startswith("Acquire::Check")]
+
+
+def proxy():
+    """The one that this host's apt goes through, as other programs are told it."""
+    found = shlex.split(ask("apt-config", "shell", "PROXY", "Acquire::http::Proxy").stdout.strip().partition("=")[2])
+    return {"http_proxy": found[0]} if found else {}
+
+
+def why_no_base(podman, work):
+    """Makes the Debian that the image begins with. Why there is none; nothing where there is one."""
+    if podman.ask("image", "exists", BASE)[0] != 0:
+        reason = why_not_bootstrapped(podman, work)
+        if reason:
+            return reason
+    code, said = podman.ask("run", "--rm", "--network", "none", BASE, "true")
+    return f"no container can be run: {last_line(said)}" if code else ""
+
+
+def why_not_bootstrapped(podman, work):
+    environment = os.environ | proxy()
+    release = f"{mirror()}/dists/bookworm/InRelease"
+    if ask("wget", "-q", "-T", "20", "-t", "2", "-O", "/dev/null", release, env=environment).returncode != 0:
+        return f"no network to the Debian mirror: {release} cannot be read"
+    with tempfile.TemporaryDirectory(dir=work) as root:
+        # In a world of its own: what it mounts in there is gone with it, and never in the way of who removes the directory.
+        made = ask(*engine.WORLD, "debootstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", root,
+                   mirror(), env=environment)
+        if made.returncode != 0:
+            return f"no Debian can be bootstrapped: {last_line(made.stdout + made.stderr)}"
+        import_base(podman, pathlib.Path(root))
+    return ""
+
+
+def import_base(podman, root):
+    # As in the image of that name: what is unpacked into an image need not outlive a power cut.
+    (root / "etc/dpkg/dpkg.cfg.d/no-sync").write_text("force-unsafe-io\n")
+    (root / "etc/apt/sources.list").write_text("".join(f"deb {site} {suite} main\n" for site, suite in sources()))
+    (root / "etc/apt/apt.conf.d/as-the-host").write_text("\n".join(apt_settings()) + "\n")
+    with subprocess.Popen(["tar", "-C", str(root), *(f"--exclude={path}" for path in LEFT_OUT), "-c", "."],
+                          stdout=subprocess.PIPE) as tar:
+        podman.run("import", "-", BASE, stdin=tar.stdout, check=True, capture_output=True)
+
+
+def build(podman, root, work):
+    """As a user does, but with this host's caches. The exit code."""
+    ran = podman.run("build", "--network", "host", "--pull=never", *compiler_cache(work), *npm_cache(),
+                     "--tag", NAME, "--file", str(root / "deploy" / "Dockerfile"), str(root), extra=proxy(),
+                     stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    (work / "build.log").write_text(ran.stdout)
+    if ran.returncode != 0:
+        print(f"the image cannot be built:\n{ran.stdout[-4000:]}", file=sys.stderr)
+    return int(ran.returncode != 0)
+
+
+def compiler_cache(work):
+    """What this host has compiled already: the same compiler makes the same of it in the image."""
+    say = lambda key: ask("ccache", "--get-config", key).stdout.strip()
+    directory = pathlib.Path(say("cache_dir") or "/none")
+    if not directory.is_dir():
+        return []
+    settings = "".join(f"{key} = {say(key)}\n" for key in ("base_dir", "hash_dir", "sloppiness", "max_size"))
+    (work / "ccache.conf").write_text("cache_dir = /ccache\n" + settings)
+    return ["--volume", f"{directory}:/ccache", "--volume", f"{work / 'ccache.conf'}:/ccache.conf:ro",
+            "--build-arg", "CCACHE_CONFIGPATH=/ccache.conf"]
+
+
+def npm_cache():
+    """What this host has fetched already is not fetched again."""
+    cache = pathlib.Path(ask("npm", "config", "get", "cache").stdout.strip() or "/none")
+    return ["--volume", f"{cache}:/root/.npm"] if cache.is_dir() else []
+
+
+def megabytes(podman, name):
+    return round(json.loads(podman.ask("image", "inspect", name)[1])[0]["Size"] / 1e6)
+
+
+def sizes(podman):
+    return {"image_mb": megabytes(podman, NAME), "debian_mb": megabytes(podman, BASE)}
+
+
+def in_words(podman):
+    found = sizes(podman)
+    return f"an image of {found['image_mb']} MB, {found['debian_mb']} MB of them Debian"

@@ -1,0 +1,114 @@
+// Somebody who wants to move the machine, on its network and with what he has got hold of:
+//   integration_security_stranger DOMAIN MACHINE PARTITION KEYS MEMBER
+// PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: whose keys of them.
+//   integration_security_stranger DOMAIN MACHINE protocol NUMBER -     a process of the machine, of another version
+// Tries for a while to speak on every topic that moves something, and to listen; says what came of it, a line each.
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "services/security/key_directory.hpp"
+#include "services/wire/bus.hpp"
+#include "services/wire/dds_log.hpp"
+#include "services/wire/protocol_version.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kTries = 150;
+constexpr auto kBetween = 20ms;
+
+/// A word on one topic, again and again.
+template <typename T>
+class Mouth {
+public:
+    Mouth(Participant& participant, T word) : writer_(participant), word_(std::move(word)) {}
+    std::uint32_t speak() {
+        (void)writer_.write(word_);
+        return writer_.matched();
+    }
+
+private:
+    Writer<T> writer_;
+    T word_;
+};
+
+Command home() { return {.client = 7, .sequence = 1, .kind = CommandKind::Home}; }
+
+Frame sudden_frame() {
+    Frame frame{.term = {~std::uint64_t{0} >> 2, 1}, .epoch = 1, .number = 1, .ticks = {230'000}, .last = true};
+    frame.axes.resize(2);
+    for (AxisTrack& axis : frame.axes) { (void)axis.body.push_back({{230'000}, {std::int64_t{1} << 50}, {0}}); }
+    return frame;
+}
+
+AxisCommand own_move() {
+    return {.term = {~std::uint64_t{0} >> 2, 1}, .sequence = 1, .kind = AxisCommandKind::MoveOwn, .target_steps = 8000};
+}
+
+/// Of axis 0, in a fault that it does not have.
+AxisState false_state() { return {.identity = 1, .axis = 0, .stamp = 1, .phase = AxisPhase::Fault, .fault = 103}; }
+
+struct Outcome {
+    std::uint32_t matched = 0;  // readers, at most, of all that was said
+    std::size_t heard = 0;      // states
+};
+
+Outcome try_all(Participant& participant) {
+    Mouth<Command> commands(participant, home());
+    Mouth<Frame> frames(participant, sudden_frame());
+    Mouth<AxisCommand> orders(participant, own_move());
+    Mouth<AxisState> states(participant, false_state());
+    Reader<AxisState> axes(participant);
+    Reader<MachineState> machine(participant);
+    Outcome outcome;
+    const int tries = participant.failure() ? kTries / 4 : kTries;  // of who was refused at once little is to be seen
+    for (int i = 0; i < tries; ++i) {
+        outcome.matched =
+            std::max(outcome.matched, commands.speak() + frames.speak() + orders.speak() + states.speak());
+        outcome.heard += axes.take([](AxisState&&) {}) + machine.take([](MachineState&&) {});
+        std::this_thread::sleep_for(kBetween);
+    }
+    return outcome;
+}
+
+/// Takes part under another number, until it is killed.
+int speak_another_protocol(const std::vector<std::string>& words) {
+    const dds_domainid_t domain = static_cast<dds_domainid_t>(std::stoul(words[0]));
+    const auto profile = dds_profile({.domain = domain});
+    if (!profile || dds_create_domain(domain, profile->c_str()) < 0) { return 1; }
+    const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
+    announce_version(*qos, std::stoi(words[3]), words[1]);
+    if (dds_create_participant(domain, qos.get(), nullptr) < 0) { return 1; }
+    for (;;) { std::this_thread::sleep_for(1s); }
+}
+
+int intrude(const std::vector<std::string>& words) {
+    hear_dds([](const std::string& text) { std::cout << "dds: " << text << std::endl; });
+    const NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(words[0]))};
+    Membership membership;
+    if (words[2] != "-") { membership.axis = static_cast<std::uint32_t>(std::stoul(words[2])); }
+    if (words[3] != "-") { membership.credentials = credentials_in(words[3], {.name = words[4]}); }
+    auto participant = Participant::open(network, words[1], membership);
+    if (!participant) {
+        std::cout << "refused: " << participant.error() << std::endl;
+        return 0;
+    }
+    const Outcome outcome = try_all(*participant);
+    if (participant->failure()) { std::cout << "refused: " << *participant->failure() << std::endl; }
+    std::cout << "matched " << outcome.matched << "\nheard " << outcome.heard << std::endl;
+    return 0;
+}
+
+}  // namespace
+}  // namespace lockstep
+
+int main(int argc, char** argv) {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.size() != 5) { return 2; }
+    return words[2] == "protocol" ? lockstep::speak_another_protocol(words) : lockstep::intrude(words);
+}

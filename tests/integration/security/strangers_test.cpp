@@ -1,0 +1,102 @@
+// Who does not belong gets no answer, moves nothing, and is seen: real processes that try.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "services/security/access_documents.hpp"
+#include "services/security/certificates.hpp"
+#include "services/security/key_directory.hpp"
+#include "tests/integration/security/secured_machine.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class Strangers : public SecuredMachine {
+protected:
+    /// Keys for the same names, from an authority of the stranger's own.
+    fs::path forged_keys() const {
+        const fs::path forged = folder() / "forged";
+        EXPECT_TRUE(make_keys(config(), forged, std::chrono::days(30), false));
+        return forged;
+    }
+    /// A member's true certificate and key, with permissions that the stranger signed himself.
+    fs::path keys_with_own_permissions(const std::string& member, const std::string& as) const {
+        const fs::path mixed = folder() / "mixed";
+        EXPECT_TRUE(make_keys(config(), mixed, std::chrono::days(30), false));
+        for (const char* file : {".pem", ".key"}) {
+            fs::copy_file(keys() / (member + file), mixed / (member + file), fs::copy_options::overwrite_existing);
+        }
+        fs::copy_file(keys() / "identity-ca.pem", mixed / "identity-ca.pem", fs::copy_options::overwrite_existing);
+        const MachineConfig machine = config();
+        const auto own = make_authority({machine.name, "permissions"}, std::chrono::days(30));
+        const std::string wanted =
+            permissions_xml(machine, {as, Role::Client, {}}, "CN=" + member + ",O=" + machine.name,
+                            {"2020-01-01T00:00:00", "2100-01-01T00:00:00"});
+        std::ofstream(mixed / "permissions-ca.pem") << own->certificate_pem();
+        std::ofstream(mixed / "governance.p7s") << sign(governance_xml(machine), *own).value();
+        std::ofstream(mixed / (member + ".p7s")) << sign(wanted, *own).value();
+        return mixed;
+    }
+};
+
+TEST_F(Strangers, AMemberIsHeardSoTheOthersAreNotShutOutByChance) {
+    const std::string said = stranger("-", keys(), "client");
+    EXPECT_THAT(said, Not(HasSubstr("matched 0\n")));
+    EXPECT_THAT(said, Not(HasSubstr("heard 0\n")));
+    EXPECT_TRUE(eventually([&] { return status().job() == 2; })) << "its command to home was obeyed";
+}
+
+TEST_F(Strangers, WhoCannotProveToBelongIsShutOutAndSeen) {
+    const auto without = begin_stranger("-", "-", "-");
+    const auto forger = begin_stranger("-", forged_keys(), "coordinator");
+    const auto self_signed = begin_stranger("-", keys_with_own_permissions("viewer", "client"), "viewer");
+    for (const auto& each : {without.get(), forger.get(), self_signed.get()}) { expect_shut_out(each->wait().out); }
+    for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
+        EXPECT_TRUE(is_logged(process, "has no certificate and is shut out")) << process;
+        EXPECT_TRUE(is_logged(process, "has not proved to belong to this machine and is shut out")) << process;
+    }
+}
+
+TEST_F(Strangers, AViewerMayNotCommand) {
+    const std::string said = stranger("-", keys(), "viewer");
+    EXPECT_THAT(said, HasSubstr("refused: cannot open the DDS topic lockstep/command"));
+    EXPECT_THAT(said, HasSubstr("matched 0\n"));
+    expect_untouched();
+}
+
+TEST_F(Strangers, PermissionsThatWereChangedAreRefusedAtOnce) {
+    const fs::path changed = folder() / "changed";
+    fs::copy(keys(), changed, fs::copy_options::recursive);
+    std::ifstream in(changed / "viewer.p7s");
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    text.replace(text.find("<subscribe>"), 11, "<publish>  ");
+    std::ofstream(changed / "viewer.p7s") << text;
+    EXPECT_THAT(stranger("-", changed, "viewer"), HasSubstr("refused: DDS Security does not let this process into"));
+    expect_untouched();
+}
+
+TEST_F(Strangers, AnAxisMayNotSpeakForAnother) {
+    const auto in_its_place = begin_stranger("0", keys(), "axis-Y");
+    const auto in_its_own = begin_stranger("1", keys(), "axis-Y");
+    EXPECT_THAT(in_its_place->wait().out, HasSubstr("refused: cannot open the DDS topic"));
+    EXPECT_THAT(in_its_own->wait().out, Not(HasSubstr("matched 0\n"))) << "it may speak, for itself";
+    EXPECT_TRUE(is_logged("coordinator", "speaks for axis 0, which its writer is not"));
+    EXPECT_TRUE(is_logged("axis-X", "speaks for axis 0, which its writer is not"));
+    expect_untouched();
+}
+
+TEST_F(Strangers, TheGoodMachineMovesExactlyAsWithoutSecurity) {
+    const Ran moved = run_lockstep({"move", "X=30", "Y=10"});
+    EXPECT_EQ(moved.code, 0) << moved.out << moved.err;
+    EXPECT_TRUE(eventually([&] { return status().axes(0).position_steps() == 2400; }));
+    expect_verified();
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,51 @@
+// Processes that would misunderstand each other say so, with both versions, and move nothing together.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "services/documents/machine_file.hpp"
+#include "services/wire/protocol_version.hpp"
+#include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+class Versions : public OwnMachine {
+protected:
+    bool is_logged(const std::string& process, const std::string& text) const {
+        return eventually([&] { return tail_of(state().log_file(process), 1000).find(text) != std::string::npos; });
+    }
+};
+
+TEST_F(Versions, OfTheProtocolAreNamedByEveryoneWhoMeetsAnother) {
+    bring_up();
+    const MachineConfig machine = load_machine_file(file()).value();
+    const std::string newer = std::to_string(kProtocol + 1);
+    const Command other(LOCKSTEP_STRANGER,
+                        {std::to_string(machine.network.domain), machine.name, "protocol", newer, "-"});
+    for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
+        EXPECT_TRUE(is_logged(process, "speaks protocol " + newer + ", this one " + std::to_string(kProtocol)));
+    }
+    EXPECT_EQ(status().phase(), "Idle");
+}
+
+TEST_F(Versions, OfTheConfigurationAreNamedAndNothingMoves) {
+    MachineConfig machine = load_machine_file(file()).value();
+    machine.axes[0].max_velocity_mm_s = 100;
+    const std::string changed = write("changed.textproto", machine_text(machine));
+    const Command coordinator(LOCKSTEP_COORDINATOR, {"--machine", file(), "--log", write("coordinator.log", "")});
+    const Command x(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X"});
+    const Command y(LOCKSTEP_AXIS, {"--machine", changed, "--axis", "Y"});
+    EXPECT_TRUE(eventually([&] {
+        return tail_of(folder() / "coordinator.log", 1000).find("axis Y runs configuration ") != std::string::npos;
+    }));
+    const Ran moved = run_lockstep({"home"});
+    EXPECT_EQ(moved.code, 1) << moved.out << moved.err;
+    EXPECT_THAT(moved.err + moved.out, HasSubstr("config"));
+}
+
+}  // namespace
+}  // namespace lockstep

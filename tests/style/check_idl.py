@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""What goes over the wire or into files does not change unnoticed: idl/fingerprints.txt has what each file says.
+
+Usage: check_idl.py ROOT [--record]
+
+A fingerprint is of the file without comments and white space. Exits 1 where one differs, says which and what to decide
+(idl/README.md has the rules), or where the protocol's number is not the recorded one. --record writes the file anew.
+"""
+import argparse
+import hashlib
+import pathlib
+import re
+import sys
+
+RULES = {
+    ".idl": "processes of both versions no longer hear each other: raise kProtocol in services/wire/protocol_version.hpp",
+    ".lcm": "logs of before are no longer read: give the type a new name, unless no log of it was ever kept",
+    ".proto": "check that no number got another meaning and that none was taken away: files of before are still read",
+}
+
+
+def fingerprint(path):
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", path.read_text(), flags=re.S)
+    return hashlib.sha256("".join(text.split()).encode()).hexdigest()[:16]
+
+
+def protocol(root):
+    header = (root / "services/wire/protocol_version.hpp").read_text()
+    return re.search(r"kProtocol = (\d+);", header).group(1)
+
+
+def found(root):
+    files = [path for path in sorted((root / "idl").rglob("*")) if path.suffix in RULES]
+    return {"protocol": protocol(root)} | {path.relative_to(root).as_posix(): fingerprint(path) for path in files}
+
+
+def breaches(recorded, now):
+    for name in sorted(recorded.keys() | now.keys()):
+        if recorded.get(name) == now.get(name):
+            continue
+        what = "is new" if name not in recorded else "is gone" if name not in now else "says something else than recorded"
+        if name == "protocol":
+            yield f"protocol: {now[name]}, recorded {recorded.get(name)}"
+        else:
+            yield f"{name}: {what}; {RULES[pathlib.Path(name).suffix]}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", type=pathlib.Path)
+    parser.add_argument("--record", action="store_true")
+    options = parser.parse_args()
+    record = options.root / "idl/fingerprints.txt"
+    now = found(options.root)
+    if options.record:
+        record.write_text("".join(f"{name} {value}\n" for name, value in now.items()))
+    recorded = dict(line.split() for line in record.read_text().splitlines())
+    wrong = list(breaches(recorded, now))
+    print("\n".join(wrong + ["when that is done: tests/style/check_idl.py . --record"]) if wrong else
+          f"{len(now) - 1} files are as recorded, protocol {now['protocol']}")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
