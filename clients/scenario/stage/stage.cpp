@@ -116,7 +116,7 @@ void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, 
 
 Seen play_with(const Scenario& scenario, const ChosenMachine& machine, Cast& cast, Network& network,
                const StateDirectory& state) {
-    auto session = Session::join(machine);
+    auto session = Session::join(machine, Purpose::Command);
     if (!session) { return broken(to_text("", session.error().errors)); }
     Acts acts(cast, network, *session);
     Player player(scenario, *session, cast, acts);
