@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep)
+install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
 install(FILES README.md ARCHITECTURE.md sim_fpga/REGISTERS.md deploy/security.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
 install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockstep-axis@.service
@@ -44,7 +45,7 @@ set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_NAME lockstep)
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_DEPENDS "adduser, iproute2")
-set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_RECOMMENDS "liblcm-bin, default-jre, liblcm-java, libjchart2d-java")
+set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_RECOMMENDS "liblcm-bin, iptables, default-jre, liblcm-java, libjchart2d-java")
 set(CPACK_DEBIAN_LOCKSTEP_DESCRIPTION
   "Per-axis controller services, a coordinator that plans synchronized moves, and a
  command to run, watch, record, analyse and verify a machine.")

@@ -33,6 +33,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_export(app, action);
     add_replay(app, action);
     add_compare(app, action);
+    add_scenario(app, action);
 }
 
 /// What CLI11 says, but for a verb that there is not: it would only miss one.

@@ -20,6 +20,7 @@ void add_log(CLI::App& app, Action& action);  // merge
 void add_export(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_scenario(CLI::App& app, Action& action);
 
 void add_up(CLI::App& app, Action& action);
 void add_down(CLI::App& app, Action& action);

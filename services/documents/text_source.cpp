@@ -4,6 +4,7 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace lockstep {
 namespace {
@@ -29,9 +30,10 @@ class Descent {
 public:
     Descent(const pb::TextFormat::ParseInfoTree& tree, const pb::Descriptor& type) : tree_(&tree), type_(&type) {}
 
-    /// `index` is -1 where the key does not repeat.
+    /// `index` counts where the key repeats: the first where it is below 0.
     void enter(const std::string& key, int index) {
         const pb::FieldDescriptor* field = tree_ == nullptr ? nullptr : type_->FindFieldByName(key);
+        if (field != nullptr) { index = field->is_repeated() ? std::max(index, 0) : -1; }
         const auto at = field == nullptr ? pb::TextFormat::ParseLocation{} : tree_->GetLocation(field, index);
         place_.is_of_key = at.line >= 0;
         if (!place_.is_of_key) {
@@ -67,13 +69,14 @@ Diagnostics TextSource::parse(std::string_view text, pb::Message& message) {
     return errors.found;
 }
 
-TextSource::Place TextSource::place_of(const pb::Descriptor& type, const FieldPath& field) const {
+TextSource::Place TextSource::place_of(const pb::Descriptor& type, std::string_view path) const {
     Descent descent(places_, type);
-    if (field.axis) { descent.enter("axis", static_cast<int>(*field.axis)); }
-    for (std::size_t from = 0; from < field.key.size();) {
-        const std::size_t end = std::min(field.key.find('.', from), field.key.size());
-        descent.enter(field.key.substr(from, end - from), -1);
-        from = end + 1;
+    while (!path.empty()) {
+        const std::string_view key = path.substr(0, path.find('.'));
+        path.remove_prefix(std::min(key.size() + 1, path.size()));
+        const std::size_t bracket = std::min(key.find('['), key.size());
+        const bool repeats = bracket < key.size();
+        descent.enter(std::string(key.substr(0, bracket)), repeats ? std::atoi(&key[bracket + 1]) : -1);
     }
     return descent.place();
 }

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "services/documents/diagnostic.hpp"
-#include "services/documents/machine_rules.hpp"
 
 namespace lockstep {
 
@@ -20,7 +19,8 @@ public:
         int column = 1;
         bool is_of_key = false;  // the key itself; otherwise the block that it is missing from
     };
-    Place place_of(const google::protobuf::Descriptor& type, const FieldPath& field) const;
+    /// "timing.slot_us"; "axis[1].homing.park_mm" of a key that repeats, from 0. Empty: the text.
+    Place place_of(const google::protobuf::Descriptor& type, std::string_view path) const;
 
 private:
     google::protobuf::TextFormat::ParseInfoTree places_;

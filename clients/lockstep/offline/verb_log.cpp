@@ -8,6 +8,7 @@
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/merge/named_logs.hpp"
 #include "clients/merge/report.hpp"
 #include "services/record/new_log_file.hpp"
 
@@ -23,25 +24,6 @@ struct LogMergeOptions {
     bool force = false;
     bool json = false;
 };
-
-/// A directory stands for the logs in it.
-std::expected<std::vector<fs::path>, std::string> logs_in(const std::vector<std::string>& names) {
-    std::vector<fs::path> logs;
-    for (const fs::path name : names) {
-        std::error_code error;
-        if (!fs::is_directory(name, error)) {
-            logs.push_back(name);
-            continue;
-        }
-        const std::size_t before = logs.size();
-        for (const auto& entry : fs::directory_iterator(name, error)) {
-            if (entry.path().extension() == ".lcm") { logs.push_back(entry.path()); }
-        }
-        if (logs.size() == before) { return std::unexpected(name.string() + ": no file *.lcm is in this directory"); }
-        std::sort(logs.begin() + static_cast<std::ptrdiff_t>(before), logs.end());
-    }
-    return logs;
-}
 
 /// Empty: OUT may be written. The mistake to expect is to name the logs and forget OUT.
 std::string obstacle(const LogMergeOptions& options, const std::vector<fs::path>& logs) {
@@ -75,7 +57,7 @@ ExitCode merge_into(const LogMergeOptions& options, const merge::MergeOptions& w
 
 ExitCode log_merge(const LogMergeOptions& options) {
     Voice voice(options.json);
-    const auto logs = logs_in(options.in);
+    const auto logs = merge::named_logs({options.in.begin(), options.in.end()});
     if (!logs) { return voice.fail(bad_input(logs.error())); }
     if (const std::string why_not = obstacle(options, *logs); !why_not.empty()) {
         return voice.fail(bad_input(why_not));

@@ -1,4 +1,4 @@
-#include "clients/lockstep/offline/incident_input.hpp"
+#include "clients/incident/incident_input.hpp"
 
 #include <algorithm>
 

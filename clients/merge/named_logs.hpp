@@ -1,0 +1,15 @@
+// The logs that a user names: by themselves, or by the directory that they are in.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lockstep::merge {
+
+/// A directory stands for all *.lcm in it, in the order of their names. Error: there is none in it.
+std::expected<std::vector<std::filesystem::path>, std::string> named_logs(
+    const std::vector<std::filesystem::path>& names);
+
+}  // namespace lockstep::merge

@@ -1,0 +1,42 @@
+#include "clients/scenario/stage/child.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "clients/lockstep/live/state_directory.hpp"
+
+namespace lockstep::scenario {
+
+std::expected<pid_t, std::string> start_program(const Words& words, const std::filesystem::path& log) {
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+    std::vector<char*> arguments;
+    for (const std::string& word : words) { arguments.push_back(const_cast<char*>(word.c_str())); }
+    arguments.push_back(nullptr);
+    pid_t pid = 0;
+    const int error = posix_spawnp(&pid, arguments[0], &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (error == 0) { return pid; }
+    return std::unexpected("cannot start " + words[0] + ": " + std::strerror(error) +
+                           "; is it installed? deploy/install-dependencies installs what is needed");
+}
+
+std::expected<void, std::string> run_program(const Words& words, const std::filesystem::path& log) {
+    const auto pid = start_program(words, log);
+    if (!pid) { return std::unexpected(pid.error()); }
+    int status = 0;
+    waitpid(*pid, &status, 0);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) { return {}; }
+    std::string text;
+    for (const std::string& word : words) { text += (text.empty() ? "" : " ") + word; }
+    return std::unexpected(text + ": failed, and said:\n" + tail_of(log, 3));
+}
+
+}  // namespace lockstep::scenario

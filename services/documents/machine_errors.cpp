@@ -1,0 +1,65 @@
+#include "services/documents/machine_errors.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <tuple>
+
+namespace lockstep {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+constexpr std::size_t kMaxDiagnostics = 50;
+
+/// Where the keys of a machine stand.
+struct Text {
+    const TextSource& source;
+    const google::protobuf::Descriptor& document;
+    const std::string& block;
+
+    TextSource::Place place_of(const Problem& problem) const {
+        const auto& [axis, key] = problem.field;
+        const std::string parent = axis ? block + "axis[" + std::to_string(*axis) + "]" : block;
+        const bool needs_point = axis && !key.empty();
+        return source.place_of(document, parent + (needs_point ? "." : "") + key);
+    }
+};
+
+/// What is wrong with a default comes of what is written, and is said only where nothing written is wrong.
+Problems axis_problems(const MachineConfig& machine, std::size_t axis, const Text& text) {
+    Problems problems = axis_problems(machine, axis);
+    const auto is_written = [&](const Problem& problem) { return text.place_of(problem).is_of_key; };
+    if (std::ranges::any_of(problems, is_written)) { std::erase_if(problems, std::not_fn(is_written)); }
+    return problems;
+}
+
+/// Missing keys first; a block that lacks one is judged no further.
+Problems problems_of(const MachineDraft& draft, const Text& text) {
+    Problems problems = draft.missing;
+    const auto is_whole = [&](std::optional<std::size_t> axis) {
+        return std::ranges::none_of(draft.missing, [&](const Problem& missing) { return missing.field.axis == axis; });
+    };
+    const auto add = [&](const Problems& more) { problems.insert(problems.end(), more.begin(), more.end()); };
+    if (is_whole({})) { add(machine_problems(draft.machine)); }
+    for (std::size_t axis = 0; axis < std::min(draft.machine.axes.size(), kMaxAxes); ++axis) {
+        if (is_whole(axis)) { add(axis_problems(draft.machine, axis, text)); }
+    }
+    return problems;
+}
+
+}  // namespace
+
+Diagnostics machine_errors(const MachineDraft& draft, const TextSource& source,
+                           const google::protobuf::Descriptor& document, const std::string& block) {
+    const Text text{source, document, block};
+    Diagnostics errors;
+    for (const Problem& problem : problems_of(draft, text)) {
+        const auto place = text.place_of(problem);
+        errors.push_back({place.line, place.column, problem.message});
+    }
+    std::ranges::stable_sort(errors, {}, [](const Diagnostic& d) { return std::tuple(d.line, d.column); });
+    if (errors.size() > kMaxDiagnostics) { errors.resize(kMaxDiagnostics); }
+    return errors;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,154 @@
+// Each expectation holds where it is true of the record, fails where it is not, and says what was found and where.
+#include "clients/scenario/judgement.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/scenario/scenario_text.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+using testing::HasSubstr;
+
+/// A good run: X at 10 mm, exact, complete, nobody vetoed, both axes with frame 7 in the end.
+Evidence good() {
+    Evidence evidence;
+    evidence.verified->set_exact(true);
+    evidence.merged->set_complete(true);
+    proto::AxisAnalysis& axis = *evidence.analysis->add_axes();
+    axis.set_name("X");
+    axis.set_position_end_mm(10);
+    evidence.analysis->set_largest_distance_mm(0.01);
+    evidence.record.epochs[3] = {{"X", {7, false}}, {"Y", {7, false}}};
+    evidence.record.rests = {{"X", {{{0}, {100}}, {{5000}, {9000}}}}, {"Y", {{{0}, {6000}}, {{7000}, {9000}}}}};
+    return evidence;
+}
+
+Seen seen_well() {
+    Seen seen;
+    seen.status.set_phase("Idle");
+    proto::AxisStatus& axis = *seen.status.add_axes();
+    axis.set_name("X");
+    axis.set_present(true);
+    axis.set_homed(true);
+    return seen;
+}
+
+std::vector<Check> checks(const std::string& expect, const Evidence& evidence, const Seen& seen = seen_well()) {
+    return judge(parsed(whole("expect { " + expect + " }")), seen, evidence);
+}
+
+/// The first check: what is expected comes before what is always judged.
+Check check(const std::string& expect, const Evidence& evidence, const Seen& seen = seen_well()) {
+    return checks(expect, evidence, seen).front();
+}
+
+bool holds(const std::string& expect, const Evidence& evidence, const Seen& seen = seen_well()) {
+    return check(expect, evidence, seen).held();
+}
+
+TEST(ScenarioJudgement, AnEndIsJudgedToTheStepUnlessMoreIsAllowed) {
+    EXPECT_TRUE(holds("final { axis: \"X\" mm: 10 }", good()));
+    EXPECT_FALSE(holds("final { axis: \"X\" mm: 10.0125 }", good())) << "a step away";
+    EXPECT_TRUE(holds("final { axis: \"X\" mm: 10.0125 within_mm: 0.02 }", good()));
+    const Check altered = check("final { axis: \"X\" mm: 11 }", good());
+    EXPECT_THAT(altered.found(), HasSubstr("10.0000 mm"));
+    EXPECT_THAT(altered.where(), HasSubstr("whole.lcm"));
+}
+
+TEST(ScenarioJudgement, WhatTheRecordDoesNotSayDoesNotHold) {
+    EXPECT_FALSE(holds("final { axis: \"Y\" mm: 10 }", good()));
+    Evidence evidence = good();
+    evidence.analysis->clear_largest_distance_mm();
+    EXPECT_FALSE(holds("path_within_mm: 1", evidence));
+    evidence.analysis = std::unexpected("no log");
+    EXPECT_EQ(check("path_within_mm: 1", evidence).found(), "no log");
+}
+
+TEST(ScenarioJudgement, TheDistanceFromThePath) {
+    EXPECT_TRUE(holds("path_within_mm: 0.0126", good()));
+    EXPECT_FALSE(holds("path_within_mm: 0.009", good()));
+}
+
+TEST(ScenarioJudgement, AxesThatEndWithOtherFramesAreNotTogether) {
+    EXPECT_TRUE(holds("together: \"X\" together: \"Y\"", good()));
+    Evidence evidence = good();
+    evidence.record.epochs[4] = {{"X", {2, true}}, {"Y", {3, false}}};
+    const Check parted = check("together: \"X\" together: \"Y\"", evidence);
+    EXPECT_FALSE(parted.held());
+    EXPECT_THAT(parted.found(), HasSubstr("X with the tail of frame 2, Y with frame 3"));
+}
+
+TEST(ScenarioJudgement, NoEpochIsNoProofOfBeingTogether) {
+    Evidence evidence = good();
+    evidence.record.epochs.clear();
+    EXPECT_FALSE(holds("together: \"X\" together: \"Y\"", evidence));
+}
+
+TEST(ScenarioJudgement, VetoesAreBySomeOfThoseNamedAndNoOthers) {
+    Evidence evidence = good();
+    EXPECT_TRUE(holds("vetoes {}", evidence));
+    EXPECT_FALSE(holds("vetoes { by: \"X\" }", evidence));
+    evidence.vetoed_by = {"X", "Y"};
+    EXPECT_FALSE(holds("vetoes {}", evidence));
+    EXPECT_FALSE(holds("vetoes { by: \"X\" }", evidence));
+    EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence));
+    evidence.vetoed_by = {"Y"};
+    EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence)) << "the other had not to say it any more";
+}
+
+TEST(ScenarioJudgement, InterruptionsOfAllJobsAreCounted) {
+    Evidence evidence = good();
+    evidence.analysis->add_jobs()->set_interruptions(1);
+    evidence.analysis->add_jobs()->set_interruptions(2);
+    EXPECT_TRUE(holds("interruptions: 3", evidence));
+    EXPECT_FALSE(holds("interruptions: 0", evidence));
+}
+
+TEST(ScenarioJudgement, ACauseIsOneOfThoseThatWereNoted) {
+    Evidence evidence = good();
+    EXPECT_EQ(check("cause { kind: \"process-ended\" }", evidence).found(), "no incident was noted");
+    evidence.causes = {{"asked", "", "somebody asked"}, {"process-ended", "axis-Y", "axis Y ended"}};
+    EXPECT_TRUE(holds("cause { kind: \"process-ended\" process: \"axis-Y\" }", evidence));
+    EXPECT_FALSE(holds("cause { kind: \"process-ended\" process: \"axis-X\" }", evidence));
+}
+
+TEST(ScenarioJudgement, RestIsWhenAllAreAtRestTogether) {
+    Seen seen = seen_well();
+    const std::int64_t frame = parsed(whole("")).machine.frame_ticks().value;
+    Evidence evidence = good();
+    evidence.record.rests = {{"X", {{{0}, {frame}}, {{3 * frame}, {9 * frame}}}},
+                             {"Y", {{{2 * frame}, {2 * frame + 5}}, {{4 * frame}, {9 * frame}}}}};
+    seen.rests = {{"hold", {frame + 1}, 3, {"X", "Y"}}};
+    EXPECT_TRUE(holds("", evidence, seen));
+    EXPECT_THAT(check("", evidence, seen).found(), HasSubstr("3.00 frames"));
+    seen.rests[0].within_frames = 2;
+    EXPECT_FALSE(holds("", evidence, seen));
+    seen.rests[0].at = {10 * frame};
+    EXPECT_FALSE(holds("", evidence, seen)) << "nothing is known of it";
+}
+
+TEST(ScenarioJudgement, AxesAndMachineAreJudgedAsTheyAreFound) {
+    EXPECT_TRUE(holds("axis { name: \"X\" heard: true }", good()));
+    EXPECT_TRUE(holds("axis { name: \"X\" homed: true }", good()));
+    EXPECT_TRUE(holds("axis { name: \"X\" fault: \"none\" }", good()));
+    EXPECT_FALSE(holds("axis { name: \"X\" fault: \"axis-lost\" }", good()));
+    EXPECT_FALSE(holds("axis { name: \"Y\" homed: true }", good())) << "nobody hears it";
+    EXPECT_TRUE(holds("phase: IDLE", good()));
+    EXPECT_FALSE(holds("phase: FAULT", good()));
+}
+
+TEST(ScenarioJudgement, TheRecordIsExactAndCompleteUnlessItNeedNotBe) {
+    Evidence evidence = good();
+    ASSERT_EQ(checks("", evidence).size(), 2);
+    evidence.verified->set_exact(false);
+    evidence.verified->mutable_first_difference()->set_text("one step more");
+    evidence.merged->set_complete(false);
+    EXPECT_FALSE(checks("", evidence)[0].held());
+    EXPECT_EQ(checks("", evidence)[0].found(), "one step more");
+    EXPECT_FALSE(checks("", evidence)[1].held());
+    EXPECT_TRUE(checks("exact: false complete: false", evidence).empty());
+}
+
+}  // namespace
+}  // namespace lockstep::scenario

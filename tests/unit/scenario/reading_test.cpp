@@ -1,0 +1,137 @@
+// Scenarios are read whole or refused with the place, the value, the limit and the remedy.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "clients/scenario/words.hpp"
+#include "tests/unit/scenario/scenario_text.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(ScenarioReading, TakesWhatIsRight) {
+    const Scenario scenario = parsed(
+        whole("step { run { gcode: \"G21 G90\\nG1 X10 Y5 F600\" }\n"
+              "  during { line: 2 after_s: 0.2 act { pause: \"axis-Y\" for_s: 0.04 } rests_within_frames: 5 } }\n"
+              "expect { final { axis: \"X\" mm: 10 } vetoes {} }"));
+    EXPECT_EQ(scenario.asked.step_size(), 2);
+    EXPECT_EQ(scenario.machine.axes.size(), 2);
+    EXPECT_EQ(processes_of(scenario.asked, scenario.machine),
+              (std::vector<std::string>{"coordinator", "axis-X", "axis-Y"}));
+}
+
+TEST(ScenarioReading, EveryScenarioThatShipsCanBePlayedAndSaysWhatItWouldDo) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(LOCKSTEP_SCENARIOS)) {
+        if (entry.path().extension() != ".textproto") { continue; }
+        const auto scenario = load_scenario(entry.path());
+        ASSERT_TRUE(scenario) << to_text(entry.path().string(), scenario.error());
+        EXPECT_THAT(outline(*scenario), AllOf(HasSubstr(scenario->asked.shows()), HasSubstr("  step     home")));
+        ++count;
+    }
+    EXPECT_GE(count, 12);
+}
+
+TEST(ScenarioReading, TheMachineOfAScenarioIsApartFromAllOthers) {
+    const Scenario scenario = parsed(whole("place: NAMESPACE"));
+    EXPECT_EQ(scenario.machine.network.interface, "eth0");
+    EXPECT_THAT(scenario.machine.network.lcm_url, HasSubstr("ttl=1"));
+    EXPECT_EQ(parsed(whole("")).machine.network.interface, "lo");
+}
+
+struct Bad {
+    const char* name;
+    std::string text;
+    std::vector<const char*> says;
+};
+
+class BadScenario : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadScenario, IsRefusedWithPlaceValueLimitAndRemedy) {
+    const std::string errors = errors_of(GetParam().text);
+    ASSERT_FALSE(errors.empty()) << "it was taken";
+    for (const char* part : GetParam().says) { EXPECT_THAT(errors, HasSubstr(part)); }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenarios, BadScenario,
+    testing::Values(
+        Bad{"UnknownKey", whole("explode: true"), {"8:8", "explode"}},
+        Bad{"KeyTwice", whole("shows: \"again\""), {"8:", "shows"}},
+        Bad{"WrongKind", whole("standby: \"perhaps\""), {"8:10", "perhaps"}},
+        Bad{"NoMachine", "shows: \"x\"\nstep { home {} }", {"1:1", "no machine", "machine_file"}},
+        Bad{"TwoMachines", whole("machine_file: \"x\""), {"8:1", "keep one"}},
+        Bad{"MachineThatIsNotThere", "machine_file: \"none\" shows: \"x\"", {"1:1", "/tmp/none"}},
+        Bad{"MachineThatCannotBe",
+            "shows: \"x\" step { home {} }\nmachine { name: \"m\"\n  tick_ns: 5 }",
+            {"3:3", "tick_ns is 5", "100 to 1000000"}},
+        Bad{"NothingToShow", with_machine("step { home {} }"), {"no shows", "say in one sentence"}},
+        Bad{"NoStep", with_machine("shows: \"x\""), {"no step", "step { home {} }"}},
+        Bad{"Container", whole("place: CONTAINER"), {"8:1", "CONTAINER", "PROCESS or NAMESPACE"}},
+        Bad{"ContinuedByNobody", whole("continues: true"), {"8:1", "standby"}},
+        Bad{"EmptyStep", whole("step {}"), {"8:1", "does nothing", "home, run, move, wait or act"}},
+        Bad{"RunOfNothing", whole("step { run {} }"), {"8:8", "file:", "gcode:"}},
+        Bad{"RunOfTwo", whole("step { run { file: \"a\" gcode: \"G4 P1\" } }"), {"8:8", "one program"}},
+        Bad{"BadGcode", whole("step { run { gcode: \"G90\\nG1 X500 F600\" } }"), {"8:14", "gcode:2:", "X500", "100"}},
+        Bad{"MoveBeyondTravel", whole("step { move { to: \"X=101\" } }"), {"8:15", "101", "0.000 to 100.000"}},
+        Bad{"MoveNowhere", whole("step { move {} }"), {"8:8", "to: \"X=10\""}},
+        Bad{"WaitForTwo", whole("step { wait { seconds: 1 phase: IDLE } }"), {"8:8", "one thing"}},
+        Bad{"WaitForEver", whole("step { wait { seconds: 61 } }"), {"8:15", "seconds is 61", "0 to 60"}},
+        Bad{"DuringAWait",
+            whole("step { wait { seconds: 1 } during { act { kill: \"axis-X\" } } }"),
+            {"8:", "during goes with home, run and move"}},
+        Bad{"NobodyToKill",
+            whole("step { act { kill: \"axis-Q\" } }"),
+            {"8:14", "axis-Q", "coordinator, axis-X, axis-Y"}},
+        Bad{"NoStandby", whole("step { act { kill: \"coordinator-2\" } }"), {"there is no process 'coordinator-2'"}},
+        Bad{"ActOfNothing", whole("step { act {} }"), {"8:8", "does nothing", "kill"}},
+        Bad{"NoLinks", whole("step { act { cut { process: \"axis-X\" } } }"), {"8:14", "place: NAMESPACE"}},
+        Bad{"LossOfAllAndMore",
+            whole("place: NAMESPACE step { act { lose { percent: 101 } } }"),
+            {"percent is 101", "above 0 to 100"}},
+        Bad{"KillForATime", whole("step { act { kill: \"axis-X\" for_s: 1 } }"), {"for_s", "pause, cut and lose"}},
+        Bad{"OverrideTooHigh", whole("step { act { override { feed: 201 } } }"), {"feed is 201", "10 to 200"}},
+        Bad{"NoCommand", whole("step { act { command: NONE } }"), {"HOLD, RESUME"}},
+        Bad{"LineOfHoming",
+            whole("step { home {} during { line: 3 act { command: HOLD } } }"),
+            {"8:25", "only a run has lines"}},
+        Bad{"LineNought",
+            whole("step { run { gcode: \"G4 P1\" } during { line: 0 act { command: HOLD } } }"),
+            {"line is 0", "from 1"}},
+        Bad{"PlaceOutside",
+            whole("step { home {} during { passes { axis: \"X\" mm: 200 } act { command: HOLD } } }"),
+            {"mm is 200", "0 to 100"}},
+        Bad{"RestsTooLate",
+            whole("step { home {} during { act { command: HOLD } rests_within_frames: 1001 } }"),
+            {"rests_within_frames is 1001", "1 to 1000"}},
+        Bad{"UnknownFault", whole("step { home {} fault: \"bad-luck\" }"), {"bad-luck", "axis-lost"}},
+        Bad{"WrongClockOfOneClock", whole("wrong_clock { axis: \"X\" ppm: 10 }"), {"8:1", "time_source: NETWORK"}},
+        Bad{"TwoClocksOfOneAxis",
+            whole("wrong_clock { axis: \"X\" } wrong_clock { axis: \"X\" }"),
+            {"8:41", "has a clock already"}},
+        Bad{"ClockTooFast", whole("wrong_clock { axis: \"X\" ppm: 2000 }"), {"ppm is 2000", "-1000 to 1000"}},
+        Bad{"EndOfNoAxis", whole("expect { final { axis: \"Q\" mm: 1 } }"), {"8:18", "there is no axis 'Q'", "X, Y"}},
+        Bad{"EndNowhere", whole("expect { final { axis: \"X\" } }"), {"8:10", "no mm"}},
+        Bad{"PathOfNought", whole("expect { path_within_mm: 0 }"), {"8:10", "path_within_mm is 0", "above 0"}},
+        Bad{"AloneTogether", whole("expect { together: \"X\" }"), {"name two at least"}},
+        Bad{"UnknownCause", whole("expect { cause { kind: \"ghosts\" } }"), {"ghosts", "process-ended"}},
+        Bad{"FewerThanNoInterruptions", whole("expect { interruptions: -1 }"), {"interruptions is -1", "at least 0"}}),
+    [](const auto& bad) { return std::string(bad.param.name); });
+
+TEST(ScenarioReading, AllThatIsWrongIsSaidInTheOrderOfTheText) {
+    const std::string errors = errors_of(whole("step {}\nexpect { path_within_mm: -1 }\nplace: CONTAINER"));
+    EXPECT_THAT(errors, StartsWith("8:1: "));
+    EXPECT_LT(errors.find("9:10: "), errors.find("10:1: "));
+}
+
+TEST(ScenarioReading, AFileThatIsMissingOrEmptyIsSaid) {
+    EXPECT_FALSE(load_scenario("/nowhere/at-all.textproto"));
+    EXPECT_FALSE(parse_scenario("", "empty.textproto"));
+}
+
+}  // namespace
+}  // namespace lockstep::scenario

@@ -1,0 +1,44 @@
+// Scenarios as tests write them: a machine of two axes, and what is to be said of it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "clients/scenario/scenario.hpp"
+
+namespace lockstep::scenario {
+
+inline const std::string kMachine =
+    "machine { name: \"stage\"\n"
+    "  axis { name: \"X\" steps_per_mm: 80 start_velocity_mm_s: 10 max_velocity_mm_s: 100 max_accel_mm_s2: 1000\n"
+    "    position_min_mm: 0 position_max_mm: 100 }\n"
+    "  axis { name: \"Y\" steps_per_mm: 80 start_velocity_mm_s: 10 max_velocity_mm_s: 100 max_accel_mm_s2: 1000\n"
+    "    position_min_mm: 0 position_max_mm: 100 } }\n";
+
+/// What is said comes on line 6 and on.
+inline std::string with_machine(const std::string& text) { return kMachine + text; }
+
+/// One that is right, but for what `text` adds: a step that homes, and what it shows.
+inline std::string whole(const std::string& text) {
+    return with_machine("shows: \"something\"\nstep { home {} }\n" + text);
+}
+
+/// All that is wrong, "line:column: message", a line each; empty: nothing.
+inline std::string errors_of(const std::string& text) {
+    const auto scenario = parse_scenario(text, "/tmp/of-a-test.textproto");
+    std::string errors;
+    if (scenario) { return errors; }
+    for (const Diagnostic& error : scenario.error()) {
+        errors += std::to_string(error.line) + ":" + std::to_string(error.column) + ": " + error.message + "\n";
+    }
+    return errors;
+}
+
+inline Scenario parsed(const std::string& text) {
+    auto scenario = parse_scenario(text, "/tmp/of-a-test.textproto");
+    EXPECT_TRUE(scenario) << errors_of(text);
+    return scenario ? *std::move(scenario) : Scenario{};
+}
+
+}  // namespace lockstep::scenario
