@@ -49,8 +49,16 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_err
 
 /// What a stopped coordinator says late of its job goes before the job that another has begun since.
 void JobCheck::take(const job_t& record) {
-    const auto begins_later = [&](const job_t& r) { return r.event == "begun" && r.job > record.job; };
-    records_.insert(std::ranges::find_if(records_, begins_later), record);
+    auto behind = records_.end();
+    if (is_late(record)) {
+        const auto own = std::ranges::find(records_, record.coordinator, &job_t::coordinator);
+        behind = std::find_if(own == behind ? records_.begin() : own, behind, [&](const job_t& r) {
+            return r.event == "begun" && r.coordinator != record.coordinator;
+        });
+    }
+    records_.insert(behind, record);
+    if (record.event == "begun") { begun_.emplace_back(record.coordinator, record.job); }
+    if (begun_.size() > kLabelsKept) { begun_.pop_front(); }
     std::deque<std::pair<std::string, Run>> waiting;
     waiting.swap(waiting_);
     for (const auto& [axis, run] : waiting) { take(axis, run); }
@@ -66,10 +74,16 @@ void JobCheck::handle(const job_t& record) {
     end(record);
 }
 
-/// Of a job that another coordinator's has followed, and of an epoch that nobody ran: a run of it would have been held
-/// to this record before.
+/// Of a job that its coordinator has begun, when another has begun one since.
+bool JobCheck::is_late(const job_t& record) const {
+    const auto its = std::ranges::find(begun_, std::pair{record.coordinator, record.job});
+    return record.event != "begun" && its != begun_.end() && begun_.back().first != record.coordinator;
+}
+
+/// Late, and of an epoch that nobody ran: a run of it would have been held to this record before.
 bool JobCheck::is_outdated(const job_t& record) {
-    if (!job_ || record.job >= job_->number || record.coordinator == job_->coordinator) { return false; }
+    const bool is_its_turn = !job_ || job_->coordinator == record.coordinator;
+    if (is_its_turn || !is_late(record)) { return false; }
     findings_.notes.push_back(number_of(record) + ": its coordinator says more of it after another began " +
                               job_->label + "; nothing was run of that");
     return true;

@@ -63,6 +63,7 @@ private:
     /// No axis moves while its clock may be further off.
     Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
     void handle(const job_t& record);
+    bool is_late(const job_t& record) const;
     bool is_outdated(const job_t& record);
     void note_owner(const job_t& record);
     void begin(const job_t& record);
@@ -87,6 +88,7 @@ private:
     Findings& findings_;
     std::deque<job_t> records_;  // handled when the first run after them comes: late runs of what they end come before
     std::deque<std::pair<std::string, Run>> waiting_;
+    std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
     std::deque<std::pair<Epoch, std::string>> labels_;  // of the newest epochs

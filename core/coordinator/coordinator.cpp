@@ -124,8 +124,11 @@ void Coordinator::order(std::size_t axis, AxisCommandKind kind) {
     orders_[axis] = AxisCommand{ownership_.term(), ++order_sequence_, static_cast<std::uint32_t>(axis), kind};
 }
 
+/// An axis counts the commands of the owner that it follows: what it did for the last one is no answer to this one.
 bool Coordinator::order_done(std::size_t axis) const {
-    return !orders_[axis] || (views_[axis].state && views_[axis].state->command_done >= orders_[axis]->sequence);
+    if (!orders_[axis]) { return true; }
+    const auto& state = views_[axis].state;
+    return state && state->term == orders_[axis]->term && state->command_done >= orders_[axis]->sequence;
 }
 
 /// A fault during motion stops it on the path first; Fault is entered at rest.

@@ -100,7 +100,8 @@ private:
         }
     }
 
-    /// An owner sends frames when every axis has said that it follows it; but a process may have been made anew since.
+    /// An owner sends frames when every axis has said that it follows it; but it may have changed within a message's
+    /// way since, and its process may have been made anew.
     void check_begun(Epoch number, const SentEpoch& epoch) {
         for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
             const AxisRecord& axis = recording_.axes[i];
@@ -108,7 +109,10 @@ private:
             const bool anew = std::ranges::any_of(axis.followed, [&](const Followed& f) {
                 return f.at <= epoch.first_sent && f.term == epoch.writer && f.process != now.process;
             });
-            if (now.term == epoch.writer || anew) { continue; }
+            const Ticks way = recording_.machine.slot_ticks() * rules::kHopSlots;
+            if (now.term == epoch.writer || anew || axis.followed_at(epoch.first_sent - way).term == epoch.writer) {
+                continue;
+            }
             object(i, epoch.first_sent, "epoch " + std::to_string(number) + " is begun, and it follows another owner");
         }
     }

@@ -25,7 +25,8 @@ inline AxisConfig axis_of_judges(const std::string& name) {
 /// corner.
 inline Scenario two_axes() {
     Scenario scenario{.seed = 7};
-    scenario.machine = {.name = "two", .axes = {axis_of_judges("X"), axis_of_judges("Y")}};
+    scenario.machine.name = "two";
+    scenario.machine.axes = {axis_of_judges("X"), axis_of_judges("Y")};
     scenario.machine.timing = {
         .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 6};
     Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {}, .blocks = {}};

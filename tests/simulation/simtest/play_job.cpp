@@ -150,17 +150,19 @@ void JobPlayer::play() {
         protocol_seconds(bench_) * static_cast<double>(1 + task_.interrupts.size() + job_.course.pauses);
     const Tick deadline =
         bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
-    while (!bench_.over() && begun_ && !bench_.faulted() && !ended()) {
-        go_on();
-        if (bench_.vm().now() > deadline && !disturbed()) {
-            bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s");
+    do {
+        while (goes_on()) {
+            go_on();
+            if (bench_.vm().now() > deadline && !disturbed()) {
+                bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s");
+            }
         }
-    }
-    if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
-        bench_.settle(2 * job_.course.seconds + protocol_seconds(bench_));
-    } else {
-        (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
-    }
+        if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
+            bench_.settle(2 * job_.course.seconds + protocol_seconds(bench_));
+        } else {
+            (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
+        }
+    } while (goes_on());  // the fault was that of an owner which has another by now
     record();
 }
 

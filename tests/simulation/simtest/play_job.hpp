@@ -28,6 +28,7 @@ private:
     void refused(const char* what, const Reply& reply);
     bool disturbed() const { return bench_.disturbed_since(job_.began); }
     bool ended() const { return bench_.watch().outcome().has_value(); }
+    bool goes_on() const { return !bench_.over() && begun_ && !bench_.faulted() && !ended(); }
     bool in(MachinePhase phase) const { return bench_.watch().phase() == phase; }
 
     Bench& bench_;

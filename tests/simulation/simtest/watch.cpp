@@ -14,10 +14,10 @@ void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
     using Kind = CoordinatorNotice::Kind;
     if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
     if (notice.kind == Kind::StoodDown && process == job_of_) { orphan(JobOutcome::Stopped); }
-    if (notice.kind == Kind::JobContinued) { job_of_ = process, orphaned_ = false; }
+    if (notice.kind == Kind::JobContinued) { go_on(process); }
     if (notice.kind != Kind::Phase) { return; }
     phases_[process] = static_cast<MachinePhase>(notice.number);
-    const bool is_idle = phases_[process] == MachinePhase::Idle;
+    const bool is_idle = phases_[process] == MachinePhase::Idle && vm_.owner() == process;
     if (is_idle && (process != job_of_ || orphaned_)) { cut_short(JobOutcome::Stopped); }
 }
 
@@ -36,6 +36,13 @@ void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process < axes_.size()) { return; }
     phases_.erase(fault.process);
     if (fault.process == job_of_) { orphan(JobOutcome::Failed); }
+}
+
+/// Also where the one before it has failed in it: cut off, he has lost the axes that follow this one.
+void Watch::go_on(std::size_t process) {
+    job_of_ = process;
+    orphaned_ = false;
+    outcome_.reset();
 }
 
 /// Its coordinator has left it: it is at its end, or another may go on with it.

@@ -82,7 +82,8 @@ TEST_F(IncidentFile, ADirectoryThatCannotBeIsAnErrorWithItsRemedy) {
 }
 
 TEST_F(IncidentFile, EveryKindOfEventComesBack) {
-    MachineConfig machine{.name = "mill", .axes = {{.name = "X"}, {.name = "Y"}}};
+    MachineConfig machine{.name = "mill"};
+    for (const char* name : {"X", "Y"}) { machine.axes.push_back({.name = name}); }
     for (int kind = 0; kind <= static_cast<int>(FlightKind::Incident); ++kind) {
         const NumberedEvent event{3,
                                   {.tick = Tick{12},

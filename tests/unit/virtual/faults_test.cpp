@@ -109,6 +109,23 @@ TEST_F(Faults, AnAxisThatRestartsWhileItIsHomedIsLost) {
     expect_usable();
 }
 
+/// The axes have done as many commands of the one before it as it has given.
+TEST_F(Faults, AResetByACoordinatorThatWasStartedAnewIsWaitedFor) {
+    home();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    wait(0.3);
+    const Term before = vm.state()->term;
+    befall(Kind::Crash, kCoordinator, 0.1);
+    wait(0.01);
+    (void)vm.command(CommandKind::EmergencyStop);
+    ASSERT_TRUE(vm.advance_until([&] { return vm.state()->term > before && vm.state()->phase == MachinePhase::Fault; },
+                                 Ticks{3'000'000}))
+        << describe();
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    EXPECT_TRUE(vm.advance_until([&] { return vm.state()->phase == MachinePhase::Idle; }, Ticks{1'000'000}))
+        << describe();
+}
+
 TEST_F(Faults, AnAxisThatRestartsWhileTheJobIsHeldIsLost) {
     start_job();
     ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);

@@ -47,7 +47,11 @@ job_t a_job() {
     return to_lcm(record, {1'000'000}, 1000);
 }
 
-MachineConfig a_machine() { return {.name = "mill", .axes = {{.name = "X", .steps_per_mm = 400}}}; }
+MachineConfig a_machine() {
+    MachineConfig machine{.name = "mill"};
+    machine.axes.push_back({.name = "X", .steps_per_mm = 400});
+    return machine;
+}
 
 axis_health_t a_health() {
     return to_lcm(a_machine(),
