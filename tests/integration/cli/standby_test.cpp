@@ -25,13 +25,18 @@ protected:
         ASSERT_EQ(home.code, 0) << home.out << home.err;
     }
     std::string text_of_log(const std::string& name) const { return tail_of(state().log_file(name), 1000); }
-    bool owns(const std::string& name) const {
+    /// The time in the log, to compare; empty: never.
+    std::string claimed_at(const std::string& name) const {
         const std::string text = text_of_log(name);
-        const auto claimed = text.rfind("- owns the machine");
-        const auto stood_down = text.rfind("stands down");
-        return claimed != std::string::npos && (stood_down == std::string::npos || stood_down < claimed);
+        const auto claim = text.rfind("- owns the machine");
+        if (claim == std::string::npos) { return {}; }
+        const auto line = text.rfind('\n', claim);
+        return text.substr(line == std::string::npos ? 0 : line + 1,
+                           std::string_view("    2000-01-01T00:00:00.000Z").size());
     }
-    std::string owner() const { return owns("coordinator") ? "coordinator" : "coordinator-2"; }
+    std::string owner() const {
+        return claimed_at("coordinator") > claimed_at("coordinator-2") ? "coordinator" : "coordinator-2";
+    }
     void expect_at_rest() const {
         const proto::StatusReport report = status();
         for (const auto& axis : report.axes()) { EXPECT_TRUE(axis.at_rest() && axis.homed()) << axis.name(); }
@@ -79,20 +84,37 @@ TEST_F(TwoCoordinators, AnOwnerThatWasStoppedWakesUpAndStandsDown) {
 class ContinuingCoordinators : public TwoCoordinators {
 protected:
     ContinuingCoordinators() : TwoCoordinators({"--standby", "--on-takeover", "continue"}) {}
+
+    /// Whether the other one has gone on with the job of the owner that is killed in it.
+    bool is_gone_on_with() {
+        EXPECT_TRUE(eventually([&] { return status().standby(); }));
+        Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+        EXPECT_TRUE(becomes("Running"));
+        EXPECT_TRUE(eventually([&] { return status().axes(0).position_mm() > 30; }));
+        const std::string killed = owner();
+        const std::string heir = killed == "coordinator" ? "coordinator-2" : "coordinator";
+        kill(process(killed), SIGKILL);
+        const Ran ran = run.wait();
+        const std::string outcome = ran.json<proto::RunReport>().outcome();
+        if (ran.code != 0) {
+            EXPECT_EQ(outcome, "cut-short") << ran.out << ran.err;
+            return false;
+        }
+        EXPECT_EQ(outcome, "done");
+        EXPECT_THAT(text_of_log(heir), HasSubstr("goes on with the job"));
+        return true;
+    }
 };
 
+/// A host that stalls just then for longer than the machine allows for leaves a doubt, which ends the job; not every
+/// time.
 TEST_F(ContinuingCoordinators, AKilledOwnersJobIsGoneOnWithToItsEnd) {
-    ASSERT_TRUE(eventually([&] { return status().standby(); }));
-    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
-    ASSERT_TRUE(becomes("Running"));
-    ASSERT_TRUE(eventually([&] { return status().axes(0).position_mm() > 30; }));
-    const std::string killed = owner();
-    kill(process(killed), SIGKILL);
-    const Ran ran = run.wait();
-    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
-    EXPECT_EQ(ran.json<proto::RunReport>().outcome(), "done");
-    const std::string heir = killed == "coordinator" ? "coordinator-2" : "coordinator";
-    EXPECT_THAT(text_of_log(heir), HasSubstr("goes on with the job"));
+    bool done = false;
+    for (int tries = 0; tries < 3 && !done; ++tries) {
+        if (tries > 0) { ASSERT_EQ(run_lockstep({"move", "X=5", "Y=5"}).code, 0); }
+        done = is_gone_on_with();
+    }
+    ASSERT_TRUE(done);
     EXPECT_EQ(status().axes(0).position_steps(), 1600);
     EXPECT_EQ(status().axes(1).position_steps(), 0);
     expect_at_rest();

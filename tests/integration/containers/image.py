@@ -103,8 +103,9 @@ def compiler_cache(work):
         return []
     settings = "".join(f"{key} = {say(key)}\n" for key in ("base_dir", "hash_dir", "sloppiness", "max_size"))
     (work / "ccache.conf").write_text("cache_dir = /ccache\n" + settings)
-    return ["--volume", f"{directory}:/ccache", "--volume", f"{work / 'ccache.conf'}:/ccache.conf:ro",
-            "--build-arg", "CCACHE_CONFIGPATH=/ccache.conf"]
+    language = [f"{name}={os.environ[name]}" for name in ("LANG", "LC_ALL") if name in os.environ]
+    told = [word for said in ["CCACHE_CONFIGPATH=/ccache.conf", *language] for word in ("--build-arg", said)]
+    return ["--volume", f"{directory}:/ccache", "--volume", f"{work / 'ccache.conf'}:/ccache.conf:ro", *told]
 
 
 def npm_cache():
