@@ -155,4 +155,5 @@ def on_network_of(composed, part, *words):
 
 
 ALL = (the_image_holds_no_more_than_is_needed, a_machine_comes_up_and_moves, an_axis_is_killed_in_motion,
-       an_axis_is_paused_in_motion, a_machine_moves_without_multicast)
+       an_axis_is_paused_in_motion)
+OF_PEERS = (a_machine_moves_without_multicast,)
