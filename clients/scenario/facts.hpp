@@ -15,6 +15,17 @@ namespace lockstep::scenario {
 
 using Check = proto::ScenarioCheck;
 
+inline constexpr const char* kAsPlayed = "as it was played";  // where what is not on record was found
+
+inline Check check_of(const std::string& asked, const std::string& found, const std::string& where, bool held) {
+    Check check;
+    check.set_asked(asked);
+    check.set_found(found);
+    check.set_where(where);
+    check.set_held(held);
+    return check;
+}
+
 /// After an act the machine was to come to rest.
 struct AwaitedRest {
     std::string act;  // in words

@@ -37,18 +37,13 @@ public:
 
 private:
     void add(const std::string& asked, const std::string& found, const std::string& where, bool held) {
-        Check check;
-        check.set_asked(asked);
-        check.set_found(found);
-        check.set_where(where);
-        check.set_held(held);
-        checks_.push_back(std::move(check));
+        checks_.push_back(check_of(asked, found, where, held));
     }
 
     void check_rest(const AwaitedRest& rest) {
         const std::string asked =
             rest.act + ": " + listed(rest.axes) + " at rest within " + std::to_string(rest.within_frames) + " frames";
-        if (rest.axes.empty()) { return add(asked, "no axis's process ran any more", "as it was played", false); }
+        if (rest.axes.empty()) { return add(asked, "no axis's process ran any more", kAsPlayed, false); }
         const auto at = evidence_.record.all_at_rest(rest.axes, rest.at);
         if (!at) { return add(asked, "the record knows of no rest after it", kWholeLog, false); }
         const double frames =

@@ -177,7 +177,10 @@ MachineState Coordinator::state() const {
                    .config_hash = config_hash_};
     for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }
     if (in_own_move()) { say_progress_of_own(s); }
-    if (inherited_) { s.line = inherited_->line, s.progress = inherited_->progress; }
+    if (inherited_) {
+        s.line = inherited_->line;
+        s.progress = inherited_->progress;
+    }
     if (moving_ && job_) { say_progress(s); }
     if (moving_ && job_ && intent_ == Intent::GoOn) { say_rests(s); }
     return s;

@@ -22,6 +22,12 @@ std::string how(int status) {
                              : "was ended by signal " + std::to_string(WTERMSIG(status));
 }
 
+/// Also one that is paused.
+void tell_to_end(pid_t pid, int signal) {
+    ::kill(pid, signal);
+    ::kill(pid, SIGCONT);
+}
+
 }  // namespace
 
 Cast::Cast(const std::vector<ServiceLine>& lines, StateDirectory state) : state_(std::move(state)) {
@@ -89,8 +95,7 @@ bool Cast::is_acting(const std::string& name) {
 }
 
 bool Cast::end(Part& part, int signal) {
-    ::kill(part.pid, signal);
-    ::kill(part.pid, SIGCONT);
+    tell_to_end(part.pid, signal);
     const auto deadline = monotonic_now() + kEndPatience;
     while (waitpid(part.pid, nullptr, WNOHANG) == 0) {
         if (monotonic_now() > deadline) { return false; }
@@ -105,8 +110,7 @@ void Cast::end_all() {
     reap();
     for (const Part& part : parts_) {
         if (part.pid == 0) { continue; }
-        ::kill(part.pid, SIGTERM);
-        ::kill(part.pid, SIGCONT);
+        tell_to_end(part.pid, SIGTERM);
     }
     for (Part& part : parts_) {
         if (part.pid != 0 && !end(part, SIGTERM)) { end(part, SIGKILL); }
@@ -124,12 +128,9 @@ void Cast::reap() {
 }
 
 Check Cast::ends_check() const {
-    Check check;
-    check.set_asked("no process ends by itself");
-    check.set_found(ended_by_themselves_.empty() ? "none did" : ended_by_themselves_);
-    check.set_where("the processes' logs");
-    check.set_held(ended_by_themselves_.empty());
-    return check;
+    const bool none_did = ended_by_themselves_.empty();
+    return check_of("no process ends by itself", none_did ? "none did" : ended_by_themselves_, "the processes' logs",
+                    none_did);
 }
 
 }  // namespace lockstep::scenario

@@ -284,11 +284,7 @@ void Player::tell(const std::string& what, Tick at) {
 }
 
 void Player::add_check(const std::string& asked, const std::string& found, bool held) {
-    Check& check = seen_.checks.emplace_back();
-    check.set_asked(asked);
-    check.set_found(found);
-    check.set_where("as it was played");
-    check.set_held(held);
+    seen_.checks.push_back(check_of(asked, found, kAsPlayed, held));
 }
 
 }  // namespace lockstep::scenario

@@ -105,12 +105,12 @@ void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, 
     const double lived_s = static_cast<double>(lived.count()) * 1e-9;
     for (const auto& clock : scenario.asked.wrong_clock()) {
         if (!clock.has_step_s()) { continue; }
-        Check& check = seen.checks.emplace_back();
-        check.set_asked("the clock of " + clock.axis() + " is set by " + number_text(clock.step_s()) + " s, " +
-                        number_text(clock.step_at_s()) + " s after its process started");
-        check.set_held(lived_s > clock.step_at_s());
-        check.set_found(check.held() ? "it was" : "never came to pass: all ended after " + fixed(lived_s, 1) + " s");
-        check.set_where("as it was played");
+        const bool was_set = lived_s > clock.step_at_s();
+        seen.checks.push_back(
+            check_of("the clock of " + clock.axis() + " is set by " + number_text(clock.step_s()) + " s, " +
+                         number_text(clock.step_at_s()) + " s after its process started",
+                     was_set ? "it was" : "never came to pass: all ended after " + fixed(lived_s, 1) + " s", kAsPlayed,
+                     was_set));
     }
 }
 
