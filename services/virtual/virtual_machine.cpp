@@ -7,35 +7,6 @@
 namespace lockstep {
 namespace {
 
-/// The messages of one kind that a loop finds, and the rest.
-struct Mail {
-    std::vector<Frame> frames;
-    std::vector<AxisState> axes;
-    std::vector<MachineState> machine;
-    std::vector<AxisCommand> axis_commands;
-    std::vector<Command> commands;
-    std::vector<Reply> replies;
-    std::vector<ClockRequest> clock_requests;
-    std::vector<ClockReply> clock_replies;
-
-    void operator()(const Frame& m) { frames.push_back(m); }
-    void operator()(const AxisState& m) { axes.push_back(m); }
-    void operator()(const MachineState& m) { machine.push_back(m); }
-    void operator()(const AxisCommand& m) { axis_commands.push_back(m); }
-    void operator()(const Command& m) { commands.push_back(m); }
-    void operator()(const Reply& m) { replies.push_back(m); }
-    void operator()(const ClockRequest& m) { clock_requests.push_back(m); }
-    void operator()(const ClockReply& m) { clock_replies.push_back(m); }
-};
-
-Mail collect(VirtualNetwork& network, Tick now, std::size_t address) {
-    Mail mail;
-    while (const auto message = network.receive(now, static_cast<VirtualNetwork::Address>(address))) {
-        std::visit(mail, *message);
-    }
-    return mail;
-}
-
 /// Its first piece starts a tick later than it should: the frame does not join the one before.
 void damage_newest_frame(RegisterWindow& window) {
     using namespace registers;
@@ -111,7 +82,7 @@ void VirtualMachine::crash(std::size_t process) {
 }
 
 void VirtualMachine::restart(std::size_t process) {
-    (void)collect(network_, now_, process);  // nobody was there to receive it
+    mail_.collect(network_, now_, process);  // nobody was there to receive it
     if (!is_coordinator(process)) { device(process).advance(device_time(process)); }
     start(process);
 }
@@ -190,28 +161,29 @@ bool VirtualMachine::is_up(std::size_t process) const {
 
 /// Whose clock messages come before anything else happens.
 std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
+    if (!asks_time()) { return std::nullopt; }
     Tick soonest{std::numeric_limits<std::int64_t>::max()};
     if (const auto process = next_process()) { soonest = processes_[*process].next; }
     if (!turns_.empty()) { soonest = std::min(soonest, turns_.begin()->first); }
     std::optional<std::size_t> next;
     for (std::size_t i = 0; i < processes_.size(); ++i) {
-        const auto arrival = network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(i)));
-        if (!arrival || *arrival >= soonest) { continue; }
+        const Tick arrival = network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(i)));
+        if (arrival >= soonest) { continue; }
         next = i;
-        soonest = *arrival;
+        soonest = arrival;
     }
     return next;
 }
 
 void VirtualMachine::take_clock_mail(std::size_t process) {
-    now_ = std::max(now_, *network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(process))));
-    const Mail mail = collect(network_, now_, clock_address(process));
+    now_ = std::max(now_, network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(process))));
+    mail_.collect(network_, now_, clock_address(process));
     if (!is_up(process)) { return; }
-    for (const ClockRequest& request : mail.clock_requests) {
+    for (const ClockRequest& request : mail_.clock_requests) {
         send(process, clock_address(request.axis),
              std::make_shared<const VirtualMessage>(ClockReply{request, now_, now_}));
     }
-    for (const ClockReply& reply : mail.clock_replies) {
+    for (const ClockReply& reply : mail_.clock_replies) {
         Axis& axis = axes_[process];
         if (const auto exchange = axis.asker->hear(reply, process_time(process))) {
             axis.exchanges.push_back(*exchange);
@@ -220,7 +192,7 @@ void VirtualMachine::take_clock_mail(std::size_t process) {
 }
 
 void VirtualMachine::ask_time(std::size_t i) {
-    if (options_.machine.timing.time_source != TimeSource::Network) { return; }
+    if (!asks_time()) { return; }
     if (const auto request = axes_[i].asker->ask(process_time(i))) {
         send(i, clock_address(coordinator_address()), std::make_shared<const VirtualMessage>(*request));
     }
@@ -254,23 +226,26 @@ bool VirtualMachine::advance_until(const std::function<bool()>& done, Ticks limi
 void VirtualMachine::run_loop(std::size_t i) {
     Process& process = processes_[i];
     process.next += period_;
-    if (process.decided.index() == 0) {
-        if (is_coordinator(i)) {
-            process.decided = decide_coordinator(i);
-        } else {
-            process.decided = decide_axis(i);
-        }
-        if (process.stalls_until > now_) {
-            process.next = std::max(process.next, process.stalls_until);
-            return;
-        }
+    if (process.decided.index() != 0) {
+        const auto decided = std::exchange(process.decided, std::monostate{});
+        std::visit([&](const auto& out) { carry_out(i, out); }, decided);
+    } else if (is_coordinator(i)) {
+        act(i, decide_coordinator(i));
+    } else {
+        act(i, decide_axis(i));
     }
-    const auto decided = std::exchange(process.decided, std::monostate{});
-    std::visit([&](const auto& out) { carry_out(i, out); }, decided);
+}
+
+template <typename Outputs>
+void VirtualMachine::act(std::size_t i, Outputs&& out) {
+    Process& process = processes_[i];
+    if (process.stalls_until <= now_) { return carry_out(i, out); }
+    process.decided = std::forward<Outputs>(out);
+    process.next = std::max(process.next, process.stalls_until);
 }
 
 AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
-    const Mail mail = collect(network_, now_, i);
+    mail_.collect(network_, now_, i);
     const auto on_step = [&](StepEdge step) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
     };
@@ -278,7 +253,7 @@ AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
     const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
     device(i).advance(device_time(i));
     AxisOutputs out = node.decide(
-        process_time(i), {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands, exchanges}, on_step);
+        process_time(i), {mail_.frames, mail_.axes, mail_.machine, mail_.axis_commands, mail_.commands, exchanges}, on_step);
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
     return out;
 }
@@ -293,8 +268,8 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
 }
 
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
-    const Mail mail = collect(network_, now_, here);
-    const CoordinatorInputs in{now_, mail.axes, mail.machine, mail.commands};
+    mail_.collect(network_, now_, here);
+    const CoordinatorInputs in{now_, mail_.axes, mail_.machine, mail_.commands};
     CoordinatorOutputs out = coordinator(here)->step(in);
     if (auto& flight = coordinator_flights_[here - axes_.size()]) { flight->take(in, out); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(here, now_, out); }
@@ -328,13 +303,13 @@ void VirtualMachine::multicast(VirtualMessage message, std::size_t from) {
 }
 
 void VirtualMachine::listen() {
-    Mail mail = collect(network_, now_, client_address());
-    for (const AxisState& state : mail.axes) {
+    mail_.collect(network_, now_, client_address());
+    for (const AxisState& state : mail_.axes) {
         if (state.axis >= axis_states_.size()) { continue; }
         auto& newest = axis_states_[state.axis];
         if (!newest || state.stamp >= newest->stamp) { newest = state; }
     }
-    for (const MachineState& state : mail.machine) {
+    for (const MachineState& state : mail_.machine) {
         if (state.phase == MachinePhase::Standby) { continue; }
         // Of two that speak the higher term counts, unless it has fallen silent.
         const bool first = !machine_state_.has_value();
@@ -342,7 +317,7 @@ void VirtualMachine::listen() {
         const Slot silence = rules::silence_slots(options_.machine.timing);
         if (first || (state.term >= machine_state_->term ? since >= 0 : since > silence)) { machine_state_ = state; }
     }
-    for (Reply& reply : mail.replies) { replies_.push_back(std::move(reply)); }
+    for (Reply& reply : mail_.replies) { replies_.push_back(std::move(reply)); }
 }
 
 std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std::uint64_t program, Ticks ticks) {

@@ -15,6 +15,7 @@
 #include "core/coordinator/coordinator.hpp"
 #include "core/flight/coordinator_flight.hpp"
 #include "services/axis/axis_node.hpp"
+#include "services/virtual/mail.hpp"
 #include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_network.hpp"
@@ -134,9 +135,12 @@ private:
     bool is_up(std::size_t process) const;
     std::optional<std::size_t> next_clock_mail() const;
     void take_clock_mail(std::size_t process);
+    bool asks_time() const { return options_.machine.timing.time_source == TimeSource::Network; }
     void ask_time(std::size_t i);
 
     void run_loop(std::size_t process);
+    template <typename Outputs>
+    void act(std::size_t process, Outputs&& out);
     AxisOutputs decide_axis(std::size_t i);
     CoordinatorOutputs decide_coordinator(std::size_t here);
     void carry_out(std::size_t process, const AxisOutputs& out);
@@ -156,6 +160,7 @@ private:
 
     VirtualOptions options_;
     VirtualNetwork network_;
+    Mail mail_;  // of whose turn it is
     Tick now_;
     Ticks period_;
     std::vector<Axis> axes_;

@@ -9,6 +9,7 @@ bool VirtualNetwork::happens(double probability) {
 }
 
 bool VirtualNetwork::is_cut(Address from, Address to) const {
+    if (cuts_.empty()) { return false; }
     const auto link = cuts_.find({from, to});
     return link != cuts_.end() && link->second > 0;
 }
@@ -35,19 +36,6 @@ void VirtualNetwork::post(Tick now, Address to, SharedMessage message) {
     auto place = mailbox.end();
     while (place != mailbox.begin() && std::prev(place)->arrives > now + delay) { --place; }
     mailbox.insert(place, {now + delay, std::move(message)});
-}
-
-std::optional<Tick> VirtualNetwork::next_arrival(Address to) const {
-    if (to >= mailboxes_.size() || mailboxes_[to].empty()) { return std::nullopt; }
-    return mailboxes_[to].front().arrives;
-}
-
-SharedMessage VirtualNetwork::receive(Tick now, Address to) {
-    const auto next = next_arrival(to);
-    if (!next || *next > now) { return nullptr; }
-    SharedMessage message = std::move(mailboxes_[to].front().message);
-    mailboxes_[to].pop_front();
-    return message;
 }
 
 }  // namespace lockstep

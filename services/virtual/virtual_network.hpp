@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <random>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "services/virtual/corruption.hpp"
@@ -34,11 +36,20 @@ public:
 
     void send(Tick now, Address from, Address to, SharedMessage message);
 
-    /// The next message that has arrived at `to` by `now`, oldest arrival first. Null: no more.
-    SharedMessage receive(Tick now, Address to);
+    /// Hands what has arrived at `to` by `now` to `take`, oldest arrival first.
+    template <typename Take>
+    void receive(Tick now, Address to, Take&& take) {
+        while (next_arrival(to) <= now) {
+            std::visit(take, *mailboxes_[to].front().message);
+            mailboxes_[to].pop_front();
+        }
+    }
 
-    /// When the next message arrives there. None: none is on its way.
-    std::optional<Tick> next_arrival(Address to) const;
+    /// When the next message arrives there; kNever: none is on its way.
+    Tick next_arrival(Address to) const {
+        return to < mailboxes_.size() && !mailboxes_[to].empty() ? mailboxes_[to].front().arrives : kNever;
+    }
+    static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
 
     /// A link may be cut several times over; it carries messages again when it has been mended as often.
     void cut(Address from, Address to) { ++cuts_[{from, to}]; }

@@ -1,0 +1,50 @@
+// What a loop finds in its mailbox, sorted by kind.
+#pragma once
+
+#include <vector>
+
+#include "services/virtual/virtual_network.hpp"
+
+namespace lockstep {
+
+/// Emptied and filled anew for each loop: what its lists have taken of memory stays.
+class Mail {
+public:
+    /// All that has arrived at `address` by `now`, and nothing else.
+    void collect(VirtualNetwork& network, Tick now, std::size_t address) {
+        clear();
+        network.receive(now, static_cast<VirtualNetwork::Address>(address), *this);
+    }
+
+    std::vector<Frame> frames;
+    std::vector<AxisState> axes;
+    std::vector<MachineState> machine;
+    std::vector<AxisCommand> axis_commands;
+    std::vector<Command> commands;
+    std::vector<Reply> replies;
+    std::vector<ClockRequest> clock_requests;
+    std::vector<ClockReply> clock_replies;
+
+    void operator()(const Frame& m) { frames.push_back(m); }
+    void operator()(const AxisState& m) { axes.push_back(m); }
+    void operator()(const MachineState& m) { machine.push_back(m); }
+    void operator()(const AxisCommand& m) { axis_commands.push_back(m); }
+    void operator()(const Command& m) { commands.push_back(m); }
+    void operator()(const Reply& m) { replies.push_back(m); }
+    void operator()(const ClockRequest& m) { clock_requests.push_back(m); }
+    void operator()(const ClockReply& m) { clock_replies.push_back(m); }
+
+private:
+    void clear() {
+        frames.clear();
+        axes.clear();
+        machine.clear();
+        axis_commands.clear();
+        commands.clear();
+        replies.clear();
+        clock_requests.clear();
+        clock_replies.clear();
+    }
+};
+
+}  // namespace lockstep
