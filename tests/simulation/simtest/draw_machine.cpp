@@ -83,15 +83,29 @@ AxisConfig draw_axis(Draw& draw, const std::string& name) {
     return axis;
 }
 
+AxisConfig draw_axis_of_short_searches(Draw& draw, const std::string& name, const ProtocolTiming& timing) {
+    constexpr double kMostSlots = 4000;
+    AxisConfig axis = draw_axis(draw, name);
+    while (search_slots(axis, timing) > kMostSlots) { axis = draw_axis(draw, name); }
+    return axis;
+}
+
 }  // namespace
 
-MachineConfig draw_machine(Draw& draw, std::size_t axes) {
+double search_slots(const AxisConfig& axis, const ProtocolTiming& timing) {
+    const double travel_mm = axis.position_max_mm - axis.position_min_mm;
+    return travel_mm / axis.homing.search_velocity_mm_s * 1e6 / static_cast<double>(timing.slot_us);
+}
+
+MachineConfig draw_machine(Draw& draw, std::size_t axes, bool long_searches) {
     MachineConfig machine{.name = "drawn"};
     machine.tick_ns = draw.any_of<std::int64_t>({1000, 1000, 1000, 500, 2000});
     machine.timing = draw_timing(draw);
     for (std::size_t i = 0; i < axes; ++i) {
         std::string name = "A";
-        machine.axes.push_back(draw_axis(draw, name += std::to_string(i + 1)));
+        name += std::to_string(i + 1);
+        machine.axes.push_back(long_searches ? draw_axis(draw, name)
+                                             : draw_axis_of_short_searches(draw, name, machine.timing));
     }
     return machine;
 }

@@ -134,21 +134,14 @@ void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scen
     }
 }
 
-/// A search over the whole travel, as a stuck switch may cause, and as follows a fault far from the switch.
-double longest_search_slots(const MachineConfig& machine) {
-    double longest = 0;
-    for (const AxisConfig& axis : machine.axes) {
-        const double travel = axis.position_max_mm - axis.position_min_mm;
-        longest = std::max(longest, travel / axis.homing.search_velocity_mm_s);
-    }
-    return longest * 1e6 / static_cast<double>(machine.timing.slot_us);
-}
-
 /// Faults of axes' switches, slides and devices in jobs and homings, alone or shortly after what else goes wrong there.
 void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     Draw draw(seed ^ 0x0102030405060708U);
     constexpr double kLongSearch = 40'000;
-    if (longest_search_slots(scenario.machine) > kLongSearch) { return; }
+    const auto takes_long = [&](const AxisConfig& axis) {
+        return search_slots(axis, scenario.machine.timing) > kLongSearch;
+    };
+    if (std::ranges::any_of(scenario.machine.axes, takes_long)) { return; }
     if (mixed && draw.chance(0.7)) { return; }
     scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}});
     scenario.asks_in_fault = draw.chance(0.5);
@@ -185,13 +178,13 @@ void give_clocks(Draw& draw, Scenario& scenario) {
 
 }  // namespace
 
-Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, std::optional<std::size_t> axes) {
+Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const MachineKind& kind) {
     Draw draw(seed);
     Scenario scenario{.seed = seed};
     FaultKinds faults = asked.mixed ? half_of(draw, asked) : asked;
     if (faults.clock) { faults.corrupt = false; }  // no bound survives a reply that lies
     const std::size_t drawn = 1 + draw.index(6);
-    scenario.machine = draw_machine(draw, axes.value_or(drawn));
+    scenario.machine = draw_machine(draw, kind.axes.value_or(drawn), kind.long_searches);
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) { give_clocks(draw, scenario); }
     if (draw.chance(0.3)) {

@@ -46,7 +46,7 @@ Tally run_all(const Options& options) {
     for (std::uint64_t n = 0; n < options.runs; ++n) {
         const std::uint64_t seed = options.seed + n;
         const bool twice = options.runs == 1 || n % kTwiceEvery == 0;
-        const Verdict verdict = run_seed(seed, {options.kinds(), options.axes, twice, options.trace});
+        const Verdict verdict = run_seed(seed, {options.kinds(), options.machine, twice, options.trace});
         tally.add(verdict);
         if (options.verbose || !verdict.violations.empty()) { print_run(seed, verdict, options); }
     }
@@ -61,7 +61,10 @@ int main(int argc, char** argv) {
     CLI::App app{"Runs random machines, programs, networks and interrupts in virtual time and judges every step."};
     app.add_option("--seed", options.seed, "the first seed");
     app.add_option("--runs", options.runs, "how many, with seeds that follow each other");
-    app.add_option("--axes", options.axes, "of every machine; drawn, 1 to 6, if not given")->check(CLI::Range(1, 32));
+    app.add_option("--axes", options.machine.axes, "of every machine; drawn, 1 to 6, if not given")
+        ->check(CLI::Range(1, 32));
+    app.add_flag("--long-searches", options.machine.long_searches,
+                 "also machines that search their switches for minutes: ten times the time");
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",

@@ -99,9 +99,10 @@ void print_run(std::uint64_t seed, const Verdict& verdict, const Options& option
         std::fprintf(to, "  ... and %zu more\n", verdict.violations.size() - kMostPrinted);
     }
     if (verdict.violations.empty()) { return; }
-    const std::string axes = options.axes ? " --axes " + std::to_string(*options.axes) : "";
-    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s --trace\n", seed,
-                 joined(options.faults).c_str(), axes.c_str());
+    const MachineKind& machine = options.machine;
+    const std::string axes = machine.axes ? " --axes " + std::to_string(*machine.axes) : "";
+    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s%s --trace\n", seed,
+                 joined(options.faults).c_str(), axes.c_str(), machine.long_searches ? " --long-searches" : "");
 }
 
 void print_tally(const Tally& t, const Options& options) { options.json ? print_json(t) : print_text(t); }

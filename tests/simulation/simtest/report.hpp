@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace lockstep::simtest {
 struct Options {
     std::uint64_t seed = 1;
     std::uint64_t runs = 100;
-    std::optional<std::size_t> axes;
+    MachineKind machine;
     std::vector<std::string> faults{"none"};
     bool json = false;
     std::string coverage;  // the file to write it into; empty: none

@@ -23,7 +23,7 @@ Violations check_configuration(const MachineConfig& machine) {
 }  // namespace
 
 Verdict run_seed(std::uint64_t seed, const RunOptions& options) {
-    const Scenario scenario = draw_scenario(seed, options.faults, options.axes);
+    const Scenario scenario = draw_scenario(seed, options.faults, options.machine);
     Verdict verdict{.violations = check_configuration(scenario.machine)};
     if (!verdict.violations.empty()) { return verdict; }
     Trace trace(scenario.machine);

@@ -1,8 +1,6 @@
 // One run from one seed: drawn, played, judged.
 #pragma once
 
-#include <optional>
-
 #include "tests/simulation/simtest/coverage.hpp"
 #include "tests/simulation/simtest/scenario.hpp"
 #include "tests/simulation/simtest/violation.hpp"
@@ -22,9 +20,9 @@ struct Verdict {
 /// How a seed is run.
 struct RunOptions {
     FaultKinds faults;
-    std::optional<std::size_t> axes;  // drawn if not given
-    bool twice = false;               // plays it a second time, to see that it comes out the same
-    bool trace = false;               // tells it as it happens
+    MachineKind machine;
+    bool twice = false;  // plays it a second time, to see that it comes out the same
+    bool trace = false;  // tells it as it happens
 };
 
 Verdict run_seed(std::uint64_t seed, const RunOptions& options);

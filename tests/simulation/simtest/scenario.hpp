@@ -40,6 +40,12 @@ struct FaultKinds {
     }
 };
 
+/// Which machines are drawn.
+struct MachineKind {
+    std::optional<std::size_t> axes;  // 1 to 6 if not given
+    bool long_searches = false;       // draw_machine.hpp
+};
+
 /// A command that must be refused, and why; the machine goes on as if it had not been given.
 struct WrongCommand {
     CommandKind kind = CommandKind::Resume;
@@ -113,6 +119,6 @@ struct Scenario {
 };
 
 /// axes: how many; none: drawn too.
-Scenario draw_scenario(std::uint64_t seed, const FaultKinds& faults, std::optional<std::size_t> axes);
+Scenario draw_scenario(std::uint64_t seed, const FaultKinds& faults, const MachineKind& kind);
 
 }  // namespace lockstep::simtest
