@@ -1,5 +1,6 @@
 #include "tests/simulation/simtest/bench.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/clock/clock_asker.hpp"
@@ -9,21 +10,32 @@ namespace lockstep::simtest {
 
 namespace {
 
+/// From top speed on any path: a coordinator started anew is followed, and answers, when the axes rest.
+double longest_stop_seconds(const MachineConfig& machine) {
+    double longest = 0;
+    for (const AxisConfig& axis : machine.axes) {
+        longest = std::max(longest, axis.max_velocity_mm_s / axis.max_decel_mm_s2);
+    }
+    return longest;
+}
+
 /// Of everything that is planned, and what it takes to be heard again each time.
 double outage_seconds(const Scenario& scenario) {
     const ProtocolTiming& t = scenario.machine.timing;
     double slots = 0;
+    double stops_s = 0;
     const auto add = [&](const std::vector<PlannedFault>& faults) {
         for (const PlannedFault& planned : faults) {
             slots += static_cast<double>(planned.fault.lasts.value) /
                      static_cast<double>(scenario.machine.slot_ticks().value);
             slots += 4 * static_cast<double>(rules::silence_slots(t));
+            stops_s += longest_stop_seconds(scenario.machine);
         }
     };
     add(scenario.homing_faults);
     for (const Task& task : scenario.tasks) { add(task.faults); }
     const double asking_s = scenario.clocks.empty() ? 0 : 4 * ClockAsker::kPeriod_s;  // for the time, in vain at first
-    return slots * static_cast<double>(t.slot_us) * 1e-6 + asking_s;
+    return slots * static_cast<double>(t.slot_us) * 1e-6 + stops_s + asking_s;
 }
 
 }  // namespace

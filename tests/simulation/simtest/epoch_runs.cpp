@@ -20,16 +20,6 @@ std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
     return net;
 }
 
-LastFrame from_steps(const AxisRecord& axis, const LostRun& lost, const SentEpoch& epoch, std::size_t i) {
-    const std::int64_t net = unrecorded_steps(axis, lost.tracks);
-    std::optional<LastFrame> found;
-    for (FrameNumber k = lost.recorded; k <= lost.armed && (k == 0 || epoch.frames.contains(k)); ++k) {
-        if (steps_to_rest(epoch, i, lost.recorded, k) != net) { continue; }
-        found = LastFrame{found ? found->low : k, k};
-    }
-    return found.value_or(LastFrame{lost.recorded, lost.armed});  // it was stopped on the way
-}
-
 /// Faults that can have had a say in an epoch, from when its first frame was made to the end of its last.
 std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
     const ProtocolTiming& t = recording.machine.timing;
@@ -50,6 +40,25 @@ bool is_emergency_in(const Recording& recording, const SentEpoch& epoch) {
     return std::ranges::any_of(recording.emergencies, [&](const Emergency& e) {
         return e.asked <= last.start + last.ticks && e.rests >= from;
     });
+}
+
+/// Whether pulses may have ceased anywhere: then what the steps amount to tells nothing.
+bool may_be_cut(const Recording& recording, const SentEpoch& epoch, std::size_t axis) {
+    const SentFrame& last = epoch.frames.rbegin()->second;
+    return is_emergency_in(recording, epoch) ||
+           may_be_stopped(recording, axis, epoch.frames.begin()->second.start, last.start + last.ticks);
+}
+
+LastFrame from_steps(const Recording& recording, const LostRun& lost, const SentEpoch& epoch, std::size_t i) {
+    const LastFrame any{lost.recorded, lost.armed};
+    if (may_be_cut(recording, epoch, i)) { return any; }
+    const std::int64_t net = unrecorded_steps(recording.axes[i], lost.tracks);
+    std::optional<LastFrame> found;
+    for (FrameNumber k = lost.recorded; k <= lost.armed && (k == 0 || epoch.frames.contains(k)); ++k) {
+        if (steps_to_rest(epoch, i, lost.recorded, k) != net) { continue; }
+        found = LastFrame{found ? found->low : k, k};
+    }
+    return found.value_or(any);
 }
 
 /// One fault at a time parts at most its victim. Several, or pulses that cease, may part anyone.
@@ -76,7 +85,7 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
             if (track.epoch == number) { last.low = last.high = std::max(last.high, track.frame); }
         }
         for (const LostRun& lost : axis.lost) {
-            if (lost.epoch == number) { last = from_steps(axis, lost, epoch, i); }
+            if (lost.epoch == number) { last = from_steps(recording, lost, epoch, i); }
         }
         runs.last.push_back(last);
         least = std::min(least, last.high);

@@ -51,6 +51,9 @@ constexpr std::array kExplanations{
     Explanation{Cause::Switch, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Switch, FaultCode::HomeSwitchNotFound},
     Explanation{Cause::Switch, FaultCode::HomeSwitchUnsteady},
+    // Onto a limit in a search, or back behind the switch.
+    Explanation{Cause::Push, FaultCode::HomeSwitchNotFound},
+    Explanation{Cause::Push, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Push, FaultCode::HomeSwitchUnsteady},
     Explanation{Cause::Push, FaultCode::FollowingError},
     Explanation{Cause::Push, FaultCode::LimitHit},
