@@ -252,8 +252,9 @@ AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
     AxisNode& node = *axes_[i].node;
     const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
     device(i).advance(device_time(i));
-    AxisOutputs out = node.decide(
-        process_time(i), {mail_.frames, mail_.axes, mail_.machine, mail_.axis_commands, mail_.commands, exchanges}, on_step);
+    AxisOutputs out =
+        node.decide(process_time(i),
+                    {mail_.frames, mail_.axes, mail_.machine, mail_.axis_commands, mail_.commands, exchanges}, on_step);
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
     return out;
 }
