@@ -14,8 +14,8 @@ TRIES = 6        # of what a host that stalls for longer than the machine bears 
 
 
 class Composed:
-    def __init__(self, podman, service, root, work):
-        self.podman = podman
+    def __init__(self, podman, service, root, work, programs):
+        self.podman, self.programs = podman, programs
         self.files = ["compose.yaml"]
         self.folder, self.work = root / "deploy", work
         self.environment = os.environ | {"DOCKER_HOST": f"unix://{service.socket}", "COMPOSE_PROJECT_NAME": "mill"}
