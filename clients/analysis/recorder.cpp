@@ -140,6 +140,7 @@ void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
         if (is_during(event.at, job)) { event.line = moves.line_at(event.at); }
     }
     job.unasked_steps = moves.unasked_steps();
+    job.moves_without_distance = moves.moves_without_distance();
     for (std::size_t i = 0; i < moves.asked().size(); ++i) { note_move(job, moves.move(i)); }
 }
 
