@@ -2,6 +2,7 @@
 
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -35,18 +36,20 @@ std::string clock_error_text(const Asked::WrongClock& clock) {
     return text;
 }
 
-/// The command lines of all processes, each begun where its network is.
-std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const StateDirectory& state) {
+/// The command lines of all processes, each begun where its network is, or in its container.
+std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const Containers* containers,
+                                  const StateDirectory& state) {
     const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
                         scenario.asked.continues()};
-    auto lines =
-        service_lines(scenario.machine, placed_on(scenario.machine, host_name()), layout, program_folder(), state);
+    const fs::path programs = containers == nullptr ? program_folder() : "";
+    auto lines = service_lines(scenario.machine, placed_on(scenario.machine, host_name()), layout, programs, state);
     for (ServiceLine& line : lines) {
         for (const auto& clock : scenario.asked.wrong_clock()) {
             if (line.name != "axis-" + clock.axis()) { continue; }
             line.words.insert(line.words.end(), {"--clock-error", clock_error_text(clock)});
         }
-        const Words entry = network.entry(line.name);
+        const Words entry = containers == nullptr ? network.entry(line.name)
+                                                  : containers->entry(line.name, network.namespace_of(line.name));
         line.words.insert(line.words.begin(), entry.begin(), entry.end());
     }
     return lines;
@@ -130,7 +133,8 @@ Seen play_with(const Scenario& scenario, const ChosenMachine& machine, Cast& cas
 }
 
 /// Brings it up, plays, takes it down.
-Seen put_on(const Scenario& scenario, const fs::path& folder) {
+Seen put_on(const Scenario& scenario, const Containers* containers, const fs::path& folder) {
+    if (containers != nullptr) { umask(0); }  // a container's user writes what root has made, too
     const StateDirectory state(scenario.machine.name);
     const fs::path file = folder / "machine.textproto";
     const auto made = state.make();
@@ -144,7 +148,8 @@ Seen put_on(const Scenario& scenario, const fs::path& folder) {
     if (!network) { return broken(network.error()); }
     const Logger logger(scenario.machine.network.lcm_url, folder);
     if (!logger.pid()) { return broken(logger.pid().error()); }
-    Cast cast(lines_of(scenario, *network, state), state);
+    Cast cast(lines_of(scenario, *network, containers, state), state,
+              containers == nullptr ? fs::path() : Containers::numbers());
     Seen seen = play_with(scenario, {file, scenario.machine, config_hash(scenario.machine)}, cast, *network, state);
     seen.checks.push_back(cast.ends_check());
     cast.end_all();
@@ -176,11 +181,12 @@ proto::ScenarioReport report_of(const Scenario& scenario, const Seen& seen, cons
 
 }  // namespace
 
-proto::ScenarioReport play(const Scenario& scenario, int keep) {
+proto::ScenarioReport play(const Scenario& scenario, const std::optional<Containers>& containers, int keep) {
     const auto begun = monotonic_now();
     const fs::path folder = world_folder();
     setenv("LOCKSTEP_STATE", (folder / "state").c_str(), 1);
-    const Seen seen = put_on(scenario, folder);
+    const bool in_containers = scenario.asked.place() == Asked::CONTAINER;
+    const Seen seen = put_on(scenario, in_containers ? &*containers : nullptr, folder);
     std::vector<Check> judged;
     if (seen.broken.empty()) { judged = judge(scenario, seen, read_evidence(scenario.machine, folder)); }
     proto::ScenarioReport report = report_of(scenario, seen, judged);
