@@ -4,10 +4,11 @@
 #include <system_error>
 
 #include "clients/analysis/figures.hpp"
+#include "clients/analysis/late_meter.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "clients/analysis/recorder.hpp"
-#include "clients/analysis/second_thread.hpp"
 #include "clients/analysis/sorter.hpp"
+#include "clients/analysis/stage_thread.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -65,14 +66,19 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
         if (auto made = make_directory(directory); !made) { return std::unexpected(made.error()); }
     }
     Recorder recorder;
-    SecondThread recording(recorder);
-    Sorter sorter(options, recording);
+    StageThread recording(recorder);
+    LateMeter late(recording);
+    StageThread comparing(late);
+    Sorter sorter(options, comparing);
     const auto events = read_log(log, sorter, options.progress);
     if (!events) { return std::unexpected(events.error()); }
     const auto written = sorter.finish();
     if (!written) { return std::unexpected(written.error()); }
+    comparing.finish();
+    auto skew = late.finish();
     recording.finish();
     Analysis analysis = recorder.finish(sorter);
+    analysis.step_skew = std::move(skew);
     if (analysis.axes.empty() && analysis.jobs.empty()) {
         return std::unexpected(log.string() + ": nothing in it is recorded by Lockstep" + of_machine(options.machine) +
                                first_reason(analysis));

@@ -46,7 +46,8 @@ struct JobLog {
     std::int64_t made_steps = 0;
     std::int64_t unasked_steps = 0;  // that no move asked for
     std::int64_t moves_not_whole = 0;
-    std::optional<double> largest_distance_mm;  // from the line asked
+    std::optional<double> largest_distance_mm;  // from the line asked, where that is known
+    std::int64_t moves_without_distance = 0;    // for steps that came too late in the log
     TickHistogram late;                         // of its steps
 
     std::int64_t interruptions() const { return std::max<std::int64_t>(0, epochs - legs); }

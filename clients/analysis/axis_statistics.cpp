@@ -11,8 +11,10 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     if (batch.steps.empty()) { return; }
     if (!first_) { begin(batch.steps.front(), batch.position_before_steps); }
     std::int64_t position = batch.position_before_steps;
-    measured_.resize(batch.steps.size());
-    MeasuredStep* step = measured_.data();
+    const auto measured = std::make_shared<MeasuredSteps>();
+    measured->steps.resize(batch.steps.size());
+    measured->clock_error = batch.clock_error;
+    MeasuredStep* step = measured->steps.data();
     for (const StepEdge& edge : batch.steps) {
         position += edge.direction;
         lowest_ = std::min(lowest_, position);
@@ -23,7 +25,7 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     }
     steps_ += static_cast<std::int64_t>(batch.steps.size());
     clock_error_ = std::max(clock_error_, batch.clock_error);
-    if (listener_ != nullptr) { listener_->on_measured(lane_, measured_, batch.clock_error); }
+    if (listener_ != nullptr) { listener_->on_measured(lane_, measured); }
 }
 
 void AxisStatistics::on_break(const Break& what) {

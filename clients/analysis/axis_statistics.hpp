@@ -62,7 +62,6 @@ private:
     Course acceleration_;
     MeasuredListener* listener_ = nullptr;
     std::size_t lane_ = 0;
-    std::vector<MeasuredStep> measured_;  // of one batch
     std::int64_t steps_ = 0;
     std::optional<StepPlace> first_;
     std::optional<StepPlace> last_;

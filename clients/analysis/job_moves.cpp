@@ -90,8 +90,19 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     }
     stand(line_[axis], static_cast<double>(step.count) * asked_.mm_per_step(axis));
     if (!on_a_line_) { return; }
+    if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
+    newest_ = step.tick;
     double& largest = made_[current_].largest_square_mm2;
     largest = std::max(largest, square_of_distance_mm2());
+}
+
+/// The other axes' steps since then were held against a place where this axis was no more.
+void JobMoves::forget_distances(std::size_t from_move) {
+    for (std::size_t move = from_move; move <= current_; ++move) { made_[move].is_distance_known = false; }
+}
+
+std::int64_t JobMoves::moves_without_distance() const {
+    return std::ranges::count(made_, false, &Made::is_distance_known);
 }
 
 void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& step) {
@@ -134,7 +145,7 @@ MoveLog JobMoves::move(std::size_t number) const {
                 .skew = made.latest - made.earliest};
     if (made.first) {
         log.made = made.last - *made.first + asked.planned - asked.stepping;
-        if (on_a_line_) { log.largest_distance_mm = std::sqrt(made.largest_square_mm2); }
+        if (on_a_line_ && made.is_distance_known) { log.largest_distance_mm = std::sqrt(made.largest_square_mm2); }
     }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
         const MadeByAxis& by_axis = made_by_axis_[number * asked_.axes() + axis];

@@ -31,11 +31,12 @@ struct MoveLog {
     Ticks planned;
     /// From end to end: between its first step and its last, and what the plan has before and behind. None: no steps.
     std::optional<Ticks> made;
-    std::optional<double> largest_distance_mm;  // of any step from the line asked; none where axes moved on their own
-    std::optional<Tick> first;                  // of the steps of the axis that has the most
-    TickHistogram late;                         // of its steps, against the ticks commanded
-    Ticks skew;                                 // from its earliest step to its latest, against these
-    std::vector<AxisMove> axes;                 // in the machine's order
+    /// Of any step from the line asked. None where axes moved on their own, or steps came too late in the log to tell.
+    std::optional<double> largest_distance_mm;
+    std::optional<Tick> first;   // of the steps of the axis that has the most
+    TickHistogram late;          // of its steps, against the ticks commanded
+    Ticks skew;                  // from its earliest step to its latest, against these
+    std::vector<AxisMove> axes;  // in the machine's order
     bool is_dwell = false;
     bool is_whole() const;
 };
@@ -69,11 +70,14 @@ public:
 
     const AskedPath& asked() const { return asked_; }
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
+    /// In the order of time. One that comes late leaves the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
     void take(std::size_t axis, const LateStep& step);
 
     /// Steps that no move asked for.
     std::int64_t unasked_steps() const { return unasked_steps_; }
+    /// Moves whose distance from the line cannot be told.
+    std::int64_t moves_without_distance() const;
     /// The program's line in motion; none before the first.
     std::optional<std::int32_t> line_at(Tick tick) const;
     MoveLog move(std::size_t number) const;
@@ -82,7 +86,8 @@ private:
     struct Made {
         std::optional<Tick> first;  // of the lead axis's steps
         Tick last;
-        double largest_square_mm2 = 0;  // of the distance from its line
+        double largest_square_mm2 = 0;  // of the distance from its line...
+        bool is_distance_known = true;  // ...but for steps that came late
         TickHistogram late;
         Ticks earliest;  // of how late its steps were
         Ticks latest;
@@ -105,6 +110,7 @@ private:
     void begin(std::size_t move);
     void stand(Part& part, double at_mm);
     double square_of_distance_mm2() const;
+    void forget_distances(std::size_t from_move);
 
     AskedPath asked_;
     bool on_a_line_;
@@ -113,6 +119,7 @@ private:
     std::vector<Made> made_;                // by move
     std::vector<MadeByAxis> made_by_axis_;  // by move and axis
     std::size_t current_ = 0;
+    Tick newest_;             // of the steps taken
     std::vector<Part> line_;  // of the current move, by axis
     double line_length_mm_ = 0;
     std::int64_t unasked_steps_ = 0;

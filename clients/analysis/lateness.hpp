@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "clients/analysis/measured_step.hpp"
 #include "clients/analysis/run.hpp"
+#include "clients/analysis/step_queue.hpp"
 
 namespace lockstep::analysis {
 
@@ -24,6 +24,9 @@ struct LateStep {
     std::int8_t direction = 0;
 };
 
+/// Of one run, in the order of the ticks commanded; read on any thread.
+using SharedLate = std::shared_ptr<const std::vector<LateStep>>;
+
 class Lateness {
 public:
     /// So long after a run's end its last steps are waited for: messages are sent every 10 ms. No step is taken to be
@@ -32,34 +35,26 @@ public:
     /// An axis that rests while others move says nothing to wait for.
     static constexpr std::size_t kMaxWaiting = 256;
 
-    using OnRun = std::function<void(const Run&, std::vector<LateStep>)>;
+    using OnRun = std::function<void(const Run&, SharedLate)>;
 
     /// `on_run` hears of each run of an epoch, in the order of their starts.
     explicit Lateness(OnRun on_run) : on_run_(std::move(on_run)) {}
 
-    /// The next steps, whose ticks are machine time within clock_error.
-    void take(std::span<const MeasuredStep> steps, Ticks clock_error);
+    /// The next steps.
+    void take(SharedSteps steps);
     void take(Run run);
     /// Call once, at the end of the log.
     void finish();
 
 private:
-    struct SeenStep {
-        Tick tick;
-        std::int64_t count = 0;  // after it
-        Ticks clock_error;
-        std::int8_t direction = 0;
-    };
-
     void settle();
     Tick first_end() const;
     void compare_first();
     std::vector<LateStep> compare(StepMaker maker);
 
     OnRun on_run_;
-    std::vector<SeenStep> seen_;
-    std::size_t compared_ = 0;  // of them; those behind are of no run yet
-    std::deque<Run> runs_;      // by their starts
+    StepQueue seen_;        // and of no run yet
+    std::deque<Run> runs_;  // by their starts
     std::optional<Tick> last_tick_;
 };
 

@@ -3,7 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <memory>
+#include <vector>
 
 #include "core/units.hpp"
 
@@ -17,11 +18,20 @@ struct MeasuredStep {
     std::int8_t direction = 0;
 };
 
+/// Steps in their order. Their ticks are machine time within clock_error.
+struct MeasuredSteps {
+    std::vector<MeasuredStep> steps;  // one at least
+    Ticks clock_error;
+};
+
+/// What is measured is written once, and read by whoever needs it, on any thread.
+using SharedSteps = std::shared_ptr<const MeasuredSteps>;
+
 class MeasuredListener {
 public:
     virtual ~MeasuredListener() = default;
-    /// A lane is an axis, by number. The steps are in their order; their ticks are machine time within clock_error.
-    virtual void on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) = 0;
+    /// A lane is an axis, by number.
+    virtual void on_measured(std::size_t lane, const SharedSteps& steps) = 0;
 };
 
 }  // namespace lockstep::analysis

@@ -14,22 +14,21 @@ namespace lockstep::analysis {
 
 void Recorder::on_axis(const std::string& name) {
     lanes_.push_back({.axis = name});
-    skew_.add(name);
     moves_.name_lane(merge_.add_lane(), name);
 }
 
-void Recorder::on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) {
+void Recorder::on_measured(std::size_t lane, const SharedSteps& steps) {
     merge_.take(lane, steps);
-    skew_.take(lanes_[lane].axis, steps, clock_error);
     merge_.settle([this](std::size_t of, const MeasuredStep& step) { moves_.take(of, step); });
 }
 
-void Recorder::on_position(const axis_position_t& message) { events_.take(message); }
-
-void Recorder::on_run(std::size_t lane, const Run& run) {
-    events_.take(lanes_[lane].axis, run);
-    skew_.take(lanes_[lane].axis, run);
+void Recorder::on_position(const axis_position_t& message) {
+    events_.take(message);
+    const auto lane = std::ranges::find(lanes_, message.axis, &Lane::axis);
+    merge_.stands(static_cast<std::size_t>(lane - lanes_.begin()), Tick{message.tick}, message.position_steps);
 }
+
+void Recorder::on_run(std::size_t lane, const Run& run) { events_.take(lanes_[lane].axis, run); }
 
 void Recorder::on_job(const job_t& message, LogPlace place) {
     JobLog* record = job(message);
@@ -101,11 +100,11 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
                  *analysis_.config, JobMoves(std::move(asked), on_a_line));
 }
 
-void Recorder::on_late(const std::string& axis, std::span<const LateStep> steps) {
-    moves_.on_late(axis, steps);
+void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
+    moves_.on_late(axis, *steps);
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
-    for (const LateStep& step : steps) { lane->late.add(step); }
+    for (const LateStep& step : *steps) { lane->late.add(step); }
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
@@ -141,6 +140,7 @@ void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
         if (is_during(event.at, job)) { event.line = moves.line_at(event.at); }
     }
     job.unasked_steps = moves.unasked_steps();
+    job.moves_without_distance = moves.moves_without_distance();
     for (std::size_t i = 0; i < moves.asked().size(); ++i) { note_move(job, moves.move(i)); }
 }
 
@@ -162,7 +162,6 @@ void Recorder::note_move(JobLog& job, MoveLog move) {
 }
 
 Analysis Recorder::finish(Sorter& sorter) {
-    analysis_.step_skew = skew_.finish();
     merge_.finish([this](std::size_t lane, const MeasuredStep& step) { moves_.take(lane, step); });
     for (Event& event : events_.events()) {
         const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });

@@ -3,13 +3,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/move_meter.hpp"
-#include "clients/analysis/skew.hpp"
 #include "clients/analysis/sorted_log.hpp"
 #include "clients/analysis/sorter.hpp"
 #include "clients/analysis/step_merge.hpp"
@@ -23,11 +21,12 @@ public:
     Recorder& operator=(const Recorder&) = delete;
 
     void on_axis(const std::string& name) override;
-    void on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) override;
+    void on_measured(std::size_t lane, const SharedSteps& steps) override;
     void on_position(const axis_position_t& message) override;
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const job_t& message, LogPlace place) override;
     void on_damage(LogPlace place, const std::string& what) override;
+    void on_late(const std::string& axis, const SharedLate& steps) override;
 
     /// Call once, at the end of the log. Gives everything away, with what the sorter has of each axis.
     Analysis finish(Sorter& sorter);
@@ -41,7 +40,6 @@ private:
     JobLog* job(const job_t& message);
     void begin_job(const job_t& message, JobLog& job, LogPlace place);
     std::optional<Program> read_documents(const job_t& message, LogPlace place);
-    void on_late(const std::string& axis, std::span<const LateStep> steps);
     bool is_during(Tick tick, const JobLog& job) const;
     void keep_asked_way(const Program& program);
     void note_moves(JobLog& job, const JobMoves& moves);
@@ -50,7 +48,6 @@ private:
     EventLog events_;
     MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
     StepMerge merge_;
-    SkewMeter skew_{[this](const std::string& axis, std::span<const LateStep> steps) { on_late(axis, steps); }};
     std::vector<Lane> lanes_;  // by number
     Analysis analysis_;
     std::string latest_program_;

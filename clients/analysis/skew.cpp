@@ -34,13 +34,13 @@ Lateness& SkewMeter::lateness(const std::string& axis) {
     auto& found = axes_[axis];
     if (!found) {
         found = std::make_unique<Lateness>(
-            [this, axis](const Run& run, std::vector<LateStep> steps) { on_run(axis, run, std::move(steps)); });
+            [this, axis](const Run& run, SharedLate steps) { on_run(axis, run, std::move(steps)); });
     }
     return *found;
 }
 
-void SkewMeter::on_run(const std::string& axis, const Run& run, std::vector<LateStep> steps) {
-    if (on_late_) { on_late_(axis, steps); }
+void SkewMeter::on_run(const std::string& axis, const Run& run, SharedLate steps) {
+    on_late_(axis, steps);
     const FrameKey frame{run.commanded_start(), run.epoch};
     frames_[frame][axis] = std::move(steps);
     latest_[axis] = std::max(latest_[axis], frame);
@@ -61,8 +61,8 @@ void SkewMeter::take_first_frame() {
 
 /// Both axes' steps in the order of the ticks commanded.
 void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_type& second) {
-    const auto& a = first.second;
-    const auto& b = second.second;
+    const auto& a = *first.second;
+    const auto& b = *second.second;
     if (a.empty() || b.empty()) { return; }
     Amounts& amounts = skews_[{first.first, second.first}];
     auto same = amounts.times.end();  // the amount found last: most are the same

@@ -9,7 +9,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,22 +33,20 @@ public:
     /// A frame waits until every axis has told of a later one; so many wait for an axis that tells of none.
     static constexpr std::size_t kFramesWaiting = 64;
 
-    using OnLate = std::function<void(const std::string& axis, std::span<const LateStep> steps)>;
+    using OnLate = std::function<void(const std::string& axis, const SharedLate& steps)>;
     /// `on_late` hears of the steps of each frame, axis by axis.
-    explicit SkewMeter(OnLate on_late = {}) : on_late_(std::move(on_late)) {}
+    explicit SkewMeter(OnLate on_late) : on_late_(std::move(on_late)) {}
 
     /// Call as soon as an axis is heard of.
     void add(const std::string& axis) { lateness(axis); }
-    /// The next steps of an axis, whose ticks are machine time within clock_error.
-    void take(const std::string& axis, std::span<const MeasuredStep> steps, Ticks clock_error) {
-        lateness(axis).take(steps, clock_error);
-    }
+    /// The next steps of an axis.
+    void take(const std::string& axis, SharedSteps steps) { lateness(axis).take(std::move(steps)); }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
     /// Call once, at the end of the log. The pairs that had frames together.
     std::vector<PairSkew> finish();
 
 private:
-    using Steps = std::map<std::string, std::vector<LateStep>>;  // of one frame or tail, by axis
+    using Steps = std::map<std::string, SharedLate>;  // of one frame or tail, by axis
     struct FrameKey {
         Tick start;
         Epoch epoch = 0;
@@ -57,7 +54,7 @@ private:
     };
 
     Lateness& lateness(const std::string& axis);
-    void on_run(const std::string& axis, const Run& run, std::vector<LateStep> steps);
+    void on_run(const std::string& axis, const Run& run, SharedLate steps);
     bool all_are_past_first_frame() const;
     void take_first_frame();
     /// How often each amount was seen, and the largest error.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "clients/analysis/damage.hpp"
+#include "clients/analysis/lateness.hpp"
 #include "clients/analysis/measured_step.hpp"
 #include "clients/analysis/run.hpp"
 
@@ -23,6 +24,8 @@ public:
     virtual void on_job(const job_t& message, LogPlace place) = 0;
     /// What is there cannot be read, or not understood.
     virtual void on_damage(LogPlace place, const std::string& what) = 0;
+    /// How late the steps of a run were: told by LateMeter, which is told all else.
+    virtual void on_late(const std::string& /*axis*/, const SharedLate& /*steps*/) {}
 };
 
 }  // namespace lockstep::analysis

@@ -8,18 +8,40 @@ std::size_t StepMerge::add_lane() {
     return lanes_.size() - 1;
 }
 
-void StepMerge::take(std::size_t lane, std::span<const MeasuredStep> steps) {
-    if (steps.empty()) { return; }
-    lanes_[lane].steps.insert(lanes_[lane].steps.end(), steps.begin(), steps.end());
-    newest_ = std::max(newest_, steps.back().tick);
+void StepMerge::take(std::size_t number, SharedSteps steps) {
+    Lane& lane = lanes_[number];
+    const MeasuredStep& newest = steps->steps.back();
+    lane.told_until = std::max(lane.told_until, newest.tick);
+    lane.count = newest.count;
+    lane.is_heard = lane.is_awaited = true;
+    waiting_ += steps->steps.size();
+    lane.steps.add(std::move(steps));
 }
 
-void StepMerge::forget_told() {
-    for (auto& [steps, told] : lanes_) {
-        if (told * 2 < steps.size()) { continue; }
-        steps.erase(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(told));
-        told = 0;
+void StepMerge::stands(std::size_t number, Tick tick, std::int64_t count) {
+    Lane& lane = lanes_[number];
+    if (lane.is_heard && lane.count != count) { return; }
+    lane.told_until = std::max(lane.told_until, tick - kPatience);
+    lane.is_awaited = true;
+}
+
+Tick StepMerge::settled_until() const {
+    Tick until = kNever;
+    for (const Lane& lane : lanes_) {
+        if (lane.is_awaited) { until = std::min(until, lane.told_until); }
     }
+    return until;
+}
+
+/// False: nobody is waited for.
+bool StepMerge::give_up_slowest() {
+    Lane* slowest = nullptr;
+    for (Lane& lane : lanes_) {
+        if (lane.is_awaited && (slowest == nullptr || lane.told_until < slowest->told_until)) { slowest = &lane; }
+    }
+    if (slowest == nullptr) { return false; }
+    slowest->is_awaited = false;
+    return true;
 }
 
 }  // namespace lockstep::analysis

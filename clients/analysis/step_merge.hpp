@@ -1,60 +1,73 @@
-// The steps of several axes in the order of their ticks, from messages of each that come in its own order.
+// The steps of several axes in the order of their ticks, from streams that each come in their own order.
 //
-// A step waits until nobody can still tell of an earlier one: every 10 ms an axis says what it did, and a message may
-// be on its way for longer. Memory is bounded by the steps of that time.
+// A step waits until no axis can still tell of an earlier one, and the log itself says how far each has told: up to
+// its newest step, and up to an instant at which it said to stand where its newest step left it. So an axis that is
+// late, since its process stalled or its messages did, is waited for, and one at rest is not. Memory is bounded: where
+// too many steps wait, who holds them up is waited for no longer, until it tells of steps again.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
-#include "clients/analysis/measured_step.hpp"
+#include "clients/analysis/step_queue.hpp"
 
 namespace lockstep::analysis {
 
 class StepMerge {
 public:
-    /// So long after a step one of another axis may still be told that was before it. Later ones are told late.
+    /// Clocks that are known better and better may put a step so far before the instant at which an axis stood still.
     static constexpr Ticks kPatience{500'000};
+    /// 128 MB.
+    static constexpr std::size_t kMaxWaiting = std::size_t{1} << 22;
+
+    explicit StepMerge(std::size_t max_waiting = kMaxWaiting) : max_waiting_(max_waiting) {}
 
     /// A lane for each axis. Its number.
     std::size_t add_lane();
     /// A lane's steps come in the order of their ticks.
-    void take(std::size_t lane, std::span<const MeasuredStep> steps);
+    void take(std::size_t lane, SharedSteps steps);
+    /// The axis says where it was at a tick.
+    void stands(std::size_t lane, Tick tick, std::int64_t count);
     /// Calls on_step(lane, step) for what need not wait any longer. Call now and then.
     template <typename OnStep>
     void settle(OnStep&& on_step) {
-        tell_before(newest_ - kPatience, on_step);
+        tell_before(settled_until(), on_step);
+        while (waiting_ > max_waiting_ && give_up_slowest()) { tell_before(settled_until(), on_step); }
     }
     /// The same for all.
     template <typename OnStep>
     void finish(OnStep&& on_step) {
-        tell_before(newest_ + Ticks{1}, on_step);
+        tell_before(kNever, on_step);
     }
 
 private:
     static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
 
     struct Lane {
-        std::vector<MeasuredStep> steps;
-        std::size_t told = 0;  // of them
+        StepQueue steps;
+        Tick told_until;         // the axis has told of all its steps before
+        std::int64_t count = 0;  // after its newest step
+        bool is_heard = false;   // it has told of a step
+        bool is_awaited = true;
     };
     struct Turn {
         std::size_t lane = 0;
         Tick until;  // the next step of any other
     };
 
+    Tick settled_until() const;
+    bool give_up_slowest();
     template <typename OnStep>
     void tell_before(Tick end, OnStep& on_step);
     void look_at(std::size_t lane, Tick end);
     Turn next_turn() const;
-    void forget_told();
 
+    std::size_t max_waiting_;
+    std::size_t waiting_ = 0;
     std::vector<Lane> lanes_;
     std::vector<Tick> next_;  // the next step of each lane; kNever: none before the end
-    Tick newest_;
 };
 
 /// The lane whose next step is first is told up to the next step of any other.
@@ -63,18 +76,19 @@ void StepMerge::tell_before(Tick end, OnStep& on_step) {
     for (std::size_t i = 0; i < lanes_.size(); ++i) { look_at(i, end); }
     if (lanes_.empty()) { return; }
     for (Turn turn = next_turn(); next_[turn.lane] != kNever; turn = next_turn()) {
-        Lane& lane = lanes_[turn.lane];
+        StepQueue& steps = lanes_[turn.lane].steps;
         do {
-            on_step(turn.lane, lane.steps[lane.told++]);
+            on_step(turn.lane, steps.front());
+            steps.pop();
+            --waiting_;
             look_at(turn.lane, end);
         } while (next_[turn.lane] < turn.until);
     }
-    forget_told();
 }
 
 inline void StepMerge::look_at(std::size_t lane, Tick end) {
-    const auto& [steps, told] = lanes_[lane];
-    next_[lane] = told < steps.size() && steps[told].tick < end ? steps[told].tick : kNever;
+    const StepQueue& steps = lanes_[lane].steps;
+    next_[lane] = !steps.empty() && steps.front().tick < end ? steps.front().tick : kNever;
 }
 
 inline StepMerge::Turn StepMerge::next_turn() const {

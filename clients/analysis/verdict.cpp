@@ -90,6 +90,14 @@ void judge_record(const Analysis& analysis, Findings& found) {
         found.push_back({Grade::Doubtful, fmt::format("{} of jobs not in the log: what was asked may not all be known",
                                                       plural(analysis.missing_job_events, "event"))});
     }
+    std::int64_t untold = 0;
+    for (const JobLog& job : analysis.jobs) { untold += job.moves_without_distance; }
+    if (untold > 0) {
+        found.push_back(
+            {Grade::Doubtful, fmt::format("how far {} went from the path is not known: steps of an axis come "
+                                          "too late in the log; `lockstep log merge` puts them in order",
+                                          plural(untold, "move"))});
+    }
     std::uint64_t places = 0;
     std::uint64_t bytes = 0;
     for (const Damage& damage : analysis.damages) {

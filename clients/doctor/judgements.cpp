@@ -70,6 +70,14 @@ Finding judge_buffer(std::int64_t asked, std::int64_t given) {
             "sysctl -w net.core.rmem_max=" + std::to_string(asked)};
 }
 
+Finding judge_send_buffer(std::int64_t needed, std::int64_t given) {
+    const std::string text = std::to_string(given) + " bytes; " + std::to_string(needed) + " are needed";
+    if (given >= needed) { return {Verdict::Good, "send buffer", text, ""}; }
+    return {Verdict::Doubtful, "send buffer",
+            text + ": while many of network.peers are not there, this host's parts may fall silent for seconds",
+            "sysctl -w net.core.wmem_max=" + std::to_string(needed)};
+}
+
 Finding judge_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
     if (facts.scheduler.empty()) {
         const std::string use = wanted.priority > 0 ? "" : "; unused: the machine's file has no real_time.priority";

@@ -27,6 +27,8 @@ Finding judge_route(const NetworkConfig& network, const std::expected<void, std:
 std::int64_t buffer_asked(const std::string& lcm_url);
 /// Bytes of a receive buffer: what the URL asks for, what the kernel gave.
 Finding judge_buffer(std::int64_t asked, std::int64_t given);
+/// Bytes of a send buffer: what a machine's peers need (peer_send_buffer), what the kernel gave.
+Finding judge_send_buffer(std::int64_t needed, std::int64_t given);
 
 /// Empty: permitted; else why not.
 struct RealTimeFacts {

@@ -46,6 +46,17 @@ std::string try_memory() {
     return "the limit is " + std::to_string(limit.rlim_cur / 1024) + " KB";
 }
 
+int buffer_given(int option, std::int64_t asked) {
+    const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const int wanted = static_cast<int>(asked);
+    int given = 0;
+    socklen_t size = sizeof given;
+    (void)::setsockopt(socket, SOL_SOCKET, option, &wanted, sizeof wanted);
+    (void)::getsockopt(socket, SOL_SOCKET, option, &given, &size);
+    ::close(socket);
+    return given;
+}
+
 }  // namespace
 
 InterfaceFacts look_at_interface(const std::string& name) {
@@ -64,15 +75,10 @@ InterfaceFacts look_at_interface(const std::string& name) {
 }
 
 std::int64_t receive_buffer_given(std::int64_t asked) {
-    const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const int wanted = static_cast<int>(asked);
-    int given = 0;
-    socklen_t size = sizeof given;
-    (void)::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted);
-    (void)::getsockopt(socket, SOL_SOCKET, SO_RCVBUF, &given, &size);
-    ::close(socket);
-    return given / 2;  // the kernel counts its own share too
+    return buffer_given(SO_RCVBUF, asked) / 2;  // the kernel counts its own share too
 }
+
+std::int64_t send_buffer_given(std::int64_t asked) { return buffer_given(SO_SNDBUF, asked); }
 
 std::optional<bool> hears_itself(const std::string& lcm_url) {
     lcm::LCM lcm(lcm_url);

@@ -14,6 +14,8 @@ namespace lockstep::doctor {
 InterfaceFacts look_at_interface(const std::string& name);
 /// Of a socket that asks for so many bytes: how many it was given.
 std::int64_t receive_buffer_given(std::int64_t asked);
+/// The same of sending, with the kernel's own share.
+std::int64_t send_buffer_given(std::int64_t asked);
 /// Publishes a message on a channel of the doctor's own. No value: LCM cannot be opened.
 std::optional<bool> hears_itself(const std::string& lcm_url);
 RealTimeFacts look_at_real_time();

@@ -18,6 +18,8 @@ using scenario::Scenario;
 
 struct ScenarioOptions {
     std::vector<std::string> files;
+    std::string place;  // empty: each scenario's own
+    std::string image = scenario::SeasonOptions{}.image;
     int at_a_time = 1;
     std::string keep;
     std::string junit;
@@ -37,12 +39,18 @@ Failure as_one(const std::vector<Failure>& failures) {
     return all;
 }
 
+std::optional<scenario::Asked::Place> place_of(const ScenarioOptions& options) {
+    scenario::Asked::Place place{};
+    if (!scenario::Asked::Place_Parse(options.place, &place)) { return std::nullopt; }
+    return place;
+}
+
 /// Nothing where a file is wrong: all that is wrong with all of them has been said.
 std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Voice& voice) {
     std::vector<Scenario> scenarios;
     std::vector<Failure> failures;
     for (const std::string& file : options.files) {
-        auto scenario = scenario::load_scenario(file);
+        auto scenario = scenario::load_scenario(file, place_of(options));
         if (scenario) {
             scenarios.push_back(*std::move(scenario));
         } else {
@@ -75,7 +83,7 @@ ExitCode run(const ScenarioOptions& options) {
     const auto scenarios = read_all(options, voice);
     if (!scenarios) { return kExitBadInput; }
     const StopSignal stop;
-    scenario::SeasonOptions season{.at_a_time = options.at_a_time};
+    scenario::SeasonOptions season{.at_a_time = options.at_a_time, .image = options.image};
     if (!options.keep.empty()) { season.keep = options.keep; }
     season.progress = [&](const std::string& line) { voice.progress(line); };
     season.played = [&](const proto::ScenarioReport& report) { voice.say(coloured(report, options.story)); };
@@ -106,6 +114,8 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
                    const std::shared_ptr<ScenarioOptions>& options) {
     CLI::App* part = verb.add_subcommand(name, what);
     part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
+    part->add_option("--place", options->place, "play all there, wherever they say: PROCESS, NAMESPACE or CONTAINER")
+        ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
     part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     return part;
 }
@@ -115,6 +125,8 @@ void add_scenario_run(CLI::App& verb, Action& action) {
     CLI::App* part = add_part(verb, "run", "play scenarios on machines of real processes, and judge them", options);
     part->add_option("--jobs", options->at_a_time, "so many at a time")
         ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    part->add_option("--image", options->image, "podman's image for containers, of deploy/Dockerfile")
         ->capture_default_str();
     part->add_option("--keep", options->keep,
                      "keep the logs of each, and a page of it, whole.html, in a directory of its name in this one");
@@ -126,6 +138,7 @@ void add_scenario_run(CLI::App& verb, Action& action) {
         "Examples:\n  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
         "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
         "  lockstep scenario run mine.textproto --story --keep logs\n"
+        "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n"
         "Exit codes: 0 all hold, 1 one does not, or could not be played; 2 bad usage or a scenario that cannot be "
         "read:\n"
         "nothing was played");

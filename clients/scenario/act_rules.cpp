@@ -49,8 +49,8 @@ private:
     }
 
     void require_links(const std::string& key) {
-        complaints_.require(asked_.place() == Asked::NAMESPACE, path_ + "." + key,
-                            key + " needs links between the processes; say place: NAMESPACE");
+        complaints_.require(has_links(asked_.place()), path_ + "." + key,
+                            key + " needs links between the processes; say place: NAMESPACE or CONTAINER");
     }
 
     /// A device has no link: its axis reaches it by memory.

@@ -42,8 +42,6 @@ public:
 private:
     void check_stage() {
         complaints_.require(!asked_.shows().empty(), "shows", "no shows: say in one sentence what this scenario shows");
-        complaints_.require(asked_.place() != Asked::CONTAINER, "place",
-                            "CONTAINER cannot be played yet; say PROCESS or NAMESPACE");
         complaints_.require(asked_.standby() || !asked_.continues(), "continues",
                             "continues goes with standby: nobody else takes over");
         const bool may_stand_by = !asked_.standby() || machine_.timing.time_source != TimeSource::Network;

@@ -51,10 +51,12 @@ std::expected<MachineConfig, Diagnostics> machine_of(const Asked& asked, const T
 
 }  // namespace
 
-std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const fs::path& file) {
+std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const fs::path& file,
+                                                    std::optional<Asked::Place> place) {
     TextSource source;
     Scenario scenario{.file = file};
     if (Diagnostics errors = source.parse(text, scenario.asked); !errors.empty()) { return std::unexpected(errors); }
+    if (place) { scenario.asked.set_place(*place); }
     auto machine = machine_of(scenario.asked, source, file.parent_path());
     if (!machine) { return std::unexpected(machine.error()); }
     scenario.machine = staged(*std::move(machine), scenario.asked.place());
@@ -62,11 +64,13 @@ std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const
     return scenario;
 }
 
-std::expected<Scenario, Diagnostics> load_scenario(const fs::path& file) {
+std::expected<Scenario, Diagnostics> load_scenario(const fs::path& file, std::optional<Asked::Place> place) {
     const auto text = read_text_file(file);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
-    return parse_scenario(*text, file);
+    return parse_scenario(*text, file, place);
 }
+
+bool has_links(Asked::Place place) { return place == Asked::NAMESPACE || place == Asked::CONTAINER; }
 
 std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine) {
     std::vector<std::string> names{"coordinator"};
@@ -89,9 +93,8 @@ std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const fs::
 }
 
 MachineConfig staged(MachineConfig machine, Asked::Place place) {
-    const bool has_links = place == Asked::NAMESPACE;
-    machine.network = {.interface = has_links ? "eth0" : "lo",
-                       .lcm_url = kLcmGroup + std::string(has_links ? "1" : "0")};
+    const bool linked = has_links(place);
+    machine.network = {.interface = linked ? "eth0" : "lo", .lcm_url = kLcmGroup + std::string(linked ? "1" : "0")};
     machine.record = {};
     machine.position_directory.clear();
     machine.coordinator_host.clear();

@@ -3,6 +3,7 @@
 
 #include <expected>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,10 +27,15 @@ struct Scenario {
     std::filesystem::path folder() const { return file.parent_path(); }
 };
 
-/// `file`: names the scenario, and its folder is where other files are looked for. Errors: everything that is wrong
-/// with it, in the order of the text.
-std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const std::filesystem::path& file);
-std::expected<Scenario, Diagnostics> load_scenario(const std::filesystem::path& file);
+/// `file`: names the scenario, and its folder is where other files are looked for. `place`: in place of its own.
+/// Errors: everything that is wrong with it, in the order of the text.
+std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const std::filesystem::path& file,
+                                                    std::optional<Asked::Place> place = {});
+std::expected<Scenario, Diagnostics> load_scenario(const std::filesystem::path& file,
+                                                   std::optional<Asked::Place> place = {});
+
+/// Whether each process has a link of its own to the others.
+bool has_links(Asked::Place place);
 
 /// The processes of the machine, by the names that `lockstep up` gives them.
 std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine);

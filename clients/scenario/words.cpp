@@ -121,11 +121,16 @@ std::string text_of(Asked::Phase phase) {
     return name;
 }
 
+std::string text_of(Asked::Place place) {
+    if (place == Asked::CONTAINER) { return "a container each"; }
+    return place == Asked::NAMESPACE ? "a network namespace each" : "in one network namespace";
+}
+
 std::string outline(const Scenario& scenario) {
     const Asked& asked = scenario.asked;
     std::string text = scenario.file.string() + ": " + asked.shows() + "\n";
     text += "  machine  " + scenario.machine.name + ": " + listed(processes_of(asked, scenario.machine)) + "; " +
-            (asked.place() == Asked::NAMESPACE ? "a network namespace each" : "in one network namespace") + "\n";
+            text_of(asked.place()) + "\n";
     for (const auto& clock : asked.wrong_clock()) { text += "  clock    of " + clock.axis() + " is wrong\n"; }
     for (const auto& step : asked.step()) {
         text += "  step     " + text_of(step) + (step.has_ends() ? "; ends " + text_of(step.ends()) : "") +

@@ -1,15 +1,17 @@
 #include "clients/simulation/machine_recorder.hpp"
 
+#include <utility>
+
 namespace lockstep {
 
 MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
-    : machine_(vm.machine()), sink_(sink), axes_(machine_.axes.size()) {
+    : machine_(vm.machine()), sink_(sink), axes_(machine_.axes.size()), found_(machine_.axes.size()) {
     vm.observe(*this);
 }
 
-/// An axis says who it is in its first loop, before it can have been told to move.
+/// An axis says who it is in its first loop; what it finds in its device then, another process had it do.
 void MachineRecorder::on_step(std::size_t axis, StepEdge step) {
-    if (axes_[axis]) { axes_[axis]->step(step); }
+    axes_[axis] ? axes_[axis]->step(step) : found_[axis].push_back(step);
     ++steps_;
 }
 
@@ -17,6 +19,7 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
     auto& recorder = axes_[axis];
     if (!recorder && out.state) {
         recorder = std::make_unique<AxisRecorder>(machine_, axis, out.state->identity, sink_);
+        for (const StepEdge& step : std::exchange(found_[axis], {})) { recorder->step(step); }
     }
     if (recorder) { recorder->loop(out, node.controller().zero_count(), node.lost_captures()); }
 }
@@ -30,6 +33,12 @@ void MachineRecorder::on_coordinator(std::size_t /*process*/, Tick now, const Co
     for (const JobEvent& event : out.jobs) {
         if (jobs_) { jobs_->record(now, event); }
     }
+}
+
+/// A process that crashes takes with it what it has not said.
+void MachineRecorder::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
+    const bool crashes = fault.kind == VirtualFault::Kind::Crash && begins;
+    if (crashes && fault.process < axes_.size()) { axes_[fault.process].reset(); }
 }
 
 void MachineRecorder::finish() {

@@ -18,6 +18,7 @@ public:
     void on_step(std::size_t axis, StepEdge step) override;
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
+    void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
     /// At the end: what is still in hand.
     void finish();
@@ -27,7 +28,8 @@ public:
 private:
     MachineConfig machine_;
     RecordSink& sink_;
-    std::vector<std::unique_ptr<AxisRecorder>> axes_;  // made when the axis first says who it is
+    std::vector<std::unique_ptr<AxisRecorder>> axes_;  // made when the axis's process says who it is
+    std::vector<std::vector<StepEdge>> found_;         // by a process before it has said so
     Identity owner_ = 0;                               // whose jobs are recorded
     std::unique_ptr<JobRecorder> jobs_;                // likewise
     std::int64_t steps_ = 0;

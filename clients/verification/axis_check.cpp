@@ -17,14 +17,20 @@ std::string plural(std::int64_t count, const std::string& one) {
     return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
-Ticks amount(Ticks ticks) { return {std::abs(ticks.value)}; }
+std::string text_of(StepEdge step, std::int64_t count) {
+    return std::string(step.direction > 0 ? "forward" : "backward") + " to " + std::to_string(count) + " at tick " +
+           std::to_string(step.tick.value);
+}
 
-/// What a step may be off: what is known of when it was made, and what was known when it was commanded. Two ticks are
-/// for what rounding makes of it.
-Ticks allowed(Ticks made, Ticks commanded) {
-    constexpr Ticks kRounding{2};
-    const Ticks both = made + commanded;
-    return both == Ticks{} ? both : both + kRounding;
+std::string text_of_missing(const LeftSteps& found) {
+    std::string text;
+    if (found.unsaid > 0) {
+        text += "; " + plural(found.unsaid, "step") + " before the next process's are not on record";
+    }
+    if (found.missing > 0) {
+        text += "; of their course at least " + plural(found.missing, "step") + " are not on record";
+    }
+    return text;
 }
 
 /// Frames of an axis's own move follow each other as those of an epoch do.
@@ -85,12 +91,14 @@ void AxisCheck::settle(bool log_ended) {
         if (!maker_ && !begin_next_run()) { return; }
         const SeenStep* seen = waiting_.empty() ? nullptr : &waiting_.front();
         const bool may_be_over = seen != nullptr || log_ended;
-        if (maker_->next() == nullptr || (may_be_over && is_cut_here(seen))) {
+        if (seen != nullptr && is_of_older_process(*seen)) {
+            leave_steps();
+        } else if (maker_->next() == nullptr || (may_be_over && is_cut_here(seen))) {
             end_run();
-        } else if (seen != nullptr) {
-            is_of_run(*seen) ? compare(*seen) : end_process(*seen);
-        } else {
+        } else if (seen == nullptr) {
             return;
+        } else {
+            is_of_newer_process(*seen) ? leave_run() : compare(*seen);
         }
     }
 }
@@ -187,11 +195,16 @@ std::size_t AxisCheck::birth_of(std::int64_t incarnation) {
     return birth;
 }
 
-bool AxisCheck::is_of_run(const SeenStep& seen) const { return seen.incarnation == maker_->run().incarnation; }
+/// That of the run; of its own steps, those before its first run were made by what the process before it had ordered.
+bool AxisCheck::is_of_older_process(const SeenStep& seen) {
+    const Run& run = maker_->run();
+    if (seen.incarnation != run.incarnation) { return birth_of(seen.incarnation) < birth_of(run.incarnation); }
+    const bool is_first = !last_run_ || last_run_->incarnation != run.incarnation;
+    return is_first && birth_of(run.incarnation) > 0 && seen.edge.tick < run.start;
+}
 
-/// The run and the step are of different processes: the older of the two left something unwritten.
-void AxisCheck::end_process(const SeenStep& seen) {
-    birth_of(seen.incarnation) < birth_of(maker_->run().incarnation) ? leave_steps() : leave_run();
+bool AxisCheck::is_of_newer_process(const SeenStep& seen) {
+    return birth_of(seen.incarnation) > birth_of(maker_->run().incarnation);
 }
 
 /// The run is on record with its end, its last steps are not: no more than a process holds before it says them.
@@ -200,12 +213,7 @@ void AxisCheck::leave_run() {
     std::int64_t steps = 0;
     for (; maker_->next() != nullptr && !is_cut_here(nullptr); pass_step(false)) { ++steps; }
     unsaid_ += steps;
-    if (unsaid_ > StepBatcher::kMaxSteps) {
-        return differ("axis " + name_ + ": " + plural(unsaid_, "step") + " after " +
-                          at_tick(last_tick_, "the log's beginning") +
-                          " are not on record, more than its process can have held when it ended",
-                      last_tick_, {});
-    }
+    if (unsaid_ > StepBatcher::kMaxSteps) { return differ_unsaid(unsaid_); }
     findings_.notes.push_back("axis " + name_ + ": " + plural(steps, "step") + " after " +
                               at_tick(last_tick_, "the log's beginning") +
                               " are not on record, its process ended; by " + name_of(maker_->run()) + " it came to " +
@@ -213,52 +221,70 @@ void AxisCheck::leave_run() {
     end_run();
 }
 
-/// Steps are on record, their run is not.
+/// Steps are on record, their runs are not.
 void AxisCheck::leave_steps() {
     std::vector<SeenStep> left;
-    const std::int64_t of = waiting_.front().incarnation;
-    for (; !waiting_.empty() && waiting_.front().incarnation == of; waiting_.pop_front()) {
+    for (; !waiting_.empty() && (!maker_ || is_of_older_process(waiting_.front())); waiting_.pop_front()) {
         left.push_back(waiting_.front());
     }
-    const Tick first = left.front().edge.tick;
-    const std::string what = "axis " + name_ + ": " + plural(static_cast<std::int64_t>(left.size()), "step") +
-                             " from tick " + std::to_string(first.value) + " on are of no run on record, its process " +
-                             "ended; ";
-    if (planned_(left.front().machine).empty()) {
-        findings_.notes.push_back(what + "there is no plan to compare them with");
-    } else if (are_planned(left)) {
-        findings_.notes.push_back(what + "they are as planned");
-    } else {
-        differ(what + "they are not as planned", {}, first);
-    }
+    judge(left);
 }
 
-/// Whether the steps are the first of a run that is planned for their time; counts them where they are.
-bool AxisCheck::are_planned(const std::vector<SeenStep>& steps) {
-    for (const Run& run : planned_(steps.front().machine)) {
-        StepMaker maker(run);
-        const auto is_next = [&](const SeenStep& seen) {
-            if (maker.next() == nullptr || maker.next()->direction != seen.edge.direction) { return false; }
-            if (amount(seen.machine - maker.commanded()) > allowed(seen.error, run.clock_error)) { return false; }
-            maker.pass();
-            return maker.count() == seen.count;
-        };
-        if (!std::ranges::all_of(steps, is_next)) { continue; }
-        steps_ += static_cast<std::int64_t>(steps.size());
-        findings_.steps += static_cast<std::int64_t>(steps.size());
-        last_tick_ = steps.back().edge.tick;
-        return true;
-    }
-    return false;
+void AxisCheck::judge(const std::vector<SeenStep>& left) {
+    const std::string what = "axis " + name_ + ": " + plural(static_cast<std::int64_t>(left.size()), "step") +
+                             " from tick " + std::to_string(left.front().edge.tick.value) +
+                             " on are of no run on record, its process ended; ";
+    const std::vector<Course> courses = planned_(left.front().machine);
+    if (courses.empty()) { return findings_.notes.push_back(what + "there is no plan to compare them with"); }
+    const LeftSteps found = judge_left(
+        left, courses,
+        last_run_ ? LeftBy{last_run_->incarnation, last_run_->zero_count} : LeftBy{incarnations_.front(), {}});
+    steps_ += static_cast<std::int64_t>(found.fit);
+    findings_.steps += static_cast<std::int64_t>(found.fit);
+    if (found.fit < left.size()) { return differ_from_plan(what, left[found.fit], found); }
+    last_tick_ = left.back().edge.tick;
+    findings_.last_tick = std::max(findings_.last_tick, last_tick_);
+    if (found.unsaid > StepBatcher::kMaxSteps) { return differ_unsaid(found.unsaid); }
+    findings_.notes.push_back(what + "they are as planned: " + found.runs + text_of_missing(found));
+}
+
+void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, const LeftSteps& found) {
+    const auto& [run, expected, count] = *found.misfit;
+    const auto tick = expected ? std::optional(expected->tick) : std::nullopt;
+    findings_.differ({.text = what + "they are not as planned: after " + std::to_string(found.fit) +
+                              " that are, the log has one " + text_of(seen.edge, seen.count) + ", " + name_of(*run) +
+                              (expected ? " has it " + text_of(*expected, count) : " has no more"),
+                      .axis = name_,
+                      .tick_expected = tick,
+                      .tick_seen = seen.edge.tick,
+                      .commanded = commanded_(*run, tick.value_or(seen.edge.tick))});
+}
+
+void AxisCheck::differ_unsaid(std::int64_t steps) {
+    differ("axis " + name_ + ": " + plural(steps, "step") + " after " + at_tick(last_tick_, "the log's beginning") +
+               " are not on record, more than its process can have held when it ended",
+           last_tick_, {});
 }
 
 // ---- The end -------------------------------------------------------------------------------------------------------
 
-void AxisCheck::finish() {
+void AxisCheck::finish(const HasEnded& has_ended) {
     if (findings_.going()) { stream_.finish(); }
     settle(true);
+    while (findings_.going() && maker_ && has_ended(maker_->run().incarnation)) {
+        leave_run();
+        settle(true);
+    }
+    if (findings_.going() && !maker_ && !waiting_.empty() && is_left_at_end(has_ended)) { leave_steps(); }
     if (findings_.going()) { end_of_log(); }
     if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
+}
+
+/// What a process that has ended leaves, or one that was not told to run anything itself found in its device.
+bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
+    const std::int64_t of = waiting_.front().incarnation;
+    const bool has_run = last_run_ && last_run_->incarnation == of;
+    return has_ended(of) || (birth_of(of) > 0 && !has_run);
 }
 
 void AxisCheck::end_of_log() {

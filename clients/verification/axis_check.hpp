@@ -2,7 +2,7 @@
 // device's clock each is at its very tick; where that clock is its own, each step of a frame is also at the machine
 // time commanded, within what the clocks were known to.
 //
-// A process that ended unasked may have left the record of its last run unwritten, or its last steps. What it left is
+// A process that ended unasked may have left the record of its last runs unwritten, or its last steps. What it left is
 // held to the plan as far as there is one, and said in a note.
 #pragma once
 
@@ -16,6 +16,8 @@
 #include "clients/analysis/run.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/verification/findings.hpp"
+#include "clients/verification/left_steps.hpp"
+#include "clients/verification/seen_step.hpp"
 
 namespace lockstep::verification {
 
@@ -38,8 +40,10 @@ class AxisCheck final : public analysis::StepListener {
 public:
     /// What was in motion at a tick of a run, in words.
     using Commanded = std::function<std::string(const Run&, Tick)>;
-    /// The runs that the plan has for the axis at a tick: a frame, and the tail it may have fallen to instead.
-    using Planned = std::function<std::vector<Run>(Tick)>;
+    /// What the plan allows the axis to have run behind its newest run, from a step at that tick on. Empty: nothing.
+    using Planned = std::function<std::vector<Course>(Tick)>;
+    /// Whether a process of the axis had ended by the end of the log.
+    using HasEnded = std::function<bool(std::int64_t incarnation)>;
     /// So many steps may wait for the record of their run, which is written when it has ended.
     static constexpr std::size_t kMaxWaiting = 1 << 22;
 
@@ -54,20 +58,12 @@ public:
     void take(Run run);
     void runs_missing(std::int64_t from, std::int64_t end);
     /// Call once, at the end of the log.
-    void finish();
+    void finish(const HasEnded& has_ended);
 
     void on_batch(const analysis::StepBatch& batch) override;
     void on_break(const analysis::Break& what) override;
 
 private:
-    struct SeenStep {
-        StepEdge edge;
-        std::int64_t count = 0;  // after it, by the log
-        std::int64_t incarnation = 0;
-        Tick machine;  // machine time at which it was made...
-        Ticks error;   // ...within
-    };
-
     void settle(bool log_ended);
     bool begin_next_run();
     void end_run();
@@ -76,12 +72,15 @@ private:
     void compare(const SeenStep& seen);
     void compare_time(const SeenStep& seen, const std::string& step);
     void end_of_log();
+    bool is_left_at_end(const HasEnded& has_ended);
     std::size_t birth_of(std::int64_t incarnation);
-    bool is_of_run(const SeenStep& seen) const;
-    void end_process(const SeenStep& seen);
+    bool is_of_older_process(const SeenStep& seen);
+    bool is_of_newer_process(const SeenStep& seen);
     void leave_run();
     void leave_steps();
-    bool are_planned(const std::vector<SeenStep>& steps);
+    void judge(const std::vector<SeenStep>& left);
+    void differ_from_plan(const std::string& what, const SeenStep& seen, const LeftSteps& found);
+    void differ_unsaid(std::int64_t steps);
     void differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen);
     std::string step_name() const;
 

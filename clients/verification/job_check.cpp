@@ -182,7 +182,7 @@ void JobCheck::end(const job_t& record) {
 /// What the epoch leaves of its job.
 void JobCheck::close_epoch() {
     if (!epoch_) { return; }
-    plan_next();
+    plan_next(epoch_->replay);
     bool whole = true;
     for (std::size_t i = 0; i < epoch_->axes.size() && whole; ++i) { whole = !breaks_off(i); }
     if (whole) { judge_epoch(); }
@@ -222,17 +222,34 @@ void JobCheck::break_off(std::size_t axis, const std::string& why) {
     job_->broken = "axis " + job_->broken_axis + " " + why;
 }
 
-void JobCheck::finish() {
+void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
     if (!waiting_.empty()) {
         const auto& [axis, run] = waiting_.front();
         differ("axis " + axis + ": the log has no record of epoch " + std::to_string(run.epoch) + ", which it ran",
                axis, &run);
     }
-    if (!job_) { return; }
+    if (!job_ || !findings_.going()) { return; }
+    if (at_rest) { return leave_job(has_ended); }
     const auto& last = findings_.last_tick;
     differ("the log ends before " + job_->label + " does; the steps up to " +
            (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
+}
+
+/// A job without an end, though all axes have come to rest, or have ended themselves.
+void JobCheck::leave_job(const HasEnded& has_ended) {
+    if (job_->replay) {
+        for (std::size_t i = 0; epoch_ && i < epoch_->axes.size(); ++i) {
+            const std::string& axis = job_->replay->machine().axes[i].name;
+            if (!breaks_off(i) || epoch_->axes[i].cut || has_ended(axis)) { continue; }
+            return differ(job_->label + " has no end in the log, and " + job_->broken, axis);
+        }
+        if (epoch_) { job_->broken.clear(); }
+        close_epoch();
+    }
+    findings_.notes.push_back(job_->label + " has no end in the log" +
+                              (job_->broken.empty() ? "; the axes are at rest" : ": " + job_->broken) +
+                              (job_->replay ? "; what was run of it is as planned" : ""));
 }
 
 // ---- Runs --------------------------------------------------------------------------------------------------------
@@ -288,28 +305,39 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
 }
 
 /// What each axis may run behind the newest of its runs.
-void JobCheck::plan_next() {
+void JobCheck::plan_next(EpochReplay replay) {
     for (std::size_t i = 0; i < epoch_->axes.size(); ++i) {
-        const Progress& progress = epoch_->axes[i];
-        std::vector<Run>& next = planned_[job_->replay->machine().axes[i].name];
-        next.clear();
-        if (progress.cut || progress.in_tail) { continue; }
-        for (const bool tail : {false, true}) {
-            const Frame* frame = epoch_->replay.frame(progress.ran + (tail ? 0 : 1));
-            if (frame != nullptr) { next.push_back(planned_run(*frame, i, tail, known_within())); }
-        }
+        planned_[job_->replay->machine().axes[i].name] = courses_of(replay, i);
     }
 }
 
-std::vector<Run> JobCheck::planned(const std::string& axis, Tick tick) {
+/// Frames to come, none at first, and the tail of the last of them; at last the path's end, where there is no tail.
+std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) const {
+    const Progress& progress = epoch_->axes[axis];
+    std::vector<Course> courses;
+    if (progress.cut || progress.in_tail) { return courses; }
+    Course frames;
+    for (FrameNumber number = progress.ran; number <= progress.ran + kUnsaidFrames; ++number) {
+        const Frame* frame = number > 0 ? replay.frame(number) : nullptr;
+        if (number > progress.ran && frame == nullptr) { break; }
+        if (number > progress.ran) { frames.push_back(planned_run(*frame, axis, false, known_within())); }
+        Course course = frames;
+        if (frame != nullptr) { course.push_back(planned_run(*frame, axis, true, known_within())); }
+        if (!course.empty()) { courses.push_back(std::move(course)); }
+    }
+    return courses;
+}
+
+/// Frames are made ahead by a copy: those of the epoch itself may yet be planned otherwise.
+std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
     if (epoch_) {
         handle_turns();
-        plan_next();
+        plan_next(epoch_->replay);
     }
     const auto found = planned_.find(axis);
-    std::vector<Run> runs = found != planned_.end() ? found->second : std::vector<Run>{};
-    std::erase_if(runs, [&](const Run& run) { return tick < run.start || tick >= run.start + run.ticks(); });
-    return runs;
+    if (found == planned_.end() || found->second.empty()) { return {}; }
+    const Run& last = found->second.back().back();
+    return tick < last.start + last.ticks() ? found->second : std::vector<Course>{};
 }
 
 /// Empty: the run follows what the axis has run.

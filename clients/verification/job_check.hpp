@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <lockstep/job_t.hpp>
 #include <map>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "clients/verification/epoch_replay.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/job_replay.hpp"
+#include "clients/verification/left_steps.hpp"
 
 namespace lockstep::verification {
 
@@ -23,20 +25,26 @@ public:
     /// So many runs may wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
+    /// How many frames an axis may have run, or armed, that it had not come to record when it ended: the one in motion
+    /// and the one decided on while it was; and as many for a process that stalled before it ended.
+    static constexpr FrameNumber kUnsaidFrames = 4;
+    /// Whether an axis's process had ended by the end of the log.
+    using HasEnded = std::function<bool(const std::string& axis)>;
+
     explicit JobCheck(Findings& findings) : findings_(findings) {}
 
     void take(const job_t& record);
     /// A run of a job; in the order of their numbers for each axis.
     void take(const std::string& axis, const Run& run);
-    /// Call once, at the end of the log.
-    void finish();
+    /// Call once, at the end of the log. `at_rest`: it goes on for long enough behind the last motion on record.
+    void finish(bool at_rest, const HasEnded& has_ended);
 
     /// What was in motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
     std::string commanded(const Run& run, Tick tick) const;
 
-    /// What the plan has for an axis at a tick behind the newest of its runs: the frame that follows, and the tail.
-    /// Empty where it has nothing then.
-    std::vector<Run> planned(const std::string& axis, Tick tick);
+    /// What the plan allows an axis to have run behind the newest of its runs, from a step at that tick on. Empty where
+    /// it has nothing any more.
+    std::vector<Course> planned(const std::string& axis, Tick tick);
 
 private:
     struct Job {
@@ -79,7 +87,9 @@ private:
 
     bool place(const std::string& axis, const Run& run);
     void compare(std::size_t axis, const std::string& name, const Run& run);
-    void plan_next();
+    void plan_next(EpochReplay replay);
+    std::vector<Course> courses_of(EpochReplay& replay, std::size_t axis) const;
+    void leave_job(const HasEnded& has_ended);
     std::string out_of_order(const Progress& axis, const Run& run) const;
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 
@@ -91,8 +101,8 @@ private:
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
-    std::deque<std::pair<Epoch, std::string>> labels_;  // of the newest epochs
-    std::map<std::string, std::vector<Run>> planned_;   // by axis: what may follow its newest run
+    std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs
+    std::map<std::string, std::vector<Course>> planned_;  // by axis: what may follow its newest run
 };
 
 }  // namespace lockstep::verification

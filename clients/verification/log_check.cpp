@@ -11,7 +11,7 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
     : check(
           name, findings,
           [jobs](const Run& run, Tick tick) { return jobs != nullptr ? jobs->commanded(run, tick) : name_of(run); },
-          [jobs, name](Tick tick) { return jobs != nullptr ? jobs->planned(name, tick) : std::vector<Run>{}; }),
+          [jobs, name](Tick tick) { return jobs != nullptr ? jobs->planned(name, tick) : std::vector<Course>{}; }),
       runs(
           [this, name, &findings, jobs](Run run) {
               if (!findings.going()) { return; }
@@ -24,14 +24,29 @@ void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
     if (to == nullptr) { return; }
     auto batch = analysis::to_batch(message);
-    batch ? to->check.take(std::move(*batch)) : on_damage(place, batch.error());
+    if (!batch) { return on_damage(place, batch.error()); }
+    Machine& of = machines_.find(message.machine)->second;
+    of.hear(*to, message.incarnation, message.utime);
+    of.last.moved_us = of.last.said_us;
+    to->check.take(std::move(*batch));
 }
 
 void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
     if (to == nullptr) { return; }
     auto run = analysis::to_run(message);
-    run ? to->runs.take(std::move(*run)) : on_damage(place, run.error());
+    if (!run) { return on_damage(place, run.error()); }
+    LastWords& last = machines_.find(message.machine)->second.last;
+    last.moved_us = last.said_us;  // it is told of when it is over
+    to->runs.take(std::move(*run));
+}
+
+/// Of axes that have moved.
+void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace /*place*/) {
+    const auto of = machines_.find(message.machine);
+    if (of == machines_.end()) { return; }
+    const auto said = of->second.axes.find(message.axis);
+    if (said != of->second.axes.end()) { of->second.hear(*said->second, message.incarnation, message.utime); }
 }
 
 void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
@@ -45,6 +60,7 @@ void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
     if (make_follower_) { return; }
     Machine* to = machine(message.machine, place);
     if (to == nullptr) { return; }
+    if (analysis::is_countable(message.utime)) { to->last.said_us = message.utime; }
     to->job_numbers.add(message.coordinator, message.sequence);
     to->jobs.take(message);
 }
@@ -81,11 +97,29 @@ LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::strin
     return found.get();
 }
 
+void LogCheck::Machine::hear(Axis& axis, std::int64_t incarnation, std::int64_t utime) {
+    if (!analysis::is_countable(utime)) { return; }
+    axis.last = {incarnation, utime};
+    last.said_us = utime;
+}
+
+/// One that said nothing is at its end as well.
+bool LogCheck::Machine::has_ended(const std::string& axis) const {
+    const auto known = axes.find(axis);
+    return known == axes.end() || last.has_ended(known->second->last);
+}
+
+void LogCheck::Machine::finish() {
+    for (auto& [name, axis] : axes) { axis->runs.finish(); }
+    jobs.finish(last.are_at_rest(), [this](const std::string& axis) { return has_ended(axis); });
+    for (auto& [name, axis] : axes) {
+        axis->check.finish([&](std::int64_t incarnation) { return last.has_ended(axis->last, incarnation); });
+    }
+}
+
 Findings LogCheck::finish() {
     for (auto& [name, machine] : machines_) {
-        for (auto& [axis_name, axis] : machine.axes) { axis->runs.finish(); }
-        machine.jobs.finish();
-        for (auto& [axis_name, axis] : machine.axes) { axis->check.finish(); }
+        machine.finish();
         if (const std::int64_t missing = machine.job_numbers.missing_within(); missing > 0) {
             findings_.notes.push_back(
                 "messages of jobs that are missing from the log: " + std::to_string(missing) +

@@ -11,6 +11,7 @@
 #include "clients/analysis/message_numbers.hpp"
 #include "clients/verification/axis_check.hpp"
 #include "clients/verification/job_check.hpp"
+#include "clients/verification/last_words.hpp"
 #include "clients/verification/run_stream.hpp"
 
 namespace lockstep::verification {
@@ -27,7 +28,7 @@ public:
     explicit LogCheck(MakeFollower make_follower) : make_follower_(std::move(make_follower)) {}
 
     void on_steps(const step_batch_t& message, analysis::LogPlace place) override;
-    void on_position(const axis_position_t& /*message*/, analysis::LogPlace /*place*/) override {}
+    void on_position(const axis_position_t& message, analysis::LogPlace place) override;
     void on_run(const run_t& message, analysis::LogPlace place) override;
     void on_job(const job_t& message, analysis::LogPlace place) override;
     void on_foreign(std::string_view /*channel*/) override {}
@@ -41,13 +42,18 @@ private:
 
     struct Axis {
         Axis(const std::string& name, Findings& findings, JobCheck* jobs);
+        LastWord last;
         std::unique_ptr<RunFollower> follower;
         AxisCheck check;
         RunStream runs;
     };
     struct Machine {
         explicit Machine(Findings& findings) : jobs(findings) {}
+        bool has_ended(const std::string& axis) const;
+        void hear(Axis& axis, std::int64_t incarnation, std::int64_t utime);
+        void finish();
         JobCheck jobs;
+        LastWords last;
         analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
     };

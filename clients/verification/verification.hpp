@@ -6,6 +6,10 @@
 // simulation in one process that both verify have the same ticks for every step, relative to the start of motion.
 // Homing depends on where the switches are, which the log does not know: it is held to the first level alone.
 //
+// A log may end badly. What a process that was killed left without the record of its run is held to every course that
+// the plan allows it: its frames to come, and the tail of each; a note says which it was, and what is not on record. A
+// job without an end is held to its plan as far as it was run, if the axes have come to rest by then.
+//
 // The log is read once, in memory that depends on the programs and not on the log's length.
 #pragma once
 

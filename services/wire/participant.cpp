@@ -11,6 +11,7 @@
 #include "services/wire/dds_log.hpp"
 #include "services/wire/interface_sockets.hpp"
 #include "services/wire/partitions.hpp"
+#include "services/wire/peer_discovery.hpp"
 #include "services/wire/protocol_version.hpp"
 #include "services/wire/security_properties.hpp"
 
@@ -18,13 +19,13 @@ namespace lockstep {
 namespace {
 
 constexpr const char* kAddedProfile = "CYCLONEDDS_URI";
-constexpr int kProcessesOfHost = 16;  // that find each other without multicast: each asks as many ports of every peer
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 // Why: a lost setpoint must be asked for at once (NackDelay 0; the default 100 ms would cost ten slots), a lost last
 // one must be noticed soon (heartbeats of 2 to 20 ms), and a process that starts or dies must be seen within a second.
-constexpr const char* kSoon = "<SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1 s</LeaseDuration>";
+constexpr const char* kByMulticast =
+    "<Discovery><SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1 s</LeaseDuration></Discovery>";
 constexpr const char* kTuning =
     "<Internal><HeartbeatInterval min=\"1 ms\" minsched=\"1 ms\" max=\"20 ms\">2 ms</HeartbeatInterval>"
     "<NackDelay>0 ms</NackDelay><AckDelay>1 ms</AckDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>"
@@ -38,17 +39,6 @@ bool is_interface_name(const std::string& name) {
         return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '@';
     };
     return !name.empty() && std::ranges::all_of(name, allowed);
-}
-
-/// How processes find each other. Without multicast each asks every peer, on the ports that DDS gives to one process of
-/// a host after the other.
-std::string discovery(const std::vector<std::string>& peers) {
-    if (peers.empty()) { return std::string("<Discovery>") + kSoon + "</Discovery>"; }
-    std::string listed;
-    for (const std::string& peer : peers) { listed += "<Peer address=\"" + peer + "\"/>"; }
-    return "<General><AllowMulticast>false</AllowMulticast></General><Discovery>" + std::string(kSoon) +
-           "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(kProcessesOfHost - 1) +
-           "</MaxAutoParticipantIndex><Peers>" + listed + "</Peers></Discovery>";
 }
 
 std::string place(const NetworkConfig& network) {
@@ -122,8 +112,8 @@ std::expected<std::string, std::string> dds_profile(const NetworkConfig& network
     const std::string multicast = network.interface == "lo" ? "true" : "default";
     std::string profile = "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface name=\"" +
                           network.interface + "\" multicast=\"" + multicast + "\"/></Interfaces></General>" +
-                          discovery(network.peers) + kTuning + (told == Discovery::Traced ? kTrace : "") +
-                          "</Domain></CycloneDDS>";
+                          (network.peers.empty() ? kByMulticast : peer_discovery(network.peers)) + kTuning +
+                          (told == Discovery::Traced ? kTrace : "") + "</Domain></CycloneDDS>";
     const char* added = std::getenv(kAddedProfile);
     return added == nullptr ? profile : profile + "," + added;
 }

@@ -17,6 +17,7 @@
 #include "services/runtime/host_name.hpp"
 #include "services/runtime/multicast.hpp"
 #include "services/security/rights.hpp"
+#include "services/wire/peer_discovery.hpp"
 
 namespace lockstep {
 namespace {
@@ -41,6 +42,9 @@ void examine_network(const MachineConfig& machine, Findings& findings) {
     findings.push_back(doctor::judge_route(network, route, heard));
     const std::int64_t asked = doctor::buffer_asked(network.lcm_url);
     if (asked > 0) { findings.push_back(doctor::judge_buffer(asked, doctor::receive_buffer_given(asked))); }
+    if (network.peers.empty()) { return; }
+    const std::int64_t needed = peer_send_buffer(network.peers.size());
+    findings.push_back(doctor::judge_send_buffer(needed, doctor::send_buffer_given(needed)));
 }
 
 void examine_host(const MachineConfig& machine, double seconds, Voice& voice, Findings& findings) {

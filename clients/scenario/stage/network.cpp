@@ -1,7 +1,5 @@
 #include "clients/scenario/stage/network.hpp"
 
-#include <sstream>
-
 #include "core/gcode/number_text.hpp"
 
 namespace lockstep::scenario {
@@ -11,13 +9,6 @@ constexpr const char* kBridge = "eth0";  // by the same name everywhere: the mac
 constexpr const char* kMtu = "65535";    // no datagram in pieces: a firewall knows the first piece's port alone
 constexpr const char* kRecordPort = "7667";
 constexpr const char* kMulticast = "224.0.0.0/4";
-
-Words words(const std::string& text) {
-    std::istringstream stream(text);
-    Words found;
-    for (std::string word; stream >> word;) { found.push_back(word); }
-    return found;
-}
 
 Words joined(Words first, const Words& second) {
     first.insert(first.end(), second.begin(), second.end());
@@ -30,8 +21,8 @@ std::expected<Network, std::string> Network::make(Asked::Place place, const std:
                                                   const std::filesystem::path& log) {
     Network network(log);
     if (const auto made = network.make_loopback(); !made) { return std::unexpected(made.error()); }
-    if (place != Asked::NAMESPACE) {
-        const auto routed = network.run_all({words(std::string("ip route add ") + kMulticast + " dev lo")});
+    if (!has_links(place)) {
+        const auto routed = network.run_all({words_of(std::string("ip route add ") + kMulticast + " dev lo")});
         if (!routed) { return std::unexpected(routed.error()); }
         return network;
     }
@@ -44,14 +35,16 @@ std::expected<Network, std::string> Network::make(Asked::Place place, const std:
     return network;
 }
 
-std::expected<void, std::string> Network::make_loopback() { return run_all({words("ip link set lo up multicast on")}); }
+std::expected<void, std::string> Network::make_loopback() {
+    return run_all({words_of("ip link set lo up multicast on")});
+}
 
 std::expected<void, std::string> Network::make_bridge() {
     const std::string bridge = kBridge;
-    return run_all({words("ip link add " + bridge + " type bridge mcast_snooping 0"),
-                    words("ip link set " + bridge + " mtu " + kMtu + " up"),
-                    words("ip addr add 10.9.0.1/24 dev " + bridge),
-                    words(std::string("ip route add ") + kMulticast + " dev " + bridge)});
+    return run_all({words_of("ip link add " + bridge + " type bridge mcast_snooping 0"),
+                    words_of("ip link set " + bridge + " mtu " + kMtu + " up"),
+                    words_of("ip addr add 10.9.0.1/24 dev " + bridge),
+                    words_of(std::string("ip route add ") + kMulticast + " dev " + bridge)});
 }
 
 std::expected<void, std::string> Network::add(const std::string& process, int number) {
@@ -59,12 +52,12 @@ std::expected<void, std::string> Network::add(const std::string& process, int nu
     const std::string link = "to-" + std::to_string(number);
     const std::string on = "ip -n " + process + " ";
     namespaces_[process] = process;
-    return run_all({words("ip netns add " + process),
-                    words("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
-                    words("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
-                    words(on + "link set lo up"), words(on + "link set " + bridge + " mtu " + kMtu + " up"),
-                    words(on + "addr add 10.9.0." + std::to_string(number) + "/24 dev " + bridge),
-                    words(on + "route add " + kMulticast + " dev " + bridge)});
+    return run_all({words_of("ip netns add " + process),
+                    words_of("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
+                    words_of("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
+                    words_of(on + "link set lo up"), words_of(on + "link set " + bridge + " mtu " + kMtu + " up"),
+                    words_of(on + "addr add 10.9.0." + std::to_string(number) + "/24 dev " + bridge),
+                    words_of(on + "route add " + kMulticast + " dev " + bridge)});
 }
 
 std::expected<void, std::string> Network::run_all(const std::vector<Words>& commands) const {
@@ -74,10 +67,15 @@ std::expected<void, std::string> Network::run_all(const std::vector<Words>& comm
     return {};
 }
 
-Words Network::entry(const std::string& process) const {
+std::string Network::namespace_of(const std::string& process) const {
     const auto found = namespaces_.find(process);
-    if (found == namespaces_.end()) { return {}; }
-    return {"nsenter", "--net=/run/netns/" + found->second};
+    return found == namespaces_.end() ? "" : found->second;
+}
+
+Words Network::entry(const std::string& process) const {
+    const std::string name = namespace_of(process);
+    if (name.empty()) { return {}; }
+    return {"nsenter", "--net=/run/netns/" + name};
 }
 
 std::expected<void, std::string> Network::lose(const std::string& process, double percent, Asked::Way way) {
@@ -87,14 +85,14 @@ std::expected<void, std::string> Network::lose(const std::string& process, doubl
     for (const bool hears : {true, false}) {
         if (way == (hears ? Asked::SAYS : Asked::HEARS)) { continue; }
         const std::string chain = hears ? "INPUT -i " : "OUTPUT -o ";
-        commands.push_back(joined(entry(process), words("iptables -w -A " + chain + kBridge + " -p udp ! --dport " +
-                                                        kRecordPort + chance + " -j DROP")));
+        commands.push_back(joined(entry(process), words_of("iptables -w -A " + chain + kBridge + " -p udp ! --dport " +
+                                                           kRecordPort + chance + " -j DROP")));
     }
     return run_all(commands);
 }
 
 std::expected<void, std::string> Network::heal(const std::string& process) {
-    return run_all({joined(entry(process), words("iptables -w -F"))});
+    return run_all({joined(entry(process), words_of("iptables -w -F"))});
 }
 
 std::expected<void, std::string> Network::heal_all() {

@@ -18,6 +18,8 @@ public:
     static std::expected<Network, std::string> make(Asked::Place place, const std::vector<std::string>& processes,
                                                     const std::filesystem::path& log);
 
+    /// The name of a process's own network; empty: it has none.
+    std::string namespace_of(const std::string& process) const;
     /// What a process's command line begins with, so that it runs where it belongs.
     Words entry(const std::string& process) const;
 

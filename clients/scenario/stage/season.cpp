@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "clients/scenario/stage/control_groups.hpp"
 #include "clients/scenario/stage/stage.hpp"
 #include "clients/scenario/stage/world.hpp"
 
@@ -35,11 +36,14 @@ public:
         : scenarios_(scenarios), options_(options), reports_(scenarios.size()) {}
     ~Season() {
         for (const int folder : folders_) { close(folder); }
+        worlds_.clear();
+        if (containers_) { remove_control_groups(); }
     }
     Season(const Season&) = delete;
     Season& operator=(const Season&) = delete;
 
     std::expected<proto::ScenarioRunReport, std::string> play() {
+        if (const auto found = find_image(); !found) { return std::unexpected(found.error()); }
         if (const auto opened = open_folders(); !opened) { return std::unexpected(opened.error()); }
         while (next_ < scenarios_.size() || !worlds_.empty()) {
             if (options_.interrupted && options_.interrupted()) { break; }
@@ -63,11 +67,21 @@ private:
         return {};
     }
 
+    std::expected<void, std::string> find_image() {
+        const auto in_containers = [](const Scenario& scenario) { return scenario.asked.place() == Asked::CONTAINER; };
+        if (std::ranges::none_of(scenarios_, in_containers)) { return {}; }
+        auto containers = Containers::of(options_.image);
+        if (!containers) { return std::unexpected(containers.error()); }
+        containers_ = *std::move(containers);
+        return {};
+    }
+
     std::expected<void, std::string> begin_some() {
         while (next_ < scenarios_.size() && worlds_.size() < static_cast<std::size_t>(options_.at_a_time)) {
             const Scenario& scenario = scenarios_[next_];
             const int folder = options_.keep ? folders_[next_] : -1;
-            auto world = World::begin([&] { return scenario::play(scenario, folder).SerializeAsString(); });
+            auto world =
+                World::begin([&] { return scenario::play(scenario, containers_, folder).SerializeAsString(); });
             if (!world) { return std::unexpected(world.error()); }
             worlds_.emplace(next_++, *std::move(world));
         }
@@ -122,7 +136,8 @@ private:
     const std::vector<Scenario>& scenarios_;
     const SeasonOptions& options_;
     std::vector<proto::ScenarioReport> reports_;
-    std::vector<int> folders_;             // of the scenarios, open
+    std::vector<int> folders_;  // of the scenarios, open
+    std::optional<Containers> containers_;
     std::map<std::size_t, World> worlds_;  // by the scenario's place
     std::vector<std::size_t> ended_;
     std::size_t next_ = 0;

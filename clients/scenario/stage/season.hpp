@@ -14,6 +14,7 @@ namespace lockstep::scenario {
 
 struct SeasonOptions {
     int at_a_time = 1;
+    std::string image = "lockstep";             // of those that are played in containers
     std::optional<std::filesystem::path> keep;  // a directory; each scenario's logs go into one of its name in it
     std::function<void(const std::string&)> progress;          // now and then: what is played
     std::function<void(const proto::ScenarioReport&)> played;  // each, as it ends

@@ -2,9 +2,11 @@
 
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <thread>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/lockstep/live/flight_files.hpp"
@@ -16,6 +18,7 @@
 #include "clients/scenario/stage/player.hpp"
 #include "clients/scenario/stage/world.hpp"
 #include "core/gcode/number_text.hpp"
+#include "services/axis/device_window.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/text_file.hpp"
 #include "services/runtime/host_name.hpp"
@@ -27,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* kStandby = "coordinator-2";
-constexpr auto kStandbyPatience = 10s;
+constexpr auto kStartPatience = 10s;
 
 std::string clock_error_text(const Asked::WrongClock& clock) {
     std::string text = "offset=" + number_text(clock.offset_s()) + ",ppm=" + number_text(clock.ppm());
@@ -35,18 +38,20 @@ std::string clock_error_text(const Asked::WrongClock& clock) {
     return text;
 }
 
-/// The command lines of all processes, each begun where its network is.
-std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const StateDirectory& state) {
+/// The command lines of all processes, each begun where its network is, or in its container.
+std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const Containers* containers,
+                                  const StateDirectory& state) {
     const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
                         scenario.asked.continues()};
-    auto lines =
-        service_lines(scenario.machine, placed_on(scenario.machine, host_name()), layout, program_folder(), state);
+    const fs::path programs = containers == nullptr ? program_folder() : "";
+    auto lines = service_lines(scenario.machine, placed_on(scenario.machine, host_name()), layout, programs, state);
     for (ServiceLine& line : lines) {
         for (const auto& clock : scenario.asked.wrong_clock()) {
             if (line.name != "axis-" + clock.axis()) { continue; }
             line.words.insert(line.words.end(), {"--clock-error", clock_error_text(clock)});
         }
-        const Words entry = network.entry(line.name);
+        const Words entry = containers == nullptr ? network.entry(line.name)
+                                                  : containers->entry(line.name, network.namespace_of(line.name));
         line.words.insert(line.words.begin(), entry.begin(), entry.end());
     }
     return lines;
@@ -72,11 +77,29 @@ private:
     std::expected<pid_t, std::string> pid_;
 };
 
+/// Each until it can be attached to: an axis tries once, as it begins.
+std::expected<void, std::string> start_devices(const Scenario& scenario, Cast& cast) {
+    for (const AxisConfig& axis : scenario.machine.axes) {
+        const std::string name = "fpga-" + axis.name;
+        if (const auto started = cast.start(name); !started) { return started; }
+        const auto deadline = monotonic_now() + kStartPatience;
+        for (auto window = open_window(shared_device(scenario.machine, axis)); !window;
+             window = open_window(shared_device(scenario.machine, axis))) {
+            if (monotonic_now() > deadline) { return std::unexpected(name + ": " + window.error()); }
+            std::this_thread::sleep_for(5ms);
+        }
+    }
+    return {};
+}
+
 /// Error: with the end of the process's log.
 std::expected<void, std::string> bring_up(const Scenario& scenario, Cast& cast, Session& session, Player& player,
                                           const StateDirectory& state) {
+    if (scenario.asked.separate_devices()) {
+        if (const auto started = start_devices(scenario, cast); !started) { return started; }
+    }
     for (const std::string& name : processes_of(scenario.asked, scenario.machine)) {
-        if (name == kStandby) { continue; }
+        if (name == kStandby || name.starts_with("fpga-")) { continue; }
         if (const auto started = cast.start(name); !started) { return started; }
     }
     if (!player.wait_for(Asked::IDLE)) {
@@ -85,7 +108,7 @@ std::expected<void, std::string> bring_up(const Scenario& scenario, Cast& cast, 
     }
     if (!scenario.asked.standby()) { return {}; }
     if (const auto started = cast.start(kStandby); !started) { return started; }
-    const auto deadline = monotonic_now() + kStandbyPatience;
+    const auto deadline = monotonic_now() + kStartPatience;
     while (!session.has_standby()) {
         if (monotonic_now() > deadline) { return std::unexpected("the coordinator that is to stand by is not heard"); }
         session.listen(50ms);
@@ -130,7 +153,8 @@ Seen play_with(const Scenario& scenario, const ChosenMachine& machine, Cast& cas
 }
 
 /// Brings it up, plays, takes it down.
-Seen put_on(const Scenario& scenario, const fs::path& folder) {
+Seen put_on(const Scenario& scenario, const Containers* containers, const fs::path& folder) {
+    if (containers != nullptr) { umask(0); }  // a container's user writes what root has made, too
     const StateDirectory state(scenario.machine.name);
     const fs::path file = folder / "machine.textproto";
     const auto made = state.make();
@@ -144,7 +168,8 @@ Seen put_on(const Scenario& scenario, const fs::path& folder) {
     if (!network) { return broken(network.error()); }
     const Logger logger(scenario.machine.network.lcm_url, folder);
     if (!logger.pid()) { return broken(logger.pid().error()); }
-    Cast cast(lines_of(scenario, *network, state), state);
+    Cast cast(lines_of(scenario, *network, containers, state), state,
+              containers == nullptr ? fs::path() : Containers::numbers());
     Seen seen = play_with(scenario, {file, scenario.machine, config_hash(scenario.machine)}, cast, *network, state);
     seen.checks.push_back(cast.ends_check());
     cast.end_all();
@@ -176,11 +201,12 @@ proto::ScenarioReport report_of(const Scenario& scenario, const Seen& seen, cons
 
 }  // namespace
 
-proto::ScenarioReport play(const Scenario& scenario, int keep) {
+proto::ScenarioReport play(const Scenario& scenario, const std::optional<Containers>& containers, int keep) {
     const auto begun = monotonic_now();
     const fs::path folder = world_folder();
     setenv("LOCKSTEP_STATE", (folder / "state").c_str(), 1);
-    const Seen seen = put_on(scenario, folder);
+    const bool in_containers = scenario.asked.place() == Asked::CONTAINER;
+    const Seen seen = put_on(scenario, in_containers ? &*containers : nullptr, folder);
     std::vector<Check> judged;
     if (seen.broken.empty()) { judged = judge(scenario, seen, read_evidence(scenario.machine, folder)); }
     proto::ScenarioReport report = report_of(scenario, seen, judged);

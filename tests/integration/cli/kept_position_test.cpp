@@ -70,6 +70,27 @@ TEST_F(KeptPositions, AnAxisThatIsKilledInMotionComesBackUnhomedAndSaysWhy) {
     EXPECT_EQ(run_lockstep({"reset"}).code, 0);
     EXPECT_EQ(run_lockstep({"home"}).code, 0);
     EXPECT_FALSE(y().has_unproved());
+    expect_verified();
+}
+
+/// The log ends before another process moves the axis: with what that one found in the device.
+TEST_F(KeptPositions, WhatTheDeviceOfAKilledAxisWentOnToDoIsAsPlanned) {
+    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    ASSERT_TRUE(becomes("Running"));
+    ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
+    kill_y();
+    ASSERT_TRUE(becomes("Fault"));
+    expect_verified();
+}
+
+/// Axes come to rest by themselves, and nobody says how the job ended.
+TEST_F(KeptPositions, WhatIsRunOfAJobWhoseCoordinatorIsKilledIsAsPlanned) {
+    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    ASSERT_TRUE(becomes("Running"));
+    ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
+    kill(process("coordinator"), SIGKILL);
+    ASSERT_TRUE(becomes("Idle"));
+    expect_verified();
 }
 
 TEST_F(KeptPositions, APositionKeptOfADeviceThatIsGoneIsRefused) {

@@ -14,8 +14,8 @@ TRIES = 6        # of what a host that stalls for longer than the machine bears 
 
 
 class Composed:
-    def __init__(self, podman, service, root, work):
-        self.podman = podman
+    def __init__(self, podman, service, root, work, programs):
+        self.podman, self.programs = podman, programs
         self.files = ["compose.yaml"]
         self.folder, self.work = root / "deploy", work
         self.environment = os.environ | {"DOCKER_HOST": f"unix://{service.socket}", "COMPOSE_PROJECT_NAME": "mill"}
@@ -49,11 +49,11 @@ class Composed:
     def client(self, *words):
         return self.compose("run", "-T", "--rm", "client", *words)
 
-    def client_at(self, address, *words):
-        """The same with an address: docker-compose 1 takes podman's network with addresses for one that has changed."""
+    def client_by_podman(self, *words):
+        """The same without docker-compose, which takes podman's network with addresses for one that has changed."""
         volumes = [f"mill_{part}:/records/{part}:ro" for part in PARTS]
         volumes += ["mill_log:/var/log/lockstep", f"{self.environment['MACHINE_FILE']}:/etc/lockstep/machine.textproto:ro"]
-        return self.podman.ask("run", "--rm", "--network", "mill_machine", "--ip", address, "--workdir",
+        return self.podman.ask("run", "--rm", "--network", "mill_machine", "--workdir",
                                "/var/log/lockstep", *(word for volume in volumes for word in ("--volume", volume)),
                                image.NAME, *words)
 

@@ -20,6 +20,7 @@ events_logger = "file"
 [engine.runtimes]
 runc = ["{runc}"]
 """
+STORE = "{{.Store.GraphDriverName}} {{.Store.GraphRoot}} {{.Store.RunRoot}}"
 
 
 # Whatever becomes of what runs in it, no process and no mount is left behind.
@@ -44,6 +45,13 @@ class Podman:
         """Exit code, and all that it said."""
         ran = self.run(*words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         return ran.returncode, ran.stdout.strip()
+
+    def as_the_hosts(self):
+        """The environment of a program that asks podman itself: to it this storage is the host's."""
+        driver, images, running = self.ask("info", "--format", STORE)[1].split()
+        file = pathlib.Path(running) / "storage.conf"
+        file.write_text(f'[storage]\ndriver = "{driver}"\ngraphroot = "{images}"\nrunroot = "{running}"\n')
+        return self.environment | {"CONTAINERS_STORAGE_CONF": str(file)}
 
 
 def hide_the_host():

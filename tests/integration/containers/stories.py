@@ -1,4 +1,6 @@
 """What is told of the machine in containers: each story starts it, and says what did not hold."""
+import os
+import signal
 import subprocess
 import time
 
@@ -67,14 +69,16 @@ def expect_to_end_as_asked(composed):
                         f"{part} has not ended as asked: {state['Status']}, exit code {state['ExitCode']}")
 
 
-def an_axis_is_killed_in_motion(composed):
-    """An axis killed in motion: the others stop on the path, and nothing moves again until it is told to"""
+def an_axis_that_dies_is_started_anew(composed):
+    """An axis killed in motion: the others stop on the path, the engine starts it anew, nothing moves until it is told to"""
     if not composed.up() or not (move := begin_move(composed)):
         return
-    composed.podman.ask("kill", "--signal", "KILL", composed.container("axis-x"))
+    process = composed.inspect("axis-z")["State"]["Pid"]
+    os.kill(process, signal.SIGKILL)  # not by the engine, which takes its own word for a wish
     expect_spoilt(composed, move)
-    composed.podman.ask("start", composed.container("axis-x"))
     expect_still(composed)
+    state = composed.inspect("axis-z")["State"]
+    composed.expect(state["Running"] and state["Pid"] != process, f"it was not started anew: {state}")
     if composed.move(*BACK):
         composed.verify()
 
@@ -128,16 +132,17 @@ def expect_still(composed):
 
 
 def a_machine_moves_without_multicast(composed):
-    """Without multicast: home and a move by named peers; the parts' own logs, merged, are the whole record"""
+    """Without multicast: home and a move by named peers, some of them away; the parts' own logs, merged, are the record"""
     machine = composed.work / "peers.textproto"
     text = (composed.folder / "examples" / "three-containers.textproto").read_text()
-    machine.write_text(text.replace("#peers:", "peers:"))
+    away = " ".join(f'peers: "10.213.76.{number}"' for number in (98, 99))
+    machine.write_text(text.replace("#peers:", f"{away} peers:"))
     composed.use(["compose.yaml", "compose.peers.yaml"], machine)
     if not composed.up():
         return
     for part in PARTS:
         on_network_of(composed, part, "-A", "OUTPUT", "-p", "udp", "-d", "224.0.0.0/4", "-j", "DROP")
-    client = lambda *words: composed.client_at("10.213.76.20", *words)
+    client = composed.client_by_podman
     if composed.move(*BACK, by=lambda *words: client("lockstep", *words)):
         code, said = client("sh", "-c", "lockstep log merge whole.lcm /records/*/*/record")
         composed.expect(code == 0 and "complete:" in said, f"lockstep log merge: exit code {code}: {said}")
@@ -148,12 +153,19 @@ def a_machine_moves_without_multicast(composed):
         composed.expect(packets == 0, f"{part} sends to multicast addresses: {packets} packets")
 
 
+def scenarios_are_played_in_containers(composed):
+    """Scenarios that ship, in containers: a part killed, one stopped, a link cut; judged as elsewhere"""
+    files = [composed.folder / "scenarios" / f"{name}.textproto" for name in ("axis-killed", "long-pause", "deaf-axis")]
+    ran = subprocess.run([composed.programs / "lockstep", "scenario", "run", *files, "--place", "CONTAINER"],
+                         env=composed.podman.as_the_hosts(), capture_output=True, text=True)
+    composed.expect(ran.returncode == 0, f"lockstep scenario run: exit code {ran.returncode}: {ran.stdout}{ran.stderr}")
+
+
 def on_network_of(composed, part, *words):
     pid = composed.inspect(part)["State"]["Pid"]
     return subprocess.run(["nsenter", f"--net=/proc/{pid}/ns/net", "iptables", *words], check=True,
                           capture_output=True, text=True).stdout
 
 
-ALL = (the_image_holds_no_more_than_is_needed, a_machine_comes_up_and_moves, an_axis_is_killed_in_motion,
-       an_axis_is_paused_in_motion)
-OF_PEERS = (a_machine_moves_without_multicast,)
+ALL = (the_image_holds_no_more_than_is_needed, a_machine_comes_up_and_moves, an_axis_that_dies_is_started_anew,
+       an_axis_is_paused_in_motion, a_machine_moves_without_multicast, scenarios_are_played_in_containers)

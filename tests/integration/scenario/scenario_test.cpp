@@ -98,6 +98,18 @@ TEST_F(ScenarioRun, WhatCannotBeReadIsBadInputAndNothingIsPlayed) {
     EXPECT_THAT(ran.err, HasSubstr("mine.textproto:3:14: error: there is no process 'axis-Q'"));
 }
 
+TEST_F(ScenarioRun, WithoutContainersWhatIsToBePlayedInThemIsRefusedWithTheRemedy) {
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", "/nowhere", 1);
+    const Ran ran = run_lockstep(
+        {"scenario", "run", write("step { home {} }"), "--place", "CONTAINER", "--keep", folder_ / "logs"});
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("no container can be run: cannot start podman"));
+    EXPECT_THAT(ran.err, HasSubstr("install-dependencies"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "logs")) << "nothing was played";
+}
+
 TEST_F(ScenarioRun, CheckSaysWhatWouldBeDone) {
     const Ran ran = run_lockstep({"scenario", "check", std::string(LOCKSTEP_SCENARIOS) + "/axis-killed.textproto"});
     EXPECT_EQ(ran.code, 0) << ran.err;

@@ -1,14 +1,11 @@
 // Each move of a job is measured by itself, and whether all was good is said.
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include <fstream>
 #include <sstream>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/step_merge.hpp"
 #include "clients/analysis/verdict.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 
@@ -128,24 +125,6 @@ TEST_F(Moves, OfWhichEventsWereLostAreDoubtful) {
     EXPECT_EQ(report.findings(0).text(), "3 events of jobs not in the log: what was asked may not all be known");
     ASSERT_EQ(report.notes_size(), 1);
     EXPECT_EQ(report.notes(0), "X: 3 messages of positions missing");
-}
-
-TEST(StepMerge, TellsTheStepsOfAllAxesInTheOrderOfTime) {
-    std::vector<std::int64_t> told;
-    const auto tell = [&](std::size_t, const MeasuredStep& step) { told.push_back(step.tick.value); };
-    StepMerge merge;
-    const std::size_t x = merge.add_lane();
-    const std::size_t y = merge.add_lane();
-    for (int i = 0; i < 100; ++i) { merge.take(x, std::array{MeasuredStep{.tick = {i * 10}}}); }
-    for (int i = 0; i < 100; ++i) { merge.take(y, std::array{MeasuredStep{.tick = {i * 7 + 3}}}); }
-    merge.settle(tell);
-    EXPECT_TRUE(told.empty()) << "an earlier one may still come";
-    merge.take(x, std::array{MeasuredStep{.tick = Tick{500} + StepMerge::kPatience}});
-    merge.settle(tell);
-    EXPECT_EQ(told.size(), 50U + 71U);
-    merge.finish(tell);
-    EXPECT_EQ(told.size(), 201U);
-    EXPECT_TRUE(std::ranges::is_sorted(told));
 }
 
 }  // namespace

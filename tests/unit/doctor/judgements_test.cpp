@@ -46,6 +46,13 @@ TEST(DoctorOnTheBuffer, ASmallerOneThanTheUrlAsksForMayLoseBursts) {
     EXPECT_EQ(small.remedy, "sysctl -w net.core.rmem_max=4194304");
 }
 
+TEST(DoctorOnTheBuffer, ASmallerOneThanAbsentPeersFillMaySilenceAPart) {
+    EXPECT_EQ(judge_send_buffer(400'000, 425'984).verdict, Verdict::Good);
+    const Finding small = judge_send_buffer(449'536, 425'984);
+    EXPECT_EQ(small.verdict, Verdict::Doubtful);
+    EXPECT_EQ(small.remedy, "sysctl -w net.core.wmem_max=449536");
+}
+
 TEST(DoctorOnRealTime, WhatIsRefusedIsBadOnlyWhereItIsAskedFor) {
     const RealTimeFacts refused{.scheduler = "not permitted", .memory = "the limit is 64 KB"};
     EXPECT_EQ(judge_scheduler({}, refused).verdict, Verdict::Good);

@@ -43,6 +43,15 @@ TEST(ScenarioReading, TheMachineOfAScenarioIsApartFromAllOthers) {
     EXPECT_EQ(parsed(whole("")).machine.network.interface, "lo");
 }
 
+TEST(ScenarioReading, APlaceThatIsNamedTakesThePlaceOfTheScenarios) {
+    const std::string cut = whole("step { act { cut { process: \"axis-X\" } } }");
+    EXPECT_FALSE(parse_scenario(cut, "here.textproto")) << "on one host there are no links";
+    const auto scenario = parse_scenario(cut, "here.textproto", Asked::CONTAINER);
+    ASSERT_TRUE(scenario);
+    EXPECT_EQ(scenario->machine.network.interface, "eth0");
+    EXPECT_THAT(outline(*scenario), HasSubstr("a container each"));
+}
+
 struct Bad {
     const char* name;
     std::string text;
@@ -71,7 +80,6 @@ INSTANTIATE_TEST_SUITE_P(
             {"3:3", "tick_ns is 5", "100 to 1000000"}},
         Bad{"NothingToShow", with_machine("step { home {} }"), {"no shows", "say in one sentence"}},
         Bad{"NoStep", with_machine("shows: \"x\""), {"no step", "step { home {} }"}},
-        Bad{"Container", whole("place: CONTAINER"), {"8:1", "CONTAINER", "PROCESS or NAMESPACE"}},
         Bad{"ContinuedByNobody", whole("continues: true"), {"8:1", "standby"}},
         Bad{"EmptyStep", whole("step {}"), {"8:1", "does nothing", "home, run, move, wait or act"}},
         Bad{"RunOfNothing", whole("step { run {} }"), {"8:8", "file:", "gcode:"}},
@@ -123,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& bad) { return std::string(bad.param.name); });
 
 TEST(ScenarioReading, AllThatIsWrongIsSaidInTheOrderOfTheText) {
-    const std::string errors = errors_of(whole("step {}\nexpect { path_within_mm: -1 }\nplace: CONTAINER"));
+    const std::string errors = errors_of(whole("step {}\nexpect { path_within_mm: -1 }\ncontinues: true"));
     EXPECT_THAT(errors, StartsWith("8:1: "));
     EXPECT_LT(errors.find("9:10: "), errors.find("10:1: "));
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "services/wire/participant.hpp"
+#include "services/wire/peer_discovery.hpp"
 
 namespace lockstep {
 namespace {
@@ -22,6 +23,13 @@ TEST(DdsProfile, NamedPeersAreAskedWithoutMulticast) {
     EXPECT_THAT(*profile, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
     EXPECT_THAT(*profile, HasSubstr(R"(<Peers><Peer address="10.0.0.1"/><Peer address="mill-x"/></Peers>)"));
     EXPECT_THAT(*profile, HasSubstr("<ParticipantIndex>auto</ParticipantIndex>"));
+}
+
+TEST(DdsProfile, TheSendBufferHoldsWhatIsAskedOfPeersThatAreNotThere) {
+    EXPECT_EQ(peer_send_buffer(1), kMotionSendBuffer) << "a process is there itself";
+    EXPECT_GT(peer_send_buffer(5), peer_send_buffer(4));
+    const auto profile = dds_profile({.interface = "eth0", .peers = {"10.0.0.1", "10.0.0.2"}});
+    EXPECT_THAT(*profile, HasSubstr("<SocketSendBufferSize max=\"" + std::to_string(peer_send_buffer(2)) + " B\"/>"));
 }
 
 TEST(DdsProfile, ANameThatIsNoInterfacesNeverGetsIn) {

@@ -1,5 +1,5 @@
-// Tells a listener all that is told to this object, in the same order, on a thread of its own: who reads and measures
-// does not wait for what is made of it.
+// Tells a listener all that is told to this object, in the same order, on a thread of its own: who tells does not wait
+// for what is made of it. One of these between two stages lets both work at once.
 #pragma once
 
 #include <condition_variable>
@@ -14,24 +14,25 @@
 
 namespace lockstep::analysis {
 
-class SecondThread final : public SortedListener {
+class StageThread final : public SortedListener {
 public:
     /// So many messages are handed over at once, and so many times that may wait: this bounds the memory.
-    static constexpr std::size_t kTogether = 64;
+    static constexpr std::size_t kTogether = 16;
     static constexpr std::size_t kMaxWaiting = 4;
 
     /// `listener` is the other thread's until finish().
-    explicit SecondThread(SortedListener& listener);
-    SecondThread(const SecondThread&) = delete;
-    SecondThread& operator=(const SecondThread&) = delete;
-    ~SecondThread() override { finish(); }
+    explicit StageThread(SortedListener& listener);
+    StageThread(const StageThread&) = delete;
+    StageThread& operator=(const StageThread&) = delete;
+    ~StageThread() override { finish(); }
 
     void on_axis(const std::string& name) override;
-    void on_measured(std::size_t lane, std::span<const MeasuredStep> steps, Ticks clock_error) override;
+    void on_measured(std::size_t lane, const SharedSteps& steps) override;
     void on_position(const axis_position_t& message) override;
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const job_t& message, LogPlace place) override;
     void on_damage(LogPlace place, const std::string& what) override;
+    void on_late(const std::string& axis, const SharedLate& steps) override;
 
     /// Waits until everything was told.
     void finish();

@@ -1,0 +1,85 @@
+// Steps of several axes in the order of time, whoever tells late of them.
+#include "clients/analysis/step_merge.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep::analysis {
+namespace {
+
+class Merging : public testing::Test {
+protected:
+    explicit Merging(std::size_t max_waiting = StepMerge::kMaxWaiting) : merge(max_waiting) {}
+
+    /// Forward steps, the first at `first`, up to `end`, that not among them.
+    static SharedSteps steps(std::int64_t first, std::int64_t interval, std::int64_t end) {
+        MeasuredSteps made;
+        for (std::int64_t tick = first; tick < end; tick += interval) {
+            made.steps.push_back({.tick = {tick}, .count = (tick - first) / interval + 1, .direction = 1});
+        }
+        return std::make_shared<MeasuredSteps>(std::move(made));
+    }
+    std::size_t settled() {
+        merge.settle(tell);
+        return told.size();
+    }
+    std::size_t finished() {
+        merge.finish(tell);
+        return told.size();
+    }
+
+    StepMerge merge;
+    const std::size_t x = merge.add_lane();
+    const std::size_t y = merge.add_lane();
+    std::vector<std::int64_t> told;
+    const std::function<void(std::size_t, const MeasuredStep&)> tell = [this](std::size_t, const MeasuredStep& step) {
+        told.push_back(step.tick.value);
+    };
+};
+
+TEST_F(Merging, TellsAStepWhenNoAxisCanTellOfAnEarlierOne) {
+    merge.take(x, steps(0, 10, 1000));
+    EXPECT_EQ(settled(), 0U) << "Y has told nothing";
+    merge.take(y, steps(3, 7, 500));
+    EXPECT_EQ(settled(), 50U + 70U) << "all before Y's newest, at 493";
+    EXPECT_EQ(finished(), 100U + 71U);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+}
+
+TEST_F(Merging, WaitsForAnAxisThatIsLateHoweverLate) {
+    merge.take(y, steps(0, 10, 100));
+    merge.stands(y, Tick{95}, 10);
+    merge.take(x, steps(0, 10, 5'000'000));
+    EXPECT_EQ(settled(), 9U + 9U);
+    merge.stands(y, Tick{4'000'000}, 700);  // elsewhere: it has told of its place, but not of its steps
+    EXPECT_EQ(settled(), 9U + 9U);
+    merge.take(y, steps(100, 10, 2'000'000));
+    EXPECT_EQ(finished(), 500'000U + 200'000U);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+}
+
+TEST_F(Merging, DoesNotWaitForAnAxisThatSaysItStandsStill) {
+    merge.take(y, steps(0, 10, 100));
+    merge.take(x, steps(0, 10, 5'000'000));
+    merge.stands(y, Tick{4'000'000}, 10);
+    EXPECT_EQ(settled(), 10U + 350'000U) << "but for what clocks may be off";
+}
+
+class MergingLittle : public Merging {
+protected:
+    MergingLittle() : Merging(1000) {}
+};
+
+TEST_F(MergingLittle, KeepsNoMoreThanItMayAndGoesOnWithoutWhoHoldsItUp) {
+    merge.take(y, steps(0, 10, 100));
+    merge.take(x, steps(0, 10, 5000));
+    EXPECT_EQ(settled(), 9U + 9U);
+    merge.take(x, steps(5000, 10, 10'100));
+    EXPECT_EQ(settled(), 10U + 1009U) << "Y is waited for no longer";
+    merge.take(y, steps(11'000, 10, 11'500));
+    merge.take(x, steps(10'100, 10, 12'000));
+    EXPECT_EQ(settled(), 10U + 1149U + 49U) << "and again since it tells of steps";
+    EXPECT_EQ(finished(), 10U + 1200U + 50U);
+}
+
+}  // namespace
+}  // namespace lockstep::analysis
