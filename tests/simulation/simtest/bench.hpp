@@ -59,10 +59,11 @@ private:
     const Reply* await_reply(std::uint64_t sequence);
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of whoever is asked
 
-    /// Whoever has taken over may have heard a command while it stood by, and answers it when it comes again.
+    /// Whoever has taken over may have heard a command while it stood by, and answers it when it comes again. Nobody
+    /// answers before one owns the machine.
     bool may_lose() const {
         const bool taken_over = scenario_.coordinators > 1 && watch_.disturbed();
-        return lossy() || vm_.faults_pending() || taken_over;
+        return lossy() || vm_.faults_pending() || taken_over || !vm_.owner();
     }
 
     const Scenario& scenario_;
