@@ -61,7 +61,7 @@ bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) {
 
 bool Ownership::must_stand_down(Slot slot, std::span<const AxisView> axes) const {
     if (followed_.value() > *own_) { return true; }
-    if (acknowledged(axes)) { return false; }
+    if (!lacks_axes(slot)) { return false; }
     if (known_.value() > *own_) { return true; }
     const auto is_here = [&](const AxisView& axis) { return axis.present(slot, timing_); };
     const bool in_vain = std::ranges::any_of(axes, is_here) && std::ranges::all_of(axes, [&](const AxisView& axis) {

@@ -26,8 +26,8 @@ public:
 
     /// Once a slot, after all that was heard. Claims a term above all others where no owner was heard for
     /// silence_slots, at least since the start, and every axis that is heard is at rest and hears none either; of two
-    /// that wait for this the elder goes first. Stands down where an axis follows a higher term; and, while not all
-    /// axes follow it, before another's higher claim, or when all that are heard have long had another owner.
+    /// that wait for this the elder goes first. Stands down where an axis follows a higher term; and, while it lacks
+    /// axes, before another's higher claim, or when all that are heard have long had another owner.
     Change judge(Tick now, Slot slot, std::span<const AxisView> axes);
 
     bool owns() const { return own_.has_value(); }

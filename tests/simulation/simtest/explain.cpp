@@ -11,6 +11,7 @@ enum class Cause : std::uint8_t {
     Loss,
     Corruption,
     Freeze,
+    Stall,
     CrashOfAxis,
     CrashOfCoordinator,
     Cut,
@@ -39,6 +40,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::Corruption, FaultCode::PositionMismatch},
     Explanation{Cause::Freeze, FaultCode::FramesDiffer},
     Explanation{Cause::Freeze, FaultCode::AxisLost},
+    // The first frame of a run, armed when its start has gone by: the device refuses it.
+    Explanation{Cause::Stall, FaultCode::DeviceFault},
     Explanation{Cause::CrashOfAxis, FaultCode::AxisLost},
     Explanation{Cause::Cut, FaultCode::FrameLate},
     Explanation{Cause::Cut, FaultCode::FramesDiffer},
@@ -86,7 +89,10 @@ std::vector<Cause> causes_in(const Recording& recording) {
     if (!recording.emergencies.empty()) { causes.push_back(Cause::EmergencyStop); }
     if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
-    for (const VirtualFault& fault : recording.faults) { causes.push_back(cause_of(fault, recording.machine)); }
+    for (const VirtualFault& fault : recording.faults) {
+        causes.push_back(cause_of(fault, recording.machine));
+        if (fault.in_loop) { causes.push_back(Cause::Stall); }
+    }
     const bool disturbed = recording.lossy() || !recording.faults.empty();
     if (disturbed && recording.machine.timing.time_source == TimeSource::Network) {
         causes.push_back(Cause::OwnClocks);

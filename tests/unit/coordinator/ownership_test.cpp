@@ -143,6 +143,18 @@ TEST(Ownership, OnceAcknowledgedDoesNotEndForAClaimThatNoAxisFollows) {
               Change::None);
 }
 
+TEST(Ownership, OnceAcknowledgedDoesNotEndForOneDamagedStateThoughAClaimWasHeard) {
+    Scene scene;
+    scene.own();
+    const Term own = scene.ownership.term();
+    (void)scene.look_for(3, [&] {
+        scene.axes_follow(own);
+        scene.owner_says({own.number + 1, 9});
+    });
+    EXPECT_EQ(scene.look_for(1, [&] { scene.say(1, {.term = kOther, .hears_owner = true}); }), Change::None);
+    EXPECT_EQ(scene.look_for(kSilence, [&] { scene.axes_follow(own); }), Change::None);
+}
+
 TEST(Ownership, OfTwoClaimsTheLowerGivesWay) {
     Scene scene;
     (void)scene.look_for(2 * kSilence, [] {});
