@@ -116,14 +116,29 @@ void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& s
     made_[move].last = step.tick;
 }
 
-void JobMoves::take(std::size_t axis, const LateStep& step) {
+void JobMoves::Made::add(std::span<const LateStep> equally_late) {
+    const Ticks amount = equally_late.front().late;
+    earliest = late.empty() ? amount : std::min(earliest, amount);
+    latest = late.empty() ? amount : std::max(latest, amount);
+    late.add(amount, std::ssize(equally_late));
+}
+
+void JobMoves::take(std::size_t axis, std::span<const LateStep> steps) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = late_cursor_[axis];
-    if (!cursor.find(asked_, axis, step.count - step.direction, step.direction)) { return; }
-    Made& made = made_[cursor.move()];
-    made.earliest = made.late.empty() ? step.late : std::min(made.earliest, step.late);
-    made.latest = made.late.empty() ? step.late : std::max(made.latest, step.late);
-    made.late.add(step.late);
+    const auto is_elsewhere = [&](const LateStep& step) {
+        return !cursor.is_in_move(step.count - step.direction, step.direction);
+    };
+    while (!steps.empty()) {
+        const LateStep& first = steps.front();
+        const bool found = cursor.find(asked_, axis, first.count - first.direction, first.direction);
+        const auto count = static_cast<std::size_t>(std::ranges::find_if(steps, is_elsewhere) - steps.begin());
+        if (found) {
+            Made& made = made_[cursor.move()];
+            for_equally_late(steps.first(count), [&](std::span<const LateStep> equal) { made.add(equal); });
+        }
+        steps = steps.subspan(found ? count : 1);
+    }
 }
 
 std::optional<std::int32_t> JobMoves::line_at(Tick tick) const {

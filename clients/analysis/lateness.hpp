@@ -4,11 +4,13 @@
 // runs are missing from the log, what cannot be told apart is left out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clients/analysis/run.hpp"
@@ -23,6 +25,17 @@ struct LateStep {
     std::int64_t count = 0;  // after it, machine coordinates
     std::int8_t direction = 0;
 };
+
+/// Calls on_equal(steps) for each stretch of steps that are equally late: mostly all of a run are, by nothing.
+template <typename OnEqual>
+void for_equally_late(std::span<const LateStep> steps, OnEqual&& on_equal) {
+    while (!steps.empty()) {
+        const auto differs = [late = steps.front().late](const LateStep& step) { return step.late != late; };
+        const auto end = std::ranges::find_if(steps, differs) - steps.begin();
+        on_equal(steps.first(static_cast<std::size_t>(end)));
+        steps = steps.subspan(static_cast<std::size_t>(end));
+    }
+}
 
 /// Of one run, in the order of the ticks commanded; read on any thread.
 using SharedLate = std::shared_ptr<const std::vector<LateStep>>;

@@ -104,7 +104,7 @@ void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
     moves_.on_late(axis, *steps);
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
-    for (const LateStep& step : *steps) { lane->late.add(step); }
+    lane->late.add(*steps);
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
