@@ -32,8 +32,8 @@ struct LateFigures {
     TickHistogram amounts;
     Course course;
 
-    void add(std::span<const LateStep> steps) {
-        for_equally_late(steps, [this](std::span<const LateStep> equal) {
+    void add(LateSteps late_steps) {
+        for_equally_late(late_steps, [this](std::span<const LateStep> equal) {
             const Ticks late = equal.front().late;
             amounts.add(late, std::ssize(equal));
             course.add_equal(static_cast<double>(late.value), equal.size(),

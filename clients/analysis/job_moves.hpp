@@ -52,6 +52,8 @@ public:
     bool is_in_move(std::int64_t count, int direction) const {
         return direction == direction_ && low_ <= count && count < high_;
     }
+    /// The steps from `count` on to the end of the move that leads through there.
+    std::int64_t steps_from(std::int64_t count) const { return direction_ > 0 ? high_ - count : count - low_ + 1; }
     /// Its number.
     std::size_t move() const { return move_; }
 
@@ -76,7 +78,7 @@ public:
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     /// In the order of time. One that comes late leaves the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
-    void take(std::size_t axis, std::span<const LateStep> steps);
+    void take(std::size_t axis, LateSteps late);
 
     /// Steps that no move asked for.
     std::int64_t unasked_steps() const { return unasked_steps_; }
