@@ -71,7 +71,7 @@ Finding judge_buffer(std::int64_t asked, std::int64_t given) {
 }
 
 Finding judge_send_buffer(std::int64_t needed, std::int64_t given) {
-    const std::string text = std::to_string(given) + " of " + std::to_string(needed) + " bytes";
+    const std::string text = std::to_string(given) + " bytes; " + std::to_string(needed) + " are needed";
     if (given >= needed) { return {Verdict::Good, "send buffer", text, ""}; }
     return {Verdict::Doubtful, "send buffer",
             text + ": while many of network.peers are not there, this host's parts may fall silent for seconds",

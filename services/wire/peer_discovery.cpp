@@ -5,7 +5,7 @@
 namespace lockstep {
 namespace {
 
-constexpr int kProcessesOfHost = 16;  // that find each other: each asks as many ports of every peer
+constexpr int kProcessesOfHost = 16;  // that find each other: DDS asks as many ports of every peer, from index 0 on
 constexpr int kAskEvery_ms = 800;
 constexpr int kLease_ms = 4000;                // five chances to be heard; who comes answers and is answered at once
 constexpr int kGivenUpAfter_ms = 4000;         // three ARP requests, a second each, and what a busy host takes besides
@@ -21,7 +21,7 @@ std::string peer_discovery(const std::vector<std::string>& peers) {
     return "<General><AllowMulticast>false</AllowMulticast></General><Discovery><SPDPInterval>" +
            milliseconds(kAskEvery_ms) + "</SPDPInterval><LeaseDuration>" + milliseconds(kLease_ms) +
            "</LeaseDuration><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-           std::to_string(kProcessesOfHost - 1) + "</MaxAutoParticipantIndex><Peers>" + listed +
+           std::to_string(kProcessesOfHost) + "</MaxAutoParticipantIndex><Peers>" + listed +
            "</Peers></Discovery><Internal><SocketSendBufferSize max=\"" +
            std::to_string(peer_send_buffer(peers.size())) + " B\"/></Internal>";
 }

@@ -1,6 +1,17 @@
 #include "clients/lockstep/live/service_lines.hpp"
 
 namespace lockstep {
+namespace {
+
+std::string shared_name(const MachineConfig& machine, const AxisConfig& axis) {
+    return "lockstep-" + machine.name + "-" + axis.name;
+}
+
+}  // namespace
+
+std::string shared_device(const MachineConfig& machine, const AxisConfig& axis) {
+    return "shm:" + shared_name(machine, axis);
+}
 
 std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state) {
@@ -12,13 +23,12 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         words.insert(words.end(), more.begin(), more.end());
         return ServiceLine{name, std::move(words)};
     };
-    const auto shared_name = [&](const AxisConfig& axis) { return "lockstep-" + machine.name + "-" + axis.name; };
     std::vector<ServiceLine> lines;
     for (const std::size_t i : placed.axes) {
         if (layout.fpga != FpgaKind::Shared) { break; }
         const AxisConfig& axis = machine.axes[i];
-        lines.push_back(
-            line("fpga-" + axis.name, begin("lockstep-fpga"), {"--axis", axis.name, "--name", shared_name(axis)}));
+        lines.push_back(line("fpga-" + axis.name, begin("lockstep-fpga"),
+                             {"--axis", axis.name, "--name", shared_name(machine, axis)}));
     }
     for (const char* name : {"coordinator", "coordinator-2"}) {
         if (!placed.coordinator) { break; }
@@ -34,7 +44,7 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         const std::string name = "axis-" + axis.name;
         std::vector<std::string> more{"--axis", axis.name, "--log", state.log_file(name).string()};
         if (layout.fpga == FpgaKind::Sim) { more.insert(more.end(), {"--fpga", "sim"}); }
-        if (layout.fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", "shm:" + shared_name(axis)}); }
+        if (layout.fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", shared_device(machine, axis)}); }
         lines.push_back(line(name, begin("lockstep-axis"), more));
     }
     return lines;

@@ -25,6 +25,9 @@ struct ServiceLine {
     std::vector<std::string> words;  // the program's path and its arguments
 };
 
+/// The device of an axis whose FPGA is a process of its own, as open_window takes it.
+std::string shared_device(const MachineConfig& machine, const AxisConfig& axis);
+
 /// Of the machine's parts those that are `placed` on this host. Devices first: an axis attaches to its own. `programs`:
 /// the directory of the services' executables.
 std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,

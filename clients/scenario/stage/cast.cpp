@@ -165,7 +165,8 @@ void Cast::reap() {
     }
 }
 
-Check Cast::ends_check() const {
+Check Cast::ends_check() {
+    reap();
     const bool none_did = ended_by_themselves_.empty();
     return check_of("no process ends by itself", none_did ? "none did" : ended_by_themselves_, "the processes' logs",
                     none_did);

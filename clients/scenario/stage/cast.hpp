@@ -34,7 +34,7 @@ public:
     void end_all();
 
     /// Whether processes ended that nobody had ended, and how.
-    Check ends_check() const;
+    Check ends_check();
 
 private:
     struct Part {

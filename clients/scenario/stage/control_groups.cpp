@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <functional>
+#include <iterator>
 #include <string_view>
 #include <thread>
 #include <vector>

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <thread>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/lockstep/live/flight_files.hpp"
@@ -17,6 +18,7 @@
 #include "clients/scenario/stage/player.hpp"
 #include "clients/scenario/stage/world.hpp"
 #include "core/gcode/number_text.hpp"
+#include "services/axis/device_window.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/text_file.hpp"
 #include "services/runtime/host_name.hpp"
@@ -28,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* kStandby = "coordinator-2";
-constexpr auto kStandbyPatience = 10s;
+constexpr auto kStartPatience = 10s;
 
 std::string clock_error_text(const Asked::WrongClock& clock) {
     std::string text = "offset=" + number_text(clock.offset_s()) + ",ppm=" + number_text(clock.ppm());
@@ -75,11 +77,29 @@ private:
     std::expected<pid_t, std::string> pid_;
 };
 
+/// Each until it can be attached to: an axis tries once, as it begins.
+std::expected<void, std::string> start_devices(const Scenario& scenario, Cast& cast) {
+    for (const AxisConfig& axis : scenario.machine.axes) {
+        const std::string name = "fpga-" + axis.name;
+        if (const auto started = cast.start(name); !started) { return started; }
+        const auto deadline = monotonic_now() + kStartPatience;
+        for (auto window = open_window(shared_device(scenario.machine, axis)); !window;
+             window = open_window(shared_device(scenario.machine, axis))) {
+            if (monotonic_now() > deadline) { return std::unexpected(name + ": " + window.error()); }
+            std::this_thread::sleep_for(5ms);
+        }
+    }
+    return {};
+}
+
 /// Error: with the end of the process's log.
 std::expected<void, std::string> bring_up(const Scenario& scenario, Cast& cast, Session& session, Player& player,
                                           const StateDirectory& state) {
+    if (scenario.asked.separate_devices()) {
+        if (const auto started = start_devices(scenario, cast); !started) { return started; }
+    }
     for (const std::string& name : processes_of(scenario.asked, scenario.machine)) {
-        if (name == kStandby) { continue; }
+        if (name == kStandby || name.starts_with("fpga-")) { continue; }
         if (const auto started = cast.start(name); !started) { return started; }
     }
     if (!player.wait_for(Asked::IDLE)) {
@@ -88,7 +108,7 @@ std::expected<void, std::string> bring_up(const Scenario& scenario, Cast& cast, 
     }
     if (!scenario.asked.standby()) { return {}; }
     if (const auto started = cast.start(kStandby); !started) { return started; }
-    const auto deadline = monotonic_now() + kStandbyPatience;
+    const auto deadline = monotonic_now() + kStartPatience;
     while (!session.has_standby()) {
         if (monotonic_now() > deadline) { return std::unexpected("the coordinator that is to stand by is not heard"); }
         session.listen(50ms);

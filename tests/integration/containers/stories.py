@@ -69,20 +69,8 @@ def expect_to_end_as_asked(composed):
                         f"{part} has not ended as asked: {state['Status']}, exit code {state['ExitCode']}")
 
 
-def an_axis_is_killed_in_motion(composed):
-    """An axis killed in motion: the others stop on the path, and nothing moves again until it is told to"""
-    if not composed.up() or not (move := begin_move(composed)):
-        return
-    composed.podman.ask("kill", "--signal", "KILL", composed.container("axis-x"))
-    expect_spoilt(composed, move)
-    composed.podman.ask("start", composed.container("axis-x"))
-    expect_still(composed)
-    if composed.move(*BACK):
-        composed.verify()
-
-
 def an_axis_that_dies_is_started_anew(composed):
-    """An axis that dies in motion: the engine starts it anew, and nothing moves again until it is told to"""
+    """An axis killed in motion: the others stop on the path, the engine starts it anew, nothing moves until it is told to"""
     if not composed.up() or not (move := begin_move(composed)):
         return
     process = composed.inspect("axis-z")["State"]["Pid"]
@@ -179,6 +167,5 @@ def on_network_of(composed, part, *words):
                           capture_output=True, text=True).stdout
 
 
-ALL = (the_image_holds_no_more_than_is_needed, a_machine_comes_up_and_moves, an_axis_is_killed_in_motion,
-       an_axis_that_dies_is_started_anew, an_axis_is_paused_in_motion, a_machine_moves_without_multicast,
-       scenarios_are_played_in_containers)
+ALL = (the_image_holds_no_more_than_is_needed, a_machine_comes_up_and_moves, an_axis_that_dies_is_started_anew,
+       an_axis_is_paused_in_motion, a_machine_moves_without_multicast, scenarios_are_played_in_containers)
