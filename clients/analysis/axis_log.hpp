@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "clients/analysis/axis_statistics.hpp"
@@ -31,9 +32,13 @@ struct LateFigures {
     TickHistogram amounts;
     Course course;
 
-    void add(const LateStep& step) {
-        amounts.add(step.late);
-        course.add({step.commanded + step.late, static_cast<double>(step.late.value)});
+    void add(LateSteps late_steps) {
+        for_equally_late(late_steps, [this](std::span<const LateStep> equal) {
+            const Ticks late = equal.front().late;
+            amounts.add(late, std::ssize(equal));
+            course.add_equal(static_cast<double>(late.value), equal.size(),
+                             [&](std::size_t i) { return equal[i].commanded + late; });
+        });
     }
 };
 

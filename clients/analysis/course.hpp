@@ -4,7 +4,9 @@
 // neighbours merge and the bins double in width.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <ranges>
 #include <vector>
 
 #include "core/units.hpp"
@@ -24,8 +26,19 @@ public:
 
     /// Samples come in the order of time; one from before the first is left out.
     void add(Sample sample) {
-        const bool is_in_latest = sample.at >= latest_from_ && sample.at < latest_end_;
-        if (is_in_latest || find_bin(sample.at)) { bins_[latest_].add(sample); }
+        if (is_in_latest(sample.at) || find_bin(sample.at)) { bins_[latest_].add(sample); }
+    }
+    /// Samples of one value at at(0) ... at(count - 1), in the order of time: of those within a bin, the first and the
+    /// last tell all.
+    template <typename At>
+    void add_equal(double value, std::size_t count, At&& at) {
+        for (std::size_t i = 0; i < count;) {
+            add({at(i), value});
+            const auto is_in_same = [&](std::size_t k) { return is_in_latest(at(i)) && is_in_latest(at(k)); };
+            const std::size_t end = *std::ranges::partition_point(std::views::iota(i + 1, count), is_in_same);
+            if (end > i + 1) { add({at(end - 1), value}); }
+            i = end;
+        }
     }
     std::vector<Sample> samples() const;
 
@@ -45,6 +58,7 @@ private:
         void add(const Bin& later);
     };
 
+    bool is_in_latest(Tick at) const { return at >= latest_from_ && at < latest_end_; }
     bool find_bin(Tick at);
     void widen();
 

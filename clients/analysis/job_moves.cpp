@@ -5,6 +5,22 @@
 #include <utility>
 
 namespace lockstep::analysis {
+namespace {
+
+/// From the first on, which is in the move.
+std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> steps) {
+    const LateStep& first = steps.front();
+    const std::int64_t way = (steps.back().count - first.count) * first.direction;
+    if (way + 1 == std::ssize(steps)) {  // none turns back
+        return static_cast<std::size_t>(std::min(way + 1, cursor.steps_from(first.count - first.direction)));
+    }
+    const auto is_elsewhere = [&](const LateStep& step) {
+        return !cursor.is_in_move(step.count - step.direction, step.direction);
+    };
+    return static_cast<std::size_t>(std::ranges::find_if(steps, is_elsewhere) - steps.begin());
+}
+
+}  // namespace
 
 bool MoveLog::is_whole() const {
     return std::ranges::all_of(axes, [](const AxisMove& axis) { return axis.made_steps == axis.asked_steps; });
@@ -116,14 +132,26 @@ void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& s
     made_[move].last = step.tick;
 }
 
-void JobMoves::take(std::size_t axis, const LateStep& step) {
+void JobMoves::Made::add(std::span<const LateStep> equally_late) {
+    const Ticks amount = equally_late.front().late;
+    earliest = late.empty() ? amount : std::min(earliest, amount);
+    latest = late.empty() ? amount : std::max(latest, amount);
+    late.add(amount, std::ssize(equally_late));
+}
+
+void JobMoves::take(std::size_t axis, LateSteps late) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = late_cursor_[axis];
-    if (!cursor.find(asked_, axis, step.count - step.direction, step.direction)) { return; }
-    Made& made = made_[cursor.move()];
-    made.earliest = made.late.empty() ? step.late : std::min(made.earliest, step.late);
-    made.latest = made.late.empty() ? step.late : std::max(made.latest, step.late);
-    made.late.add(step.late);
+    while (!late.steps.empty()) {
+        const LateStep& first = late.steps.front();
+        const bool found = cursor.find(asked_, axis, first.count - first.direction, first.direction);
+        const std::size_t count = found ? steps_in_move(cursor, late.steps) : 1;
+        if (found) {
+            Made& made = made_[cursor.move()];
+            for_equally_late(late.first(count), [&](std::span<const LateStep> equal) { made.add(equal); });
+        }
+        late = late.behind(count);
+    }
 }
 
 std::optional<std::int32_t> JobMoves::line_at(Tick tick) const {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clients/analysis/asked_path.hpp"
@@ -46,8 +47,13 @@ class MoveCursor {
 public:
     /// Goes to the move in which an axis steps from `count` in `direction`. False: no such move is near.
     bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction) {
-        return (direction == direction_ && low_ <= count && count < high_) || find_next(asked, axis, count, direction);
+        return is_in_move(count, direction) || find_next(asked, axis, count, direction);
     }
+    bool is_in_move(std::int64_t count, int direction) const {
+        return direction == direction_ && low_ <= count && count < high_;
+    }
+    /// The steps from `count` on to the end of the move that leads through there.
+    std::int64_t steps_from(std::int64_t count) const { return direction_ > 0 ? high_ - count : count - low_ + 1; }
     /// Its number.
     std::size_t move() const { return move_; }
 
@@ -72,7 +78,7 @@ public:
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     /// In the order of time. One that comes late leaves the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
-    void take(std::size_t axis, const LateStep& step);
+    void take(std::size_t axis, LateSteps late);
 
     /// Steps that no move asked for.
     std::int64_t unasked_steps() const { return unasked_steps_; }
@@ -91,6 +97,7 @@ private:
         TickHistogram late;
         Ticks earliest;  // of how late its steps were
         Ticks latest;
+        void add(std::span<const LateStep> equally_late);
     };
     struct MadeByAxis {
         std::int64_t steps = 0;

@@ -45,13 +45,14 @@ Tick Lateness::first_end() const {
 void Lateness::compare_first() {
     const Run run = std::move(runs_.front());
     runs_.pop_front();
-    auto steps = compare(StepMaker(run));
-    if (run.epoch != 0) { on_run_(run, std::make_shared<const std::vector<LateStep>>(std::move(steps))); }
+    auto late = std::make_shared<const LateRun>(compare(StepMaker(run)));
+    if (run.epoch != 0) { on_run_(run, std::move(late)); }
 }
 
 /// Up to the first that is not in the log.
-std::vector<LateStep> Lateness::compare(StepMaker maker) {
-    std::vector<LateStep> steps;
+LateRun Lateness::compare(StepMaker maker) {
+    LateRun run;
+    std::vector<LateStep>& steps = run.steps;
     const auto is_next = [&](const MeasuredStep& seen) {
         const StepEdge* next = maker.next();
         return next != nullptr && seen.direction == next->direction && seen.count == maker.count() + next->direction &&
@@ -66,11 +67,12 @@ std::vector<LateStep> Lateness::compare(StepMaker maker) {
         LateStep& step = steps.emplace_back();
         step.commanded = maker.commanded();
         step.late = seen.tick - step.commanded;
+        run.are_equally_late = run.are_equally_late && step.late == steps.front().late;
         step.error = seen_.clock_error();
         step.count = seen.count;
         step.direction = seen.direction;
     }
-    return steps;
+    return run;
 }
 
 }  // namespace lockstep::analysis

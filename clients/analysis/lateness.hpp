@@ -4,11 +4,13 @@
 // runs are missing from the log, what cannot be told apart is left out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clients/analysis/run.hpp"
@@ -24,8 +26,35 @@ struct LateStep {
     std::int8_t direction = 0;
 };
 
-/// Of one run, in the order of the ticks commanded; read on any thread.
-using SharedLate = std::shared_ptr<const std::vector<LateStep>>;
+/// Some steps of one run, in the order of the ticks commanded.
+struct LateSteps {
+    std::span<const LateStep> steps;
+    bool are_equally_late = false;  // known to be, mostly by nothing
+
+    LateSteps first(std::size_t count) const { return {steps.first(count), are_equally_late}; }
+    LateSteps behind(std::size_t count) const { return {steps.subspan(count), are_equally_late}; }
+};
+
+/// Calls on_equal(steps) for each stretch of steps that are equally late.
+template <typename OnEqual>
+void for_equally_late(LateSteps late, OnEqual&& on_equal) {
+    while (!late.steps.empty()) {
+        const auto differs = [&](const LateStep& step) { return step.late != late.steps.front().late; };
+        const auto end = late.are_equally_late ? late.steps.end() : std::ranges::find_if(late.steps, differs);
+        const auto count = static_cast<std::size_t>(end - late.steps.begin());
+        on_equal(late.steps.first(count));
+        late = late.behind(count);
+    }
+}
+
+/// All of one run; read on any thread.
+struct LateRun {
+    std::vector<LateStep> steps;
+    bool are_equally_late = true;
+
+    LateSteps all() const { return {steps, are_equally_late}; }
+};
+using SharedLate = std::shared_ptr<const LateRun>;
 
 class Lateness {
 public:
@@ -50,7 +79,7 @@ private:
     void settle();
     Tick first_end() const;
     void compare_first();
-    std::vector<LateStep> compare(StepMaker maker);
+    LateRun compare(StepMaker maker);
 
     OnRun on_run_;
     StepQueue seen_;        // and of no run yet

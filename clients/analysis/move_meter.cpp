@@ -44,14 +44,16 @@ void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step
     if (const auto in_plane = lanes_[lane].in_plane) { plane_.step(*in_plane, step.count, step.direction); }
 }
 
-void MoveMeter::on_late(const std::string& axis, std::span<const LateStep> steps) {
-    Job* latest = nullptr;
-    std::optional<std::size_t> number;
-    for (const LateStep& step : steps) {
-        Job* job = job_at(step.commanded);
-        if (job == nullptr) { continue; }
-        if (job != std::exchange(latest, job)) { number = job->axis(axis); }
-        if (number) { job->moves.take(*number, step); }
+void MoveMeter::on_late(const std::string& axis, LateSteps late) {
+    while (!late.steps.empty()) {
+        const auto& steps = late.steps;
+        Job* job = job_at(steps.front().commanded);
+        const auto is_of_job = [&](const LateStep& step) { return job_at(step.commanded) == job; };
+        const auto end = is_of_job(steps.back()) ? steps.end() : std::ranges::find_if_not(steps, is_of_job);
+        const auto count = static_cast<std::size_t>(end - steps.begin());
+        const auto number = job != nullptr ? job->axis(axis) : std::nullopt;
+        if (number) { job->moves.take(*number, late.first(count)); }
+        late = late.behind(count);
     }
 }
 

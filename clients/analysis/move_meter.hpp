@@ -33,7 +33,7 @@ public:
     void take(std::size_t lane, const MeasuredStep& step);
     /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
     const PlaneTrace& plane() const { return plane_; }
-    void on_late(const std::string& axis, std::span<const LateStep> steps);
+    void on_late(const std::string& axis, LateSteps late);
     /// Call once, at the end.
     void finish();
 

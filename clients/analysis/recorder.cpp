@@ -101,10 +101,10 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
-    moves_.on_late(axis, *steps);
+    moves_.on_late(axis, steps->all());
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
-    for (const LateStep& step : *steps) { lane->late.add(step); }
+    lane->late.add(steps->all());
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {

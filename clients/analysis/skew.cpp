@@ -61,8 +61,8 @@ void SkewMeter::take_first_frame() {
 
 /// Both axes' steps in the order of the ticks commanded.
 void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_type& second) {
-    const auto& a = *first.second;
-    const auto& b = *second.second;
+    const auto& a = first.second->steps;
+    const auto& b = second.second->steps;
     if (a.empty() || b.empty()) { return; }
     Amounts& amounts = skews_[{first.first, second.first}];
     auto same = amounts.times.end();  // the amount found last: most are the same

@@ -17,12 +17,12 @@ public:
     /// Class 0 holds 0, class k the amounts from 2^(k-1) to 2^k - 1; the last all that is larger, too.
     static constexpr std::size_t kClasses = 20;
 
-    /// Its sign does not count.
-    void add(Ticks ticks) {
+    /// So many times the same. Its sign does not count.
+    void add(Ticks ticks, std::int64_t times = 1) {
         const auto amount = static_cast<std::uint64_t>(std::abs(ticks.value));
-        ++counts_[std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(amount)), kClasses - 1)];
+        counts_[std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(amount)), kClasses - 1)] += times;
         largest_ = std::max(largest_, Ticks{static_cast<std::int64_t>(amount)});
-        ++total_;
+        total_ += times;
     }
     void add(const TickHistogram& other) {
         for (std::size_t i = 0; i < kClasses; ++i) { counts_[i] += other.counts_[i]; }

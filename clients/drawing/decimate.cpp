@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace lockstep::drawing {
 namespace {
@@ -23,35 +22,34 @@ void keep(const Column& column, const std::vector<Point>& from, std::vector<Poin
     for (auto place = places.begin(); place != end; ++place) { to.push_back(from[*place]); }
 }
 
-/// The directions in which a line from `anchor` may leave and still pass every point since within the tolerance.
+/// Above 0 where b is to the left of a: turned from it by less than half a circle.
+double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+
+/// The directions in which a line from `anchor` may leave and still pass every point since within the tolerance:
+/// between two rays, less than half a circle apart.
 class Sleeve {
 public:
     Sleeve(Point anchor, double tolerance) : anchor_(anchor), tolerance_(tolerance) {}
 
     /// False where `point` is out of the sleeve, or nearer to the anchor than the path has been: it turned back.
     bool takes(Point point) {
-        const double dx = point.x - anchor_.x;
-        const double dy = point.y - anchor_.y;
-        const double distance = std::hypot(dx, dy);
+        const Point to{point.x - anchor_.x, point.y - anchor_.y};
+        const double square = to.x * to.x + to.y * to.y;
+        const double distance = std::sqrt(square);
         if (distance + tolerance_ < farthest_) { return false; }
         farthest_ = std::max(farthest_, distance);
-        if (distance <= tolerance_) { return true; }
-        return narrow(std::atan2(dy, dx), std::asin(tolerance_ / distance));
+        return distance <= tolerance_ || narrow(to, std::sqrt(square - tolerance_ * tolerance_));
     }
 
 private:
-    bool narrow(double heading, double half_angle) {
-        if (!open_) {
-            open_ = true;
-            middle_ = heading;
-            low_ = -half_angle;
-            high_ = half_angle;
-            return true;
-        }
-        const double turn = std::remainder(heading - middle_, 2 * std::numbers::pi);
-        if (turn < low_ || turn > high_) { return false; }
-        low_ = std::max(low_, turn - half_angle);
-        high_ = std::min(high_, turn + half_angle);
+    /// The point's own sleeve lies between the tangents from the anchor to the circle around it. `tangent`: how long.
+    bool narrow(Point to, double tangent) {
+        const Point right{to.x * tangent + to.y * tolerance_, to.y * tangent - to.x * tolerance_};
+        const Point left{to.x * tangent - to.y * tolerance_, to.y * tangent + to.x * tolerance_};
+        if (open_ && (cross(right_, to) < 0 || cross(to, left_) < 0)) { return false; }
+        if (!open_ || cross(right_, right) > 0) { right_ = right; }
+        if (!open_ || cross(left, left_) > 0) { left_ = left; }
+        open_ = true;
         return true;
     }
 
@@ -59,9 +57,8 @@ private:
     double tolerance_;
     double farthest_ = 0;
     bool open_ = false;
-    double middle_ = 0;  // the angles below are relative to this heading
-    double low_ = 0;
-    double high_ = 0;
+    Point right_;
+    Point left_;
 };
 
 }  // namespace
