@@ -31,6 +31,7 @@ public:
     struct Device {
         Tick now;                   // what it shows
         bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
+        FrameNumber tail_of = 0;    // of the run in progress: by whose tail it comes to rest; 0: by none
     };
     /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet; or, for one loop, it
     /// is in doubt: this process's clock does not go by the device's, which nobody can set. If it was set, the device's
@@ -78,6 +79,7 @@ private:
     Tick seen_;             // the device's, then
     Tick now_;
     Tick device_;
+    FrameNumber tail_of_ = 0;
 
     bool own_run_ = false;
     std::optional<Tick> machine_end_;  // of the frame loaded last in this run
