@@ -39,8 +39,10 @@ void add_verify(CLI::App& app, Action& action) {
     const auto options = std::make_shared<VerifyOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer("Exit 0: exact. 1: not exact; the first difference is said. 2: not a log, or nothing in it.\n" +
-                 footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n"));
+    verb->footer(
+        "What a killed process left is held to all that the plan allows it; notes say what is not on record.\n"
+        "Exit 0: exact. 1: not exact; the first difference is said. 2: not a log, or nothing in it.\n" +
+        footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n"));
     verb->callback([&action, options] { action = [options] { return verify(*options); }; });
 }
 
