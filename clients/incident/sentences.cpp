@@ -24,7 +24,8 @@ std::string veto_words(const Incident& incident, const FlightEvent& event) {
         case VetoReason::NotHeld: return "it has not got it";
         case VetoReason::Own: return "it is at fault or stopped";
         case VetoReason::NoEvidence:
-            return "nothing fresh from " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) + " says that it is held there";
+            return "nothing fresh from " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
+                   " says that it is held there";
     }
     return "for a reason that is not known";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/motion/interpolate.hpp"
 
@@ -36,12 +37,12 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     hear(inputs, out);
     change_owner(out);
     if (!ownership_.owns()) {
-        stand_by(inputs, out);
+        stand_by(out);
         return out;
     }
     if (must_listen()) { return out; }
     watch_axes(out);
-    for (const Command& command : inputs.commands) { take_command(command, out); }
+    for (const Command& command : std::exchange(commands_, {})) { take_command(command, out); }
     if (!begins_slot()) { return out; }
     advance(out);
     for (Frame& frame : out.frames) { frame.term = ownership_.term(); }
@@ -83,6 +84,7 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         view = {state, now_slot_, is_repeat ? view.stamp_before : last_stamp, {}};
     }
     for (const MachineState& other : inputs.others) { ownership_.hear(other, now_slot_); }
+    commands_.insert(commands_.end(), inputs.commands.begin(), inputs.commands.end());
 }
 
 std::optional<std::size_t> Coordinator::missing_axis() const {

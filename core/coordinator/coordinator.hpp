@@ -123,7 +123,7 @@ private:
     };
 
     void forgive_own_stall();
-    void stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& out);
+    void stand_by(CoordinatorOutputs& out);
     void change_owner(CoordinatorOutputs& out);
     void take_over(CoordinatorOutputs& out);
     void inherit(const MachineState& last, CoordinatorOutputs& out);
@@ -227,7 +227,8 @@ private:
     Tick now_;
     Slot now_slot_ = 0;
     std::optional<Slot> state_slot_;
-    std::optional<Slot> woken_;  // from a stall in which another may have taken over
+    std::vector<Command> commands_;  // heard, and not taken yet
+    std::optional<Slot> woken_;      // from a stall in which another may have taken over
 };
 
 }  // namespace lockstep

@@ -18,9 +18,7 @@ void Coordinator::send_homing_group(CoordinatorOutputs& out) {
     if (!group) { return end_job(JobOutcome::Done, out); }
     job_->sequence = *group;
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        if (contains(job_->axes, i) && machine_.axes[i].homing.sequence == *group) {
-            order(i, AxisCommandKind::Home);
-        }
+        if (contains(job_->axes, i) && machine_.axes[i].homing.sequence == *group) { order(i, AxisCommandKind::Home); }
     }
 }
 

@@ -1,6 +1,7 @@
 // The machine's owner and who stands by: taking over, standing down, and what is done meanwhile, which is to listen.
 #include <algorithm>
 #include <ranges>
+#include <utility>
 
 #include "core/coordinator/coordinator.hpp"
 
@@ -25,8 +26,8 @@ void Coordinator::change_owner(CoordinatorOutputs& out) {
 
 /// It says nothing that moves. A command heard now was another's: should it come again, nobody knows whether it was
 /// begun. An emergency stop may be done twice.
-void Coordinator::stand_by(const CoordinatorInputs& inputs, CoordinatorOutputs& out) {
-    for (const Command& command : inputs.commands) {
+void Coordinator::stand_by(CoordinatorOutputs& out) {
+    for (const Command& command : std::exchange(commands_, {})) {
         if (is_interrupt(command.kind)) { interrupt_heard_ = now_slot_; }
         const FaultText* why = find_fault(FaultCode::CoordinatorChanged);
         if (is_old(command) || command.kind == CommandKind::EmergencyStop) { continue; }

@@ -297,5 +297,17 @@ TEST(Coordinator, DoesNotTakeItsOwnStallForTheSilenceOfOthers) {
     EXPECT_EQ(coordinator.step({.now = now + machine.slot_ticks()}).state->axes_present, 0u) << "but its silence since";
 }
 
+TEST(Coordinator, AnswersWhatItWasAskedWhileItStalled) {
+    const MachineConfig machine = small_machine();
+    VirtualMachine vm({.machine = machine});
+    (void)vm.advance_until([&] { return vm.state() && vm.state()->phase == MachinePhase::Idle; }, Ticks{2'000'000});
+    const Ticks stall = machine.slot_ticks() * (2 * rules::silence_slots(machine.timing));
+    vm.schedule({.kind = VirtualFault::Kind::Freeze, .process = machine.axes.size(), .at = vm.now(), .lasts = stall});
+    const auto asked = vm.command(CommandKind::Resume);
+    (void)vm.advance_until([] { return false; }, stall + machine.slot_ticks() * std::int64_t{12});
+    ASSERT_NE(vm.reply_to(asked), nullptr) << "it listens to the axes first, and to nobody in vain";
+    EXPECT_EQ(vm.reply_to(asked)->fault, static_cast<std::uint16_t>(FaultCode::NothingToDo));
+}
+
 }  // namespace
 }  // namespace lockstep
