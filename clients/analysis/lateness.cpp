@@ -18,6 +18,7 @@ void Lateness::take(SharedSteps steps) {
     last_tick_ = steps->steps.back().tick;
     seen_.add(std::move(steps));
     settle();
+    while (seen_.size() > kMaxSeen) { seen_.pop(); }
 }
 
 void Lateness::take(Run run) {

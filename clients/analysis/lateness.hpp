@@ -63,6 +63,8 @@ public:
     static constexpr Ticks kPatience{100'000};
     /// An axis that rests while others move says nothing to wait for.
     static constexpr std::size_t kMaxWaiting = 256;
+    /// So many steps wait for the record of their run; older ones are of no run in the log. 64 MB.
+    static constexpr std::size_t kMaxSeen = std::size_t{1} << 21;
 
     using OnRun = std::function<void(const Run&, SharedLate)>;
 
