@@ -22,7 +22,6 @@ DeviceTime::DeviceTime(const MachineConfig& machine)
 
 bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     device_ = device.now;
-    tail_of_ = device.tail_of;
     if (source_ != TimeSource::Network) {
         now_ = own;
         return true;
@@ -61,9 +60,7 @@ Ticks DeviceTime::error() const {
     if (source_ != TimeSource::Network) { return ptp_error_; }
     Ticks most = error_at(now_);
     for (const Loaded& loaded : loaded_) {
-        if (loaded.end <= device_) { continue; }
-        most = std::max(most, loaded.error);
-        if (loaded.frame.number == tail_of_) { most = std::max(most, loaded.tail_error); }
+        if (loaded.end > device_) { most = std::max(most, loaded.error); }
     }
     return most;
 }

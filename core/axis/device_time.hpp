@@ -31,7 +31,6 @@ public:
     struct Device {
         Tick now;                   // what it shows
         bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
-        FrameNumber tail_of = 0;    // of the run in progress: by whose tail it comes to rest; 0: by none
     };
     /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet; or, for one loop, it
     /// is in doubt: this process's clock does not go by the device's, which nobody can set. If it was set, the device's
@@ -40,7 +39,8 @@ public:
 
     /// At the last look, as all below.
     Tick now() const { return now_; }
-    /// How far `now` may be off, and the motion loaded into the device and not yet made.
+    /// How far `now` may be off, and the bodies loaded into the device and not yet made. A tail is for when these fail, and
+    /// may be long: how far its end is off is said with its track, and no reason to stop.
     Ticks error() const;
     /// The device's clock in machine time, as the exchanges have it: for the record. Motion goes by `now`, which is
     /// slewed towards it.
@@ -79,7 +79,6 @@ private:
     Tick seen_;             // the device's, then
     Tick now_;
     Tick device_;
-    FrameNumber tail_of_ = 0;
 
     bool own_run_ = false;
     std::optional<Tick> machine_end_;  // of the frame loaded last in this run

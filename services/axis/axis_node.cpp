@@ -35,8 +35,7 @@ AxisOutputs AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_st
     if (device_.simulated) { device_.simulated->advance(own); }
     for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
     look(own);
-    const FrameNumber tail_of = status_.in_tail ? status_.frame : 0;
-    knows_time_ = time_.look(own, {status_.now, device_.shares_clock, tail_of}, !controller_.at_rest());
+    knows_time_ = time_.look(own, {status_.now, device_.shares_clock}, !controller_.at_rest());
     AxisOutputs out = knows_time_ ? control(mail) : AxisOutputs{};
     drain(on_step, out.device_clock);
     return out;

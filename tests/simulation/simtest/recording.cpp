@@ -31,6 +31,7 @@ Track track_of(const ExecutedTrack& executed, FrameNumber armed) {
     track.armed = armed;
     track.commanded = executed.commanded_start;
     for (const Ticks ticks : executed.commanded_ticks) { track.commanded_ticks += ticks; }
+    track.clock_error = executed.clock_error;
     if (executed.commanded_ticks.empty()) { track.commanded_ticks = track.ticks; }
     return track;
 }
@@ -60,7 +61,10 @@ Tick AxisRecord::truth(const StepEdge& step) const { return {std::llround(clock.
 
 Ticks AxisRecord::bound_at(Tick truth) const {
     const auto later = std::ranges::upper_bound(bounds, truth, {}, &PublishedBound::at);
-    return later == bounds.begin() ? Ticks{} : std::prev(later)->error;
+    const Ticks published = later == bounds.begin() ? Ticks{} : std::prev(later)->error;
+    const auto next = std::ranges::upper_bound(tracks, truth, {}, &Track::commanded);
+    const bool in_tail = next != tracks.begin() && std::prev(next)->tail;
+    return in_tail ? std::max(published, std::prev(next)->clock_error) : published;
 }
 
 Followed AxisRecord::followed_at(Tick truth) const {

@@ -28,6 +28,7 @@ struct Track {
     FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
     Tick commanded;              // machine time of its start; all else here is the device's
     Ticks commanded_ticks;
+    Ticks clock_error;  // of its steps' times; a long tail's end may be further off than the bound published
 };
 
 /// How far its clock may be off, as an axis has published it.
@@ -71,7 +72,7 @@ struct AxisRecord {
     /// In true time, which is machine time.
     Tick truth(const StepEdge& step) const;
 
-    /// Published last before that instant.
+    /// Published last before that instant; in a tail, what its track says if that is more.
     Ticks bound_at(Tick truth) const;
     /// Said last at or before that instant.
     Followed followed_at(Tick truth) const;
