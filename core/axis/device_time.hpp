@@ -39,8 +39,8 @@ public:
 
     /// At the last look, as all below.
     Tick now() const { return now_; }
-    /// How far `now` may be off, and the bodies loaded into the device and not yet made. A tail is for when these fail, and
-    /// may be long: how far its end is off is said with its track, and no reason to stop.
+    /// How far `now` may be off, and the bodies loaded into the device and not yet made. A tail is for when these fail,
+    /// and may be long: how far its end is off is said with its track, and no reason to stop.
     Ticks error() const;
     /// The device's clock in machine time, as the exchanges have it: for the record. Motion goes by `now`, which is
     /// slewed towards it.

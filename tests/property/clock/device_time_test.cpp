@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <optional>
 
 #include "tests/property/clock/two_clocks.hpp"
@@ -46,6 +47,19 @@ public:
         return time_->in_device_time(track);
     }
 
+    /// The long tail of one more frame: how it came to the device.
+    ExecutedTrack come_to_rest() {
+        const Ticks body{50'000};
+        const Ticks tail{12'000'000};
+        device::LoadFrame frame{.number = ++number_, .start = start_};
+        (void)frame.track.body.push_back({body, {1 << 20}, {}});
+        (void)frame.track.tail.push_back({tail, {1 << 20}, {}});
+        (void)time_->in_device_time(frame);
+        ExecutedTrack track{.epoch = 1, .frame = number_, .tail = true, .start = start_ + body};
+        track.pieces.assign(1, {tail, {1 << 20}, {}});
+        return time_->in_device_time(track);
+    }
+
     double drift() const { return clocks_.drift(); }
     /// Of the device's clock at a machine time, by the clocks as they are.
     Tick device_at(Tick machine) const { return device_shows(clocks_.own(static_cast<double>(machine.value))); }
@@ -73,6 +87,17 @@ TEST(DeviceTime, AFrameIsWithinTheErrorSaidHoweverTheClocksGo) {
             const Ticks off = track.start - frames.device_at(track.commanded_start);
             ASSERT_LE(std::abs(off.value), track.clock_error.value + 2) << "seed " << seed << ", frame " << i;
         }
+    }
+}
+
+TEST(DeviceTime, SoIsTheEndOfALongTail) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        LoadedFrames frames(seed);
+        frames.begin();
+        const ExecutedTrack tail = frames.come_to_rest();
+        const Ticks lasts = std::accumulate(tail.commanded_ticks.begin(), tail.commanded_ticks.end(), Ticks{});
+        const Ticks off = tail.start + total_ticks(tail.pieces) - frames.device_at(tail.commanded_start + lasts);
+        ASSERT_LE(std::abs(off.value), tail.clock_error.value + 2) << "seed " << seed;
     }
 }
 
