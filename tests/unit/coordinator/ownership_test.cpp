@@ -177,7 +177,7 @@ TEST(Ownership, OfTwoClaimsTheLowerGivesWayThoughAxesStillNameTheOwnerBefore) {
         scene.owner_says({own.number + 1, 9});
         scene.axes_follow({kOther.number - 1, 2}, false);
     };
-    EXPECT_EQ(scene.look_for(2, all_speak), Change::StoodDown);
+    EXPECT_EQ(scene.look_for(rules::kHopSlots + 2, all_speak), Change::StoodDown);
 }
 
 TEST(Ownership, ClaimedInVainIsGivenUp) {

@@ -145,7 +145,7 @@ TEST(HostileMachineState, IsRefused) {
     };
     refused("phase", [](auto& w) { overwrite(w.phase, 9); });
     refused("outcome", [](auto& w) { overwrite(w.outcome, 3); });
-    refused("fault_axis", [](auto& w) { w.fault_axis = 32; });
+    refused("fault_axis", [](auto& w) { w.fault_axis = kMaxAxes; });
     refused("progress", [](auto& w) { w.progress = 1.01; });
     refused("progress", [](auto& w) { w.progress = std::nan(""); });
     refused("remaining_s", [](auto& w) { w.remaining_s = std::numeric_limits<double>::infinity(); });
@@ -160,7 +160,7 @@ TEST(HostileCommands, AreRefused) {
     axis_command.target_steps = INT64_MAX;
     expect_refused(axis_command, "target_steps");
     axis_command = to_wire(AxisCommand{});
-    axis_command.axis = 32;
+    axis_command.axis = kMaxAxes;
     expect_refused(axis_command, "axis");
     auto command = to_wire(Command{});
     overwrite(command.kind, 10);

@@ -56,7 +56,7 @@ TEST(StepBatcher, PublishesOnceInTenMilliseconds) {
 }
 
 TEST(StepBatcher, AxesTakeTurnsWithinThePeriod) {
-    Recorder first(0), second(16);
+    Recorder first(0), second(kMaxAxes / 2);
     for (std::int64_t tick = 0; tick < 10'000; tick += 100) {
         for (Recorder* axis : {&first, &second}) {
             axis->batcher.add({{tick}, 1});
