@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-/// Where all but the axes write, such as "mill@1".
+/// Where all but the axes write, such as "mill@2".
 inline std::string partition_of(const std::string& machine) { return machine + "@" + std::to_string(kProtocol); }
 
 /// Where a process writes: "mill@2/0" for its axis 0.
