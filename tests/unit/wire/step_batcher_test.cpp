@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "core/machine.hpp"
+
 namespace lockstep {
 namespace {
 
