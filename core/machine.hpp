@@ -10,13 +10,7 @@
 
 namespace lockstep {
 
-inline constexpr std::size_t kMaxAxes = 64;
-
-/// Some of a machine's axes: bit i stands for axis i.
-using AxisSet = std::uint64_t;
-static_assert(kMaxAxes <= 64);
-constexpr AxisSet set_of(std::size_t axis) { return AxisSet{1} << axis; }
-constexpr bool contains(AxisSet axes, std::size_t axis) { return (axes >> axis & 1) != 0; }
+inline constexpr std::size_t kMaxAxes = 32;
 
 /// How the steps of an axis's own moves are made (core/stepgen): homing, and moves from point to point by itself.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };

@@ -67,10 +67,10 @@ std::optional<Slot> SetpointFollower::start_slot(FrameNumber k) const {
 }
 
 /// The other axes of which there is no evidence that they hold the frame, as bits.
-AxisSet SetpointFollower::lacking(FrameNumber k, Slot start) const {
-    AxisSet lacking = 0;
+std::uint32_t SetpointFollower::lacking(FrameNumber k, Slot start) const {
+    std::uint32_t lacking = 0;
     for (std::size_t i = 0; i < axes_; ++i) {
-        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { lacking |= set_of(i); }
+        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { lacking |= std::uint32_t{1} << i; }
     }
     return lacking;
 }

@@ -110,7 +110,7 @@ std::optional<std::string> trouble(const Session& session, const StateDirectory&
 bool is_up(const Session& session) {
     if (!session.state()) { return false; }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        if (!session.axis_present(i) || !contains(session.state()->state.axes_present, i)) { return false; }
+        if (!session.axis_present(i) || (session.state()->state.axes_present >> i & 1) == 0) { return false; }
     }
     const MachinePhase phase = session.state()->state.phase;
     return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
@@ -120,7 +120,7 @@ Failure missing(const Session& session, const StateDirectory& state) {
     if (!session.state()) { return failed(with_log("the coordinator is not heard", "coordinator", state)); }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
         const std::string& name = session.config().axes[i].name;
-        if (!contains(session.state()->state.axes_present, i)) {
+        if ((session.state()->state.axes_present >> i & 1) == 0) {
             return failed(with_log("axis " + name + " is not heard", "axis-" + name, state));
         }
     }

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed, "the first seed");
     app.add_option("--runs", options.runs, "how many, with seeds that follow each other");
     app.add_option("--axes", options.machine.axes, "of every machine; drawn, 1 to 6, if not given")
-        ->check(CLI::Range(1, 64));
+        ->check(CLI::Range(1, 32));
     app.add_flag("--long-searches", options.machine.long_searches,
                  "also machines that search their switches for minutes: ten times the time");
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")

@@ -102,7 +102,7 @@ MachineState RandomMessages::machine_state() {
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
             .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
-            .axes_present = bits(),
+            .axes_present = static_cast<std::uint32_t>(bits()),
             .config_hash = bits(),
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = bits(),
