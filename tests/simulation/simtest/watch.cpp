@@ -15,10 +15,15 @@ void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
     if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
     if (notice.kind == Kind::StoodDown && process == job_of_) { orphan(JobOutcome::Stopped); }
     if (notice.kind == Kind::JobContinued) { go_on(process); }
-    if (notice.kind != Kind::Phase) { return; }
-    phases_[process] = static_cast<MachinePhase>(notice.number);
-    const bool is_idle = phases_[process] == MachinePhase::Idle && vm_.owner() == process;
-    if (is_idle && (process != job_of_ || orphaned_)) { cut_short(JobOutcome::Stopped); }
+    if (notice.kind == Kind::Phase) { phases_[process] = static_cast<MachinePhase>(notice.number); }
+    if (notice.kind == Kind::Phase || notice.kind == Kind::StoodDown) { look_at_owner(); }
+}
+
+/// Of two that own the machine for a moment, the one that is left may have been idle before.
+void Watch::look_at_owner() {
+    const auto owner = vm_.owner();
+    const bool other = owner && (*owner != job_of_ || orphaned_);
+    if (other && phase() == MachinePhase::Idle) { cut_short(JobOutcome::Stopped); }
 }
 
 void Watch::take_job(std::size_t process, const JobEvent& job) {

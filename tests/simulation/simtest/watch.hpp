@@ -39,6 +39,7 @@ private:
     void take_notice(std::size_t process, const CoordinatorNotice& notice);
     void take_job(std::size_t process, const JobEvent& job);
     void go_on(std::size_t process);
+    void look_at_owner();
     void orphan(JobOutcome outcome);
     void cut_short(JobOutcome outcome) {
         if (!outcome_) { outcome_ = outcome; }
