@@ -26,6 +26,14 @@ protected:
                 .pieces = {{Ticks{kFrame}, Velocity{(std::int64_t{1} << 62) / 25}, {}}},
                 .stop_count = before + kSteps};
     }
+    /// By it the axis may come to rest in the place of frame 2.
+    static analysis::Run tail_of_first() {
+        analysis::Run tail = frame(2);
+        tail.frame = 1;
+        tail.tail = true;
+        tail.pieces = {{Ticks{kFrame / 2}, tail.pieces[0].velocity, {}}};
+        return tail;
+    }
     /// The first steps of a run, as its process says them.
     analysis::StepBatch said(const analysis::Run& run, int count) {
         analysis::StepBatch batch{run.incarnation, batches_++, run.from.count(), {}};
@@ -88,11 +96,7 @@ TEST_F(EndedProcess, StepsThatLackTheirRunAndAreNotThoseOfThePlanAreADifference)
 
 /// It braked to rest instead, by the plan's other course; the record of either is lacking.
 TEST_F(EndedProcess, TheStepsTellWhichOfThePlansCoursesWasTaken) {
-    analysis::Run tail = frame(2);
-    tail.frame = 1;
-    tail.tail = true;
-    tail.pieces = {{Ticks{kFrame / 2}, tail.pieces[0].velocity, {}}};
-    plan = {{tail}, {frame(2), frame(3)}};
+    plan = {{tail_of_first()}, {frame(2), frame(3)}};
     check.take(said(frame(1), kSteps));
     check.take(frame(1));
     check.take(said(frame(2), kSteps));
@@ -105,11 +109,7 @@ TEST_F(EndedProcess, TheStepsTellWhichOfThePlansCoursesWasTaken) {
 }
 
 TEST_F(EndedProcess, WhereTooFewStepsTellNoCourseIsNamedAlone) {
-    analysis::Run tail = frame(2);
-    tail.frame = 1;
-    tail.tail = true;
-    tail.pieces = {{Ticks{kFrame / 2}, tail.pieces[0].velocity, {}}};
-    plan = {{tail}, {frame(2), frame(3)}};
+    plan = {{tail_of_first()}, {frame(2), frame(3)}};
     check.take(said(frame(1), kSteps));
     check.take(frame(1));
     check.take(said(frame(2), 30));
