@@ -9,8 +9,8 @@ namespace lockstep::simtest {
 /// How long a search for a switch over the whole travel takes: after a stuck switch, or a fault far from it.
 double search_slots(const AxisConfig& axis, const ProtocolTiming& timing);
 
-/// `long_searches`: of every length there is. Without them none takes more than some thousand slots: a tenth of the
-/// time for as many faults, since slow searches are most of what all runs last.
+/// `long_searches`: of every length there is. Without them none takes more than some thousand slots: about half of the
+/// time for as many faults.
 MachineConfig draw_machine(Draw& draw, std::size_t axes, bool long_searches);
 
 }  // namespace lockstep::simtest

@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     app.add_option("--axes", options.machine.axes, "of every machine; drawn, 1 to 6, if not given")
         ->check(CLI::Range(1, 32));
     app.add_flag("--long-searches", options.machine.long_searches,
-                 "also machines that search their switches for minutes: ten times the time");
+                 "also machines that search their switches for minutes: about twice the time");
     app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
