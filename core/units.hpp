@@ -39,6 +39,9 @@ struct Tick {
     }
 };
 
+/// How long a span is, forward or backward.
+constexpr Ticks length_of(Ticks span) { return {span.value < 0 ? -span.value : span.value}; }
+
 /// Fractions of a step in one step.
 inline constexpr Int128 kOneStep = Int128{1} << 64;
 inline constexpr Int128 kHalfStep = Int128{1} << 63;

@@ -1,13 +1,10 @@
 #include "clients/analysis/skew.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 
 namespace lockstep::analysis {
 namespace {
-
-Ticks amount(Ticks ticks) { return {std::abs(ticks.value)}; }
 
 /// The least amount that a share of all is not above.
 Ticks quantile(const std::map<Ticks, std::int64_t>& amounts, std::int64_t all, std::int64_t percent) {
@@ -74,7 +71,7 @@ void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_typ
         if (is_a) { newest_a = &a[i++]; }
         if (is_b) { newest_b = &b[j++]; }
         if (newest_a == nullptr || newest_b == nullptr) { continue; }
-        const Ticks found = amount(newest_a->late - newest_b->late);
+        const Ticks found = length_of(newest_a->late - newest_b->late);
         if (same == amounts.times.end() || same->first != found) { same = amounts.times.try_emplace(found).first; }
         ++same->second;
         amounts.error = std::max(amounts.error, newest_a->error + newest_b->error);

@@ -175,7 +175,7 @@ void AxisCheck::compare(const SeenStep& seen) {
 void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
     const Run& run = maker_->run();
     if (run.epoch == 0) { return; }
-    const Ticks late = amount(seen.machine - maker_->commanded());
+    const Ticks late = length_of(seen.machine - maker_->commanded());
     findings_.latest = std::max(findings_.latest, late);
     findings_.clock_error = std::max(findings_.clock_error, seen.error + run.clock_error);
     if (late <= allowed(seen.error, run.clock_error)) { return; }

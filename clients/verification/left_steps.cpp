@@ -65,7 +65,7 @@ private:
                made_.count_after() + offset_ == seen.count;
     }
     bool is_timely(const SeenStep& seen) {
-        return amount(seen.machine - made_.commanded()) <= allowed(seen.error, made_.run().clock_error);
+        return length_of(seen.machine - made_.commanded()) <= allowed(seen.error, made_.run().clock_error);
     }
     bool is_before(const SeenStep& seen) {
         if (made_.commanded() + allowed(seen.error, made_.run().clock_error) < seen.machine) { return true; }

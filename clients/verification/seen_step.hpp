@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
 #include "core/step/segment.hpp"
 #include "core/units.hpp"
@@ -17,8 +16,6 @@ struct SeenStep {
     Tick machine;  // machine time at which it was made...
     Ticks error;   // ...within
 };
-
-inline Ticks amount(Ticks ticks) { return {std::abs(ticks.value)}; }
 
 /// What a step may be off: what is known of when it was made, and what was known when it was commanded. Two ticks are
 /// for what rounding makes of it.

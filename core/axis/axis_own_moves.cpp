@@ -137,7 +137,8 @@ void AxisController::end_local(const DeviceStatus& device, AxisOutputs& out) {
                                    .by_limit = device.stopped_by_limit,
                                    .home_closed = device.home,
                                    .count = device.position.count(),
-                                   .trigger_count = device.trigger_count}),
+                                   .trigger_count = device.trigger_count,
+                                   .encoder_ahead = device.encoder_count - device.position.count()}),
                      out);
 }
 

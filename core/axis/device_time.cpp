@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t kRemembered = 64;  // frames: more than can be loaded and not yet recorded
 
-Ticks apart(Tick a, Tick b) { return {std::abs((a - b).value)}; }
-
 }  // namespace
 
 DeviceTime::DeviceTime(const MachineConfig& machine)
@@ -138,13 +136,13 @@ void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loa
     const Tick start = loaded.body_end;
     const Tick asked_end = to_device(machine_end);
     loaded.body_end = start + slewed(total_ticks(frame.track.body), asked_end - start, frame.track.body.size());
-    end_error_ += apart(asked_end, loaded.body_end);
+    end_error_ += length_of(asked_end - loaded.body_end);
     loaded.end = loaded.body_end;
     if (!frame.track.tail.empty()) {
         const Ticks tail = total_ticks(frame.track.tail);
         const Tick asked_rest = to_device(machine_end + tail);
         loaded.end += slewed(tail, asked_rest - loaded.body_end, frame.track.tail.size());
-        loaded.tail_error += apart(asked_rest, loaded.end);
+        loaded.tail_error += length_of(asked_rest - loaded.end);
     }
     (void)retime(frame.track.body, {start, loaded.body_end});
     (void)retime(frame.track.tail, {loaded.body_end, loaded.end});

@@ -53,12 +53,15 @@ HomingStep Homing::pull_off() {
     return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
 }
 
-/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before.
+/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before. One that is pushed
+/// behind the touch, when no switch will tell any more, has its encoder elsewhere.
 HomingStep Homing::touch(const LocalEnd& end) {
     const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(axis_, axis_.homing.touch_tolerance_mm));
-    const bool agrees = last_ && std::abs(end.trigger_count - *last_) <= tolerance;
+    const Touch here{end.trigger_count, end.encoder_ahead};
+    const bool agrees = last_ && std::abs(here.count - last_->count) <= tolerance &&
+                        std::abs(here.encoder_ahead - last_->encoder_ahead) <= tolerance;
     if (agrees && stage_ == HomingStage::Latch) { return zero_and_park(end); }
-    last_ = end.trigger_count;
+    last_ = here;
     return ++touches_ < kMaxTouches ? pull_off() : fail(FaultCode::HomeSwitchUnsteady);
 }
 

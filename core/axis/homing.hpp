@@ -30,6 +30,7 @@ struct LocalEnd {
     bool home_closed = false;  // the switch, now
     std::int64_t count = 0;    // the device's
     std::int64_t trigger_count = 0;
+    std::int64_t encoder_ahead = 0;  // of the count, now
 };
 
 /// What comes next: a move, or the end of homing well or badly.
@@ -54,6 +55,11 @@ public:
     HomingStage stage() const { return stage_; }
 
 private:
+    struct Touch {
+        std::int64_t count = 0;          // the device's, at the switch
+        std::int64_t encoder_ahead = 0;  // of the count, at rest behind it
+    };
+
     HomingStep search(HomingStage stage);
     HomingStep pull_off();
     HomingStep touch(const LocalEnd& end);
@@ -69,7 +75,7 @@ private:
     HomingStage stage_ = HomingStage::Idle;
     int pull_offs_ = 0;
     int touches_ = 0;                   // of the switch: those that count and those that missed it
-    std::optional<std::int64_t> last_;  // touch, by the device's count
+    std::optional<Touch> last_;
 };
 
 }  // namespace lockstep

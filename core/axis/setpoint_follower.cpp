@@ -26,13 +26,14 @@ void SetpointFollower::hear(const AxisState& peer) {
 }
 
 void SetpointFollower::hear(const MachineState& coordinator) {
+    named_ = coordinator.epoch;
     if (open_ && coordinator.epoch == epoch_) { add_veto(coordinator.veto); }
 }
 
 FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> rest) {
     if (frame.axes.size() != axes_) { return FaultCode::ConfigMismatch; }
     const AxisTrack& track = frame.axes[axis_];
-    const bool first = !open_ && rest && frame.epoch > epoch_ && frame.number == 1;
+    const bool first = !open_ && rest && frame.epoch > epoch_ && frame.epoch == named_ && frame.number == 1;
     const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_;
     if ((!first && !next) || frames_.size() == kMaxFrames) { return FaultCode::None; }
     const bool follows = first ? is_epoch_of(frame.epoch, frame.term) : frame.start == end_tick_;

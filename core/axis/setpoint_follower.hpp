@@ -44,8 +44,10 @@ public:
     void hear(const AxisState& peer);
     void hear(const MachineState& coordinator);
 
-    /// Takes a frame of the epoch in progress, or frame 1 of a newer one when `rest` says where the axis rests.
-    /// Frames held already, of older epochs, or out of order are left alone: None, and nothing changes.
+    /// Takes a frame of the epoch in progress, or frame 1 of a newer one, which the owner's newest state must name too,
+    /// when `rest` says where the axis rests: a frame damaged on its way cannot begin an epoch that nobody has begun.
+    /// Frames held already, of other epochs, or out of order are left alone: None, and nothing changes. They come
+    /// again as long as somebody lacks them.
     /// Otherwise the frame is held (held() says so), or the fault says why not.
     FaultCode offer(const Frame& frame, std::optional<Position> rest);
 
@@ -89,6 +91,7 @@ private:
 
     bool open_ = false;
     Epoch epoch_ = 0;
+    Epoch named_ = 0;  // by the owner
     FrameNumber held_ = 0;
     FrameNumber checked_ = 0;  // every frame up to this one is decided
     std::optional<FrameNumber> veto_;

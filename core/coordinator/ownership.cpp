@@ -24,12 +24,9 @@ void Ownership::hear(const MachineState& other, Slot now) {
 
 Ownership::Change Ownership::judge(Tick now, Slot slot, std::span<const AxisView> axes) {
     forgive_own_stall(slot);
-    if (acknowledged(axes)) {
-        lacking_.reset();
-    } else if (!lacking_) {
-        lacking_ = slot;
-    }
-    if (own_ && must_stand_down(slot, axes)) {
+    lacking_ = acknowledged(axes) ? std::nullopt : std::optional(lacking_.value_or(slot));
+    in_vain_ = all_follow_another(slot, axes) ? std::optional(in_vain_.value_or(slot)) : std::nullopt;
+    if (own_ && must_stand_down(slot)) {
         own_.reset();
         heard_ = slot;
         return Change::StoodDown;
@@ -59,15 +56,18 @@ bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) {
     return slot - *vacant_ >= (hears_elder(slot) ? kHeadStart : 0);
 }
 
-bool Ownership::must_stand_down(Slot slot, std::span<const AxisView> axes) const {
+bool Ownership::must_stand_down(Slot slot) const {
     if (followed_.value() > *own_) { return true; }
     if (!lacks_axes(slot)) { return false; }
-    if (known_.value() > *own_) { return true; }
+    return known_.value() > *own_ || slot - in_vain_.value_or(slot) > 2 * rules::silence_slots(timing_);
+}
+
+/// All that are heard, and some are.
+bool Ownership::all_follow_another(Slot slot, std::span<const AxisView> axes) const {
     const auto is_here = [&](const AxisView& axis) { return axis.present(slot, timing_); };
-    const bool in_vain = std::ranges::any_of(axes, is_here) && std::ranges::all_of(axes, [&](const AxisView& axis) {
-                             return !is_here(axis) || (axis.state->hears_owner && axis.state->term != *own_);
-                         });
-    return in_vain && slot - lacking_.value_or(slot) > 2 * rules::silence_slots(timing_);
+    return own_ && std::ranges::any_of(axes, is_here) && std::ranges::all_of(axes, [&](const AxisView& axis) {
+               return !is_here(axis) || (axis.state->hears_owner && axis.state->term != *own_);
+           });
 }
 
 bool Ownership::acknowledged(std::span<const AxisView> axes) const {

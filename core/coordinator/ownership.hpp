@@ -48,12 +48,14 @@ private:
     static constexpr Slot kHeadStart = 4 * rules::kHopSlots;  // of the elder: its claim is heard before the other's
 
     bool may_claim(Slot slot, std::span<const AxisView> axes);
-    bool must_stand_down(Slot slot, std::span<const AxisView> axes) const;
+    bool must_stand_down(Slot slot) const;
+    bool all_follow_another(Slot slot, std::span<const AxisView> axes) const;
 
     Identity self_;
     ProtocolTiming timing_;
     std::optional<Term> own_;
     std::optional<Slot> lacking_;  // since when not all axes follow it
+    std::optional<Slot> in_vain_;  // since when all that are heard follow another
     HighestTerm known_;            // of all that speak
     HighestTerm followed_;         // by an axis
     std::optional<MachineState> other_owner_;

@@ -135,14 +135,28 @@ std::vector<double> braked_speeds(std::span<const PathMove> moves, Displacement 
     return speeds;
 }
 
-/// What is left of a profile whose last phase is in progress, its time starting at 0.
-Profile remainder_of(const Profile& profile, Subticks t) {
-    const Phase& fall = profile.phases.back();
-    const Subticks into = t - (profile.duration() - fall.duration);
-    const auto entry = static_cast<std::int64_t>(std::llround(fall.velocity_at(into) * 0x1p48));
-    Profile rest;
-    (void)rest.phases.push_back({fall.at(into), fall.to, entry, fall.duration - into});
+/// What is left of a move's profile at t, as it was planned, its time starting at 0.
+PathMove remainder_of(const PathMove& move, Subticks t) {
+    PathMove rest = move;
+    rest.start = rest.gone = {};
+    rest.profile.phases.clear();
+    Subticks into = t - move.start - move.gone;
+    for (const Phase& phase : move.profile.phases) {
+        if (into < phase.duration) {
+            const auto entry = static_cast<std::int64_t>(std::llround(phase.velocity_at(into) * 0x1p48));
+            (void)rest.profile.phases.push_back({phase.at(into), phase.to, entry, phase.duration - into});
+        }
+        into = std::max(Subticks{}, into - phase.duration);
+    }
     return rest;
+}
+
+/// A brake lasts whole subticks. What is left of the move at t may be so short that this would bend it by more than all
+/// of the braking: it would speed up.
+bool is_too_short_to_brake(const PathMove& move, Subticks t) {
+    const double left = static_cast<double>((move.end() - t).value) / static_cast<double>(kSubticksPerTick);
+    const double subtick = 1.0 / static_cast<double>(kSubticksPerTick);
+    return move.limits.max_deceleration * left * left < 2 * move.velocity_at(t) * subtick;
 }
 
 /// Whether the path comes to rest in the phase in progress at t, by braking or slowly enough to stop.
@@ -244,16 +258,18 @@ Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits
     Path rest;
     std::size_t i = path.move_at(t);
     if (t >= path.moves[i].end() || path.moves[i].lead == 0) { return rest; }
-    if (is_last_fall(path, i, t)) {
-        PathMove move = path.moves[i];
-        move.profile = remainder_of(move.profile, t - move.start - move.gone);
-        move.start = move.gone = {};
-        rest.moves.push_back(move);
-        return rest;
-    }
     double speed = path.moves[i].velocity_at(t) * path.moves[i].mm_per_lead();
     Displacement from = path.moves[i].along_at(t);
     Subticks clock;
+    const bool is_falling = is_last_fall(path, i, t);
+    if (is_falling || is_too_short_to_brake(path.moves[i], t)) {
+        const PathMove& move = rest.moves.emplace_back(remainder_of(path.moves[i], t));
+        if (is_falling) { return rest; }
+        clock = move.end();
+        speed = move.velocity_at(clock) * move.mm_per_lead();
+        from = {};
+        ++i;
+    }
     for (; i < path.moves.size() && path.moves[i].lead != 0; ++i, from = {}) {
         PathMove move = path.moves[i];
         const Displacement whole = Displacement::steps(move.lead);

@@ -278,11 +278,11 @@ CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
 }
 
 void VirtualMachine::carry_out(std::size_t here, const CoordinatorOutputs& out) {
+    if (out.state) { multicast(*out.state, here); }
     for (const Frame& frame : out.frames) {
         const auto message = std::make_shared<const VirtualMessage>(frame);
         for (std::size_t i = 0; i < axes_.size(); ++i) { send(here, i, message); }
     }
-    if (out.state) { multicast(*out.state, here); }
     for (const AxisCommand& command : out.axis_commands) {
         send(here, command.axis, std::make_shared<const VirtualMessage>(command));
     }

@@ -64,15 +64,16 @@ private:
         const auto lost = std::ranges::find(axis.lost, tracks, &LostRun::tracks);
         if (lost == axis.lost.end()) {
             if (step != first) { object(i, axis.steps[first].tick, "steps outside any track"); }
-        } else if (lost->epoch != 0 && recording_.emergencies.empty() &&
-                   !may_be_stopped(recording_, i, lost->at, until)) {
-            const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
-            bool found = false;
-            for (FrameNumber k = lost->recorded; k <= lost->armed && !found; ++k) {
-                found = steps_to_rest(epoch, i, lost->recorded, k) == net;
-            }
-            if (!found) { object(i, until, "steps after the process's end that no armed frame and its tail make"); }
+            return;
         }
+        const Tick over = tracks < axis.tracks.size() ? axis.tracks[tracks].commanded : recording_.ended;
+        const bool stopped = !recording_.emergencies.empty() || may_be_stopped(recording_, i, lost->at, over);
+        if (lost->epoch == 0 || stopped) { return; }
+        const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
+        for (FrameNumber k = lost->recorded; k <= lost->armed; ++k) {
+            if (steps_to_rest(epoch, i, lost->recorded, k) == net) { return; }
+        }
+        object(i, lost->at, "steps after the process's end that no armed frame and its tail make");
     }
 
     /// Bodies from 1 on, as sent and armed; a tail after its body, and nothing of the epoch after it.

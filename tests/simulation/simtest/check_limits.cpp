@@ -124,7 +124,8 @@ private:
         const auto steps = static_cast<double>(m);
         const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
         const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
-        const double rates_differ = (stretch_ - 1) * steps / std::min(t1, t2);  // of one frame from the next
+        // One frame's time may be slewed forward, and the next one's back.
+        const double rates_differ = 2 * (stretch_ - 1) * steps / std::min(t1, t2);
         const double most_rise = limits_.accel * between + rates_differ;
         const double most_fall = limits_.decel * between + rates_differ;
         if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }

@@ -46,6 +46,21 @@ TEST_F(HomingSequence, TouchesFurtherApartThanTheToleranceAreTriedAgain) {
     EXPECT_EQ(touch(-699).zero_count, -699);
 }
 
+TEST_F(HomingSequence, ASlideThatIsPushedBehindTheTouchIsTouchedAgain) {
+    homing.begin(false);
+    touch(-700);
+    LocalEnd pushed = closes_at(-700);
+    pushed.encoder_ahead = 40;
+    EXPECT_FALSE(homing.next(pushed).zeroed) << "the switch closed where it did before, and the slide is elsewhere now";
+    EXPECT_EQ(homing.stage(), HomingStage::PullOff);
+    homing.next({.count = -600, .encoder_ahead = 40});
+    LocalEnd again = closes_at(-740);
+    again.encoder_ahead = 40;
+    EXPECT_FALSE(homing.next(again).zeroed) << "by the count it is another place";
+    homing.next({.count = -640, .encoder_ahead = 40});
+    EXPECT_EQ(homing.next(again).zero_count, -740);
+}
+
 TEST_F(HomingSequence, ASwitchThatClosesSomewhereElseEachTimeIsRefused) {
     homing.begin(false);
     for (const std::int64_t count : {-700, -600, -650}) { EXPECT_FALSE(touch(count).zeroed); }

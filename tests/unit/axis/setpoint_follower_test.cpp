@@ -53,9 +53,16 @@ AxisState peer(Slot stamp, FrameNumber held, std::optional<FrameNumber> veto = s
 
 const Position kHome = Position::steps(0);
 
+/// Axis 0 of two, which has heard of the epoch.
+SetpointFollower informed() {
+    SetpointFollower follower{0, machine()};
+    follower.hear(MachineState{.epoch = kEpoch});
+    return follower;
+}
+
 class Follower : public testing::Test {
 protected:
-    SetpointFollower follower{0, machine()};
+    SetpointFollower follower = informed();
 
     bool armed_at(Slot now, FrameNumber k) {
         for (const DeviceOrder& order : follower.decide(now)) {
@@ -158,19 +165,19 @@ TEST_F(Follower, RefusesAFirstFrameFromElsewhere) {
 TEST_F(Follower, TakesAFirstFrameFromTheWholeStepOrTheVeryFraction) {
     const Position fraction{Position::steps(5).raw + 12345};
     EXPECT_EQ(follower.offer(frame(1, Position::steps(5)), fraction), FaultCode::None);
-    SetpointFollower exact{0, machine()};
+    SetpointFollower exact = informed();
     EXPECT_EQ(exact.offer(frame(1, fraction), fraction), FaultCode::None);
-    SetpointFollower mirrored{0, machine()};
+    SetpointFollower mirrored = informed();
     EXPECT_EQ(mirrored.offer(frame(1, rest_position(5, true)), fraction), FaultCode::None);
 }
 
 TEST_F(Follower, RefusesWhatBreaksItsOwnLimits) {
     EXPECT_EQ(follower.offer(frame(1, kHome, kTooFast), kHome), FaultCode::FrameBeyondLimits);
     Frame far = frame(1, Position::steps(9'999));
-    EXPECT_EQ(SetpointFollower(0, machine()).offer(far, Position::steps(9'999)), FaultCode::FrameOutsideTravel);
+    EXPECT_EQ(informed().offer(far, Position::steps(9'999)), FaultCode::FrameOutsideTravel);
     Frame steep = frame(1, kHome);
     steep.axes[0].body[0].acceleration.raw = static_cast<std::int64_t>(0x1p64 * 2e-7);  // 200,000 steps/s^2
-    EXPECT_EQ(SetpointFollower(0, machine()).offer(steep, kHome), FaultCode::FrameBeyondLimits);
+    EXPECT_EQ(informed().offer(steep, kHome), FaultCode::FrameBeyondLimits);
 }
 
 TEST_F(Follower, RefusesATailThatDoesNotComeToRest) {
@@ -204,7 +211,18 @@ TEST_F(Follower, AFirstFrameThatIsRefusedBeginsNothing) {
 TEST_F(Follower, AnEpochNoCoordinatorComesToDoesNotShutTheAxisOut) {
     Frame absurd = frame(1, kHome);
     absurd.epoch = ~Epoch{0} / 3;
+    follower.hear(MachineState{.epoch = absurd.epoch});
     EXPECT_EQ(follower.offer(absurd, kHome), FaultCode::FrameDiscontinuous);
+    follower.hear(MachineState{.epoch = kEpoch});
+    EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
+    EXPECT_EQ(follower.epoch(), kEpoch);
+}
+
+TEST_F(Follower, AnEpochBeginsOnlyWhereItsOwnerNamesIt) {
+    Frame damaged = frame(1, kHome);
+    damaged.epoch = kEpoch + 1;
+    EXPECT_EQ(follower.offer(damaged, kHome), FaultCode::None);
+    EXPECT_FALSE(follower.open()) << "a machine of one axis has nobody else to compare with";
     EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
     EXPECT_EQ(follower.epoch(), kEpoch);
 }
@@ -213,6 +231,7 @@ TEST_F(Follower, ANewEpochBeginsOnlyFromRest) {
     (void)follower.offer(frame(1, kHome), kHome);
     Frame next = frame(1, kHome);
     next.epoch = kEpoch + 1;
+    follower.hear(MachineState{.epoch = next.epoch});
     EXPECT_EQ(follower.offer(next, std::nullopt), FaultCode::None);
     EXPECT_EQ(follower.epoch(), kEpoch);
     follower.close();

@@ -155,6 +155,16 @@ TEST(Ownership, OnceAcknowledgedDoesNotEndForOneDamagedStateThoughAClaimWasHeard
     EXPECT_EQ(scene.look_for(kSilence, [&] { scene.axes_follow(own); }), Change::None);
 }
 
+TEST(Ownership, DoesNotEndForOneDamagedStateOfTheOnlyAxisThatIsLeft) {
+    Scene scene;
+    scene.own();
+    const Term own = scene.ownership.term();
+    const auto one_speaks = [&](const Term& term) { scene.say(1, {.term = term, .hears_owner = true}); };
+    EXPECT_EQ(scene.look_for(5 * kSilence, [&] { one_speaks(own); }), Change::None) << "the other is long gone";
+    EXPECT_EQ(scene.look_for(1, [&] { one_speaks(kOther); }), Change::None);
+    EXPECT_EQ(scene.look_for(kSilence, [&] { one_speaks(own); }), Change::None);
+}
+
 TEST(Ownership, OfTwoClaimsTheLowerGivesWay) {
     Scene scene;
     (void)scene.look_for(2 * kSilence, [] {});

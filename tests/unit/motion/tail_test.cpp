@@ -67,6 +67,18 @@ TEST(Tail, IsAcceptedFromEverywhereOnAFinelyCutCurve) {
     for (Ticks end{1}; end < path.duration().floor(); end += stride) { expect_accepted(path, end, limits); }
 }
 
+TEST(Tail, IsAcceptedFromTheLastTicksBeforeACornerOfASlowAxis) {
+    const std::vector<AxisLimits> limits(2, {1.9e-3, 1.9e-3, 3.7e-10, 3.7e-10, -1'000'000, 1'000'000});
+    for (std::int64_t first = 480; first < 500; ++first) {
+        std::vector<PathMove> moves{make_move({0, 0}, {first, 80}, limits, kScale, 1.2e-5),
+                                    make_move({first, 80}, {900, 20}, limits, kScale, 2e-6)};
+        moves[1].block = 1;
+        const Path path = plan_path(moves, {}, limits, {.least_move = Ticks{100}});
+        const Ticks corner = path.moves[0].end().floor();
+        for (Ticks end = corner - Ticks{20}; end <= corner; end += Ticks{1}) { expect_accepted(path, end, limits); }
+    }
+}
+
 TEST(Tail, IsAcceptedFromEveryTickOfAPath) { expect_accepted_everywhere(1e-7, 1e-7); }
 
 TEST(Tail, IsAcceptedWhereBrakingIsFasterThanGainingSpeed) { expect_accepted_everywhere(2e-8, 3e-6); }
