@@ -53,8 +53,8 @@ HomingStep Homing::pull_off() {
     return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
 }
 
-/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before. One that is pushed
-/// behind the touch, when no switch will tell any more, has its encoder elsewhere.
+/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before. One that is
+/// pushed behind the touch, when no switch will tell any more, has its encoder elsewhere.
 HomingStep Homing::touch(const LocalEnd& end) {
     const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(axis_, axis_.homing.touch_tolerance_mm));
     const Touch here{end.trigger_count, end.encoder_ahead};

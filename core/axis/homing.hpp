@@ -74,7 +74,7 @@ private:
     AxisConfig axis_;
     HomingStage stage_ = HomingStage::Idle;
     int pull_offs_ = 0;
-    int touches_ = 0;                   // of the switch: those that count and those that missed it
+    int touches_ = 0;  // of the switch: those that count and those that missed it
     std::optional<Touch> last_;
 };
 

@@ -36,7 +36,8 @@ bool replan_from(Path& path, Ticks t, std::span<const AxisLimits> limits, const 
                  const Overrides& overrides);
 
 /// The way to rest from time t on: the same moves, braked as hard as their limits allow; the remainder of the path
-/// itself where it is on its last fall, and to the end of a move that is too near to brake before it. Its time 0 is t. Empty where the path is at rest at t.
+/// itself where it is on its last fall, and to the end of a move that is too near to brake before it. Its time 0 is t.
+/// Empty where the path is at rest at t.
 Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits);
 
 }  // namespace lockstep

@@ -60,8 +60,8 @@ public:
         const CoordinatorInputs in{now, states_, others_, commands_};
         const CoordinatorOutputs out = coordinator_.step(in);
         flight_.take(in, out);
-        // First which epoch it is and where its frames come to rest, then the frames: an axis takes the first frame of an
-        // epoch it has heard of only, and a standby knows of every frame that axes may have.
+        // First which epoch it is and where its frames come to rest, then the frames: an axis takes the first frame of
+        // an epoch it has heard of only, and a standby knows of every frame that axes may have.
         if (out.state) { (void)bus_.machine.write(*out.state); }
         for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
         for (const AxisCommand& command : out.axis_commands) { (void)bus_.axis_commands.write(command); }
