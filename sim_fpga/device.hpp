@@ -35,6 +35,8 @@ public:
     void advance(Tick until);
 
     Tick now() const { return engine_.now(); }
+    /// No run is in progress.
+    bool at_rest() const { return phase_ == Phase::AtRest; }
     const Plant& plant() const { return plant_; }
     /// To disturb it. The inputs are looked at again at the next call of advance.
     Plant& plant() { return plant_; }
