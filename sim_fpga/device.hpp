@@ -35,6 +35,8 @@ public:
     void advance(Tick until);
 
     Tick now() const { return engine_.now(); }
+    /// A frame or a tail is in progress.
+    bool in_motion() const { return phase_ == Phase::Body || phase_ == Phase::Tail; }
     const Plant& plant() const { return plant_; }
     /// To disturb it. The inputs are looked at again at the next call of advance.
     Plant& plant() { return plant_; }

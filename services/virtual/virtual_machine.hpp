@@ -95,6 +95,7 @@ public:
     Tick device_time(std::size_t i) const { return clocks_of(i).device.at(now_, options_.start); }
     /// An axis's device, which outlives its processes.
     SimulatedDevice& device(std::size_t i) { return *axes_[i].device.simulated; }
+    const SimulatedDevice& device(std::size_t i) const { return *axes_[i].device.simulated; }
     const AlterationCounts& alterations() const { return network_.alterations(); }
 
 private:

@@ -57,6 +57,7 @@ void Watch::orphan(JobOutcome outcome) {
 }
 
 void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
+    if (vm_.device(axis).in_motion()) { moved_ = now; }  // also while a process made anew does not speak yet
     if (!out.state) { return; }
     axes_[axis] = *out.state;
     if (!out.state->at_rest || out.state->velocity != Velocity{}) { moved_ = now; }
