@@ -67,7 +67,8 @@ std::vector<ProcessRecord> records_from_text(std::string_view text) {
 }
 
 std::optional<std::uint64_t> start_of(pid_t pid) {
-    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    const std::string id = std::to_string(pid);
+    std::ifstream stat("/proc/" + id + "/task/" + id + "/stat");  // /proc/ID/stat an emulator makes up for itself
     std::string text;
     if (!std::getline(stat, text, '\0')) { return std::nullopt; }
     // Field 2 is the name in parentheses, which may hold anything; 3 is the state, 22 the start.
