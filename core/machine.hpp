@@ -10,7 +10,13 @@
 
 namespace lockstep {
 
-inline constexpr std::size_t kMaxAxes = 32;
+inline constexpr std::size_t kMaxAxes = 64;
+
+/// Axes of a machine: bit i for the axis in place i of the configuration.
+using AxisSet = std::uint64_t;
+constexpr AxisSet axis_bit(std::size_t axis) { return AxisSet{1} << axis; }
+constexpr bool has_axis(AxisSet axes, std::size_t axis) { return (axes >> axis & 1) != 0; }
+constexpr AxisSet all_axes(std::size_t count) { return count == 0 ? 0 : ~AxisSet{0} >> (kMaxAxes - count); }
 
 /// How the steps of an axis's own moves are made (core/stepgen): homing, and moves from point to point by itself.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
@@ -78,6 +84,7 @@ struct NetworkConfig {
     std::uint32_t domain = 0;
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
     std::vector<std::string> peers;  // hosts to look for processes on, without multicast; none: multicast finds them
+    std::size_t processes = 0;       // that hear each other: the more, the less often each asks the others
 };
 
 /// The flight recorder: what each process noted last, kept for the time after a fault.

@@ -15,6 +15,14 @@ public:
     StaticVector(std::initializer_list<T> values) {
         for (const T& value : values) { (void)push_back(value); }
     }
+    /// What is beyond the size is not copied: room costs nothing where it is not used.
+    StaticVector(const StaticVector& other) : size_(other.size_) { std::copy_n(other.begin(), size_, begin()); }
+    StaticVector& operator=(const StaticVector& other) {
+        size_ = other.size_;
+        std::copy_n(other.begin(), size_, begin());
+        return *this;
+    }
+    ~StaticVector() = default;
 
     static constexpr std::size_t capacity() { return Capacity; }
     std::size_t size() const { return size_; }
@@ -55,7 +63,7 @@ public:
     }
 
 private:
-    std::array<T, Capacity> items_{};
+    std::array<T, Capacity> items_;
     std::size_t size_ = 0;
 };
 

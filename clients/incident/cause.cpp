@@ -47,7 +47,7 @@ std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& sympt
     }
     std::vector<FlightPeer> lacking;
     for (std::size_t i = 0; i < kMaxAxes; ++i) {
-        if ((event.count >> i & 1) != 0) { lacking.push_back(flight_axis(i)); }
+        if (has_axis(static_cast<AxisSet>(event.count), i)) { lacking.push_back(flight_axis(i)); }
     }
     return lacking;
 }

@@ -24,7 +24,8 @@ std::string veto_words(const Incident& incident, const FlightEvent& event) {
         case VetoReason::NotHeld: return "it has not got it";
         case VetoReason::Own: return "it is at fault or stopped";
         case VetoReason::NoEvidence:
-            return "nothing fresh from " + axes_named(incident.machine, event.count) + " says that it is held there";
+            return "nothing fresh from " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
+                   " says that it is held there";
     }
     return "for a reason that is not known";
 }
@@ -191,10 +192,10 @@ std::string peer_name(const MachineConfig& machine, FlightPeer peer) {
     return "axis " + (peer.axis < machine.axes.size() ? machine.axes[peer.axis].name : std::to_string(peer.axis));
 }
 
-std::string axes_named(const MachineConfig& machine, std::int64_t bits) {
+std::string axes_named(const MachineConfig& machine, AxisSet axes) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < kMaxAxes; ++i) {
-        if ((bits >> i & 1) != 0) { names.push_back(peer_name(machine, flight_axis(i))); }
+        if (has_axis(axes, i)) { names.push_back(peer_name(machine, flight_axis(i))); }
     }
     if (names.size() < 2) { return names.empty() ? "nobody" : names.front(); }
     const std::string last = names.back();

@@ -16,8 +16,8 @@ std::string sentence(const Incident& incident, const Entry& entry);
 
 /// "axis X", "the coordinator"
 std::string peer_name(const MachineConfig& machine, FlightPeer peer);
-/// "axis X and axis Y", by bits
-std::string axes_named(const MachineConfig& machine, std::int64_t bits);
+/// "axis X and axis Y"
+std::string axes_named(const MachineConfig& machine, AxisSet axes);
 /// "143 ms", "2.31 s", "0.4 ms"
 std::string duration(double seconds);
 

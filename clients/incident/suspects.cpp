@@ -66,13 +66,13 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
     if (stall == nullptr) { return std::nullopt; }
     const Ticks lasts = stall->event.lasts;
     const Tick from = stall->tick - lasts;
-    std::int64_t axes = 0;
+    AxisSet axes = 0;
     std::size_t together = 0;
     for (const Process& process : incident.processes) {
         const Entry* other = standstill(incident, process.who, at);
         if (other == nullptr || overlap(*other, *stall) * 2 < lasts) { continue; }
         ++together;
-        if (process.who.kind == FlightPeer::Kind::Axis) { axes |= std::int64_t{1} << process.who.axis; }
+        if (process.who.kind == FlightPeer::Kind::Axis) { axes |= axis_bit(process.who.axis); }
     }
     if (together > 1 && 2 * together >= incident.processes.size()) {
         return Cause{CauseKind::HostStalled, std::nullopt,

@@ -67,11 +67,11 @@ std::optional<Slot> SetpointFollower::start_slot(FrameNumber k) const {
     return frame == nullptr ? std::nullopt : std::optional(rules::slot_of(frame->start, slot_));
 }
 
-/// The other axes of which there is no evidence that they hold the frame, as bits.
-std::uint32_t SetpointFollower::lacking(FrameNumber k, Slot start) const {
-    std::uint32_t lacking = 0;
+/// The other axes of which there is no evidence that they hold the frame.
+AxisSet SetpointFollower::lacking(FrameNumber k, Slot start) const {
+    AxisSet lacking = 0;
     for (std::size_t i = 0; i < axes_; ++i) {
-        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { lacking |= std::uint32_t{1} << i; }
+        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { lacking |= axis_bit(i); }
     }
     return lacking;
 }

@@ -30,9 +30,9 @@ struct HeldFrame {
 
 /// Why a frame was not armed.
 struct FailedCheck {
-    bool too_late = false;      // the check was
-    bool held = false;          // by this axis
-    std::uint32_t lacking = 0;  // bit i: nothing fresh of axis i says that it holds the frame
+    bool too_late = false;  // the check was
+    bool held = false;      // by this axis
+    AxisSet lacking = 0;    // nothing fresh of these says that they hold the frame
 };
 
 class SetpointFollower {
@@ -75,7 +75,7 @@ public:
 
 private:
     void begin(Epoch epoch);
-    std::uint32_t lacking(FrameNumber k, Slot start) const;
+    AxisSet lacking(FrameNumber k, Slot start) const;
     void refuse(FrameNumber veto, const FailedCheck& check);
     std::optional<Slot> start_slot(FrameNumber k) const;
     void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }

@@ -177,7 +177,7 @@ MachineState Coordinator::state() const {
                    .line = jobs_ == cut_job_ ? cut_line_ : 0,
                    .overrides = overrides_,
                    .config_hash = config_hash_};
-    for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? std::uint32_t{1} << i : 0; }
+    for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? axis_bit(i) : 0; }
     if (in_own_move()) { say_progress_of_own(s); }
     if (inherited_) {
         s.line = inherited_->line;

@@ -106,12 +106,12 @@ private:
         std::shared_ptr<const Program> program;
         std::vector<Leg> legs;
         std::size_t leg = 0;
-        Subticks run;            // epochs done
-        double progress = 0;     // 0 ... 1: never falls, though what is left is planned anew
-        Subticks counted;        // of its run, in `progress`
-        std::uint32_t axes = 0;  // homing: which
-        int sequence = 0;        // homing: the group in progress
-        PathPlace resume;        // held or interrupted: where it goes on
+        Subticks run;         // epochs done
+        double progress = 0;  // 0 ... 1: never falls, though what is left is planned anew
+        Subticks counted;     // of its run, in `progress`
+        AxisSet axes = 0;     // homing: which
+        int sequence = 0;     // homing: the group in progress
+        PathPlace resume;     // held or interrupted: where it goes on
         std::vector<PathMove> remaining;
         std::vector<Position> positions;
         int fruitless = 0;  // epochs in a row that ran no frame

@@ -82,7 +82,7 @@ std::optional<Reply> Coordinator::refuse_uncertain_clocks(const Command& command
 
 Reply Coordinator::home(const Command& command, CoordinatorOutputs& out) {
     if (auto refusal = refuse_unless_ready(command)) { return *refusal; }
-    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << views_.size()) - 1);
+    const AxisSet all = all_axes(views_.size());
     if ((command.axes & ~all) != 0) { return refused(command, FaultCode::BadProgram, "no such axis"); }
     job_begun_ = ownership_.term();
     job_ = Job{.number = ++jobs_, .kind = JobKind::Home, .axes = command.axes == 0 ? all : command.axes};

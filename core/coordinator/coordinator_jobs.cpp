@@ -12,15 +12,13 @@ void Coordinator::send_homing_group(CoordinatorOutputs& out) {
     std::optional<int> group;
     for (std::size_t i = 0; i < views_.size(); ++i) {
         const int sequence = machine_.axes[i].homing.sequence;
-        const bool later = (job_->axes >> i & 1) != 0 && sequence > job_->sequence;
+        const bool later = has_axis(job_->axes, i) && sequence > job_->sequence;
         if (later && (!group || sequence < *group)) { group = sequence; }
     }
     if (!group) { return end_job(JobOutcome::Done, out); }
     job_->sequence = *group;
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        if ((job_->axes >> i & 1) != 0 && machine_.axes[i].homing.sequence == *group) {
-            order(i, AxisCommandKind::Home);
-        }
+        if (has_axis(job_->axes, i) && machine_.axes[i].homing.sequence == *group) { order(i, AxisCommandKind::Home); }
     }
 }
 

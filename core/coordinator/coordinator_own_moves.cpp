@@ -27,7 +27,7 @@ Reply Coordinator::move_own(const Command& command, CoordinatorOutputs& out) {
         job.to.push_back(moves ? plan->back().moves.back().to[i] : job.from[i]);
         const std::int64_t steps = std::abs(job.to[i] - job.from[i]);
         if (steps == 0) { continue; }
-        job.axes |= std::uint32_t{1} << i;
+        job.axes |= axis_bit(i);
         if (auto refusal = refuse_own(command, i, steps)) { return *refusal; }
         job.planned_s = std::max(job.planned_s, planned_seconds(i, steps, command.ticks));
     }
@@ -63,7 +63,7 @@ void Coordinator::begin_own(Job job, Ticks ticks, CoordinatorOutputs& out) {
                         .program = job_->program,
                         .start_counts = job_->from});
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        if ((job_->axes >> i & 1) == 0) { continue; }
+        if (!has_axis(job_->axes, i)) { continue; }
         order(i, AxisCommandKind::MoveOwn);
         orders_[i]->target_steps = job_->to[i];
         orders_[i]->ticks = ticks;
@@ -94,7 +94,7 @@ void Coordinator::advance_own(CoordinatorOutputs& out) {
         if (present(i) && !order_done(i)) { return; }
     }
     for (std::size_t i = 0; i < views_.size() && intent_ != Intent::Abort; ++i) {
-        if ((job_->axes >> i & 1) == 0 || !views_[i].state) { continue; }
+        if (!has_axis(job_->axes, i) || !views_[i].state) { continue; }
         const AxisState& state = *views_[i].state;
         if (state.command_fault != 0) { return fail(static_cast<FaultCode>(state.command_fault), i, out); }
         const bool arrived = state.position.count() == job_->to[i];
@@ -111,7 +111,7 @@ void Coordinator::advance_own(CoordinatorOutputs& out) {
 void Coordinator::say_progress_of_own(MachineState& state) const {
     state.progress = 1;
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        if ((job_->axes >> i & 1) == 0 || !views_[i].state) { continue; }
+        if (!has_axis(job_->axes, i) || !views_[i].state) { continue; }
         const auto gone = static_cast<double>(views_[i].state->position.count() - job_->from[i]);
         const auto way = static_cast<double>(job_->to[i] - job_->from[i]);
         state.progress = std::min(state.progress, std::clamp(gone / way, 0.0, 1.0));

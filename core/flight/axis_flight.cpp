@@ -125,7 +125,7 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     if (vetoed) { event.detail = static_cast<std::uint8_t>(VetoReason::Own); }
     if (notice.check) {
         event.detail = static_cast<std::uint8_t>(reason_of(*notice.check));
-        event.count = notice.check->lacking;
+        event.count = static_cast<std::int64_t>(notice.check->lacking);
     }
     log_.add(event);
     if (notice.kind == Kind::Fault) { log_.incident(now, IncidentReason::Fault); }

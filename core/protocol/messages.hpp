@@ -172,8 +172,8 @@ struct MachineState {
     std::int32_t line = 0;              // of the G-code now in motion, or where a takeover has ended the job
     double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
-    Overrides overrides;             // of what is planned from now on
-    std::uint32_t axes_present = 0;  // bit i: axis i is heard
+    Overrides overrides;       // of what is planned from now on
+    AxisSet axes_present = 0;  // those that are heard
     std::uint64_t config_hash = 0;
     // What another needs to go on with the job, while one is in motion:
     JobKind job_kind = JobKind::Run;
@@ -190,7 +190,7 @@ struct Command {
     Identity client = 0;
     std::uint64_t sequence = 0;
     CommandKind kind = CommandKind::Stop;
-    std::uint32_t axes = 0;     // Home: bit i for axis i; 0 means all
+    AxisSet axes = 0;           // Home: which; none means all
     std::uint64_t program = 0;  // Move, Run, MoveOwn: the program sent before in chunks
     Ticks ticks;                // MoveOwn: how long each axis's move lasts; 0: as fast as its limits allow
     int feed_percent = 0;       // Override; 0: as it is

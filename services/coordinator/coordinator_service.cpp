@@ -85,7 +85,7 @@ private:
         });
         bus_.states.take([&](AxisState&& m) {
             if (m.axis < machine_.axes.size()) {
-                heard_ |= std::uint32_t{1} << m.axis;
+                heard_ |= axis_bit(m.axis);
                 configs_[m.axis] = m.config_hash;
             }
             states_.push_back(m);
@@ -140,7 +140,7 @@ private:
         if (now - complained_ < period) { return; }
         complained_ = now;
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
-            if ((heard_ >> i & 1) == 0) { log_info("waits for axis " + machine_.axes[i].name); }
+            if (!has_axis(heard_, i)) { log_info("waits for axis " + machine_.axes[i].name); }
         }
         for (const auto& [axis, hash] : configs_) {
             if (hash == config_hash_) { continue; }
@@ -174,7 +174,7 @@ private:
     std::vector<MachineState> others_;
     std::vector<Command> commands_;
     Tick complained_ = clock_.now();
-    std::uint32_t heard_ = 0;
+    AxisSet heard_ = 0;
     std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes heard
     std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;

@@ -200,6 +200,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     for (const proto::Axis& axis : message.axis()) {
         draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));
     }
+    draft.machine.network.processes = draft.machine.axes.size() + 1;  // the coordinator
     return draft;
 }
 

@@ -321,7 +321,7 @@ void VirtualMachine::listen() {
     for (Reply& reply : mail_.replies) { replies_.push_back(std::move(reply)); }
 }
 
-std::uint64_t VirtualMachine::command(CommandKind kind, std::uint32_t axes, std::uint64_t program, Ticks ticks) {
+std::uint64_t VirtualMachine::command(CommandKind kind, AxisSet axes, std::uint64_t program, Ticks ticks) {
     command_ = {kClient, command_.sequence + 1, kind, axes, program, ticks};
     repeat_command();
     return command_.sequence;

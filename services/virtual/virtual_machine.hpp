@@ -73,7 +73,7 @@ public:
     bool advance_until(const std::function<bool()>& done, Ticks limit);
 
     /// As a client would: over the network. Returns its sequence number.
-    std::uint64_t command(CommandKind kind, std::uint32_t axes = 0, std::uint64_t program = 0, Ticks ticks = {});
+    std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, Ticks ticks = {});
     std::uint64_t turn(const Overrides& overrides);
     /// The last command once more, with its sequence number: for a client whose reply does not come.
     void repeat_command();

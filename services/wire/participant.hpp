@@ -1,16 +1,15 @@
 // A process's place in DDS: one domain, one interface, one machine, and who it is there.
-//
-// The profile is built from the configuration, not read from the environment, so that every process of a machine has
-// the same. Where CYCLONEDDS_URI is set it is read after ours: it may add to it (tracing) or override it.
 #pragma once
 
 #include <cstdint>
 #include <expected>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/machine.hpp"
+#include "services/wire/domain.hpp"
 #include "services/wire/entity.hpp"
 
 namespace lockstep {
@@ -53,17 +52,12 @@ public:
 private:
     Participant() = default;
 
+    std::shared_ptr<const Domain> domain_;  // outlives all that follows
     std::string machine_;
     Entity participant_;
     Entity publisher_;
     Entity subscriber_;
     std::optional<std::string> failure_;
 };
-
-/// Whether DDS tells who comes and goes (dds_log.hpp).
-enum class Discovery { Quiet, Traced };
-
-/// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is none.
-std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery told = Discovery::Quiet);
 
 }  // namespace lockstep

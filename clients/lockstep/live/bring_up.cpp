@@ -21,6 +21,7 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kUpPatience = 20s;
+constexpr nanoseconds kUpPatienceEach = 400ms;  // for each axis besides: they start one by one, and greet each other
 constexpr std::size_t kTailLines = 6;
 
 void route_multicast(const NetworkConfig& network, Voice& voice) {
@@ -110,7 +111,7 @@ std::optional<std::string> trouble(const Session& session, const StateDirectory&
 bool is_up(const Session& session) {
     if (!session.state()) { return false; }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        if (!session.axis_present(i) || (session.state()->state.axes_present >> i & 1) == 0) { return false; }
+        if (!session.axis_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
     }
     const MachinePhase phase = session.state()->state.phase;
     return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
@@ -120,7 +121,7 @@ Failure missing(const Session& session, const StateDirectory& state) {
     if (!session.state()) { return failed(with_log("the coordinator is not heard", "coordinator", state)); }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
         const std::string& name = session.config().axes[i].name;
-        if ((session.state()->state.axes_present >> i & 1) == 0) {
+        if (!has_axis(session.state()->state.axes_present, i)) {
             return failed(with_log("axis " + name + " is not heard", "axis-" + name, state));
         }
     }
@@ -160,9 +161,10 @@ std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, cons
                                               nanoseconds since) {
     auto session = Session::join(machine, Purpose::Look);
     if (!session) { return session; }
+    const nanoseconds patience = kUpPatience + kUpPatienceEach * machine.config.axes.size();
     while (!is_up(*session)) {
         if (const auto what = trouble(*session, state, since)) { return std::unexpected(failed(*what)); }
-        if (monotonic_now() - since > kUpPatience) { return std::unexpected(missing(*session, state)); }
+        if (monotonic_now() - since > patience) { return std::unexpected(missing(*session, state)); }
         session->listen(100ms);
     }
     if (const auto what = trouble(*session, state, since)) { return std::unexpected(failed(*what)); }

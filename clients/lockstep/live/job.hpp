@@ -14,7 +14,7 @@ struct Job {
     CommandKind command = CommandKind::Run;
     std::string kind;                     // "home", "move", "run", "own-move"
     std::string name;                     // of the program
-    std::uint32_t axes = 0;               // home: bit i for axis i; 0: all
+    AxisSet axes = 0;                     // home: which; none: all
     std::optional<Program> program = {};  // move, run, own move
     Ticks ticks = {};                     // own move: how long it lasts; 0: as fast as allowed
     std::optional<double> planned_s = {};

@@ -19,6 +19,8 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kEndPatience = 4s;  // for SIGTERM to be followed
+constexpr std::size_t kAtOnce = 16;        // processes that start together...
+constexpr milliseconds kApart = 150ms;     // ...and the others one by one: whoever starts greets all that are there
 constexpr int kCannotExecute = 127;        // as shells have it
 constexpr int kBadInput = 2;               // a service's own: the same again would end the same
 
@@ -61,7 +63,11 @@ bool is_hopeless(int status) {
 }  // namespace
 
 Supervisor::Supervisor(const StateDirectory& state, const std::vector<ServiceLine>& lines) : state_(state) {
-    for (const ServiceLine& line : lines) { services_.push_back({.line = line, .start_at = nanoseconds{0}}); }
+    const nanoseconds begin = monotonic_now();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::size_t later = i < kAtOnce ? 0 : i - kAtOnce + 1;
+        services_.push_back({.line = lines[i], .start_at = begin + kApart * later});
+    }
 }
 
 void Supervisor::run() {

@@ -10,13 +10,12 @@ struct HomeOptions : LiveOptions {
     std::vector<std::string> axes;
 };
 
-/// Bit i for axis i; 0 where none is named.
-std::expected<std::uint32_t, Failure> axes_of(const MachineConfig& machine, const std::vector<std::string>& names) {
-    std::uint32_t axes = 0;
+std::expected<AxisSet, Failure> axes_of(const MachineConfig& machine, const std::vector<std::string>& names) {
+    AxisSet axes = 0;
     for (const std::string& name : names) {
         const auto axis = find_axis(machine, name);
         if (!axis) { return std::unexpected(bad_input(axis.error())); }
-        axes |= std::uint32_t{1} << *axis;
+        axes |= axis_bit(*axis);
     }
     return axes;
 }

@@ -107,7 +107,7 @@ bool Player::hears_all(nanoseconds since) {
     const auto& axes = scenario_.machine.axes;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const bool is_heard =
-            session_.axis(i) && session_.axis(i)->time > since && (session_.state()->state.axes_present >> i & 1) == 1;
+            session_.axis(i) && session_.axis(i)->time > since && has_axis(session_.state()->state.axes_present, i);
         if (cast_.is_acting("axis-" + axes[i].name) && !is_heard) { return false; }
     }
     return true;
@@ -140,7 +140,7 @@ void Player::play_job(const Step& step) {
 std::expected<Reply, std::string> Player::begin(const Step& step) {
     Command command{.kind = command_of(step)};
     for (const std::string& name : step.home().axis()) {
-        command.axes |= std::uint32_t{1} << find_axis(scenario_.machine, name).value_or(0);
+        command.axes |= axis_bit(find_axis(scenario_.machine, name).value_or(0));
     }
     if (!step.has_home()) {
         const auto program = send(step);

@@ -171,10 +171,10 @@ TEST(MachineErrors, NoTwoAxesHaveOneNameInAnyCapitals) {
 TEST(MachineErrors, ThereAreAtMost32Axes) {
     const std::string axis(kShortest.substr(kShortest.find("axis")));
     std::string text = "name: \"m\"\n";
-    for (int i = 0; i < 33; ++i) { text += with("\"X\"", "\"X" + std::to_string(i) + "\"", axis); }
+    for (int i = 0; i < 65; ++i) { text += with("\"X\"", "\"X" + std::to_string(i) + "\"", axis); }
     const Diagnostics found = errors(text);
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].message, HasSubstr("33 axes; write one axis { ... } for each, 1 to 32"));
+    EXPECT_THAT(found[0].message, HasSubstr("65 axes; write one axis { ... } for each, 1 to 64"));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 INSTANTIATE_TEST_SUITE_P(
     Head, ProgramRefused,
     testing::Values(Refusal{"no axis", [](Program& p) { p.axes.clear(); }},
-                    Refusal{"33; at most 32", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
+                    Refusal{"65; at most 64", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
                     Refusal{"axis 2 of the program has no axis's name", [](Program& p) { p.axes[1] = "*"; }},
                     Refusal{"names axis x twice", [](Program& p) { p.axes[1] = "x"; }},
                     Refusal{"256; at most 255", [](Program& p) { p.name.assign(256, 'n'); }},

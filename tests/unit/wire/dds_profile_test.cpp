@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/wire/participant.hpp"
+#include "services/wire/domain.hpp"
 #include "services/wire/peer_discovery.hpp"
 
 namespace lockstep {
@@ -23,6 +23,15 @@ TEST(DdsProfile, NamedPeersAreAskedWithoutMulticast) {
     EXPECT_THAT(*profile, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
     EXPECT_THAT(*profile, HasSubstr(R"(<Peers><Peer address="10.0.0.1"/><Peer address="mill-x"/></Peers>)"));
     EXPECT_THAT(*profile, HasSubstr("<ParticipantIndex>auto</ParticipantIndex>"));
+}
+
+TEST(DdsProfile, ManyProcessesAskEachOtherLessOften) {
+    const auto few = dds_profile({.processes = 4});
+    const auto many = dds_profile({.processes = 65});
+    EXPECT_THAT(*few, HasSubstr("max=\"20 ms\">2 ms</HeartbeatInterval><NackDelay>0 ms"));
+    EXPECT_THAT(*few, HasSubstr("<SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1000 ms"));
+    EXPECT_THAT(*many, HasSubstr("max=\"1340 ms\">134 ms</HeartbeatInterval><NackDelay>66 ms"));
+    EXPECT_THAT(*many, HasSubstr("<SPDPInterval>800 ms</SPDPInterval><LeaseDuration>10000 ms"));
 }
 
 TEST(DdsProfile, TheSendBufferHoldsWhatIsAskedOfPeersThatAreNotThere) {

@@ -42,7 +42,7 @@ void expect_frame_refused(const std::string& field, const std::function<void(Set
 
 TEST(HostileFrame, CountsThatLieAreRefused) {
     expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = 0; });
-    expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = 33; });
+    expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = kMaxAxes + 1; });
     expect_frame_refused("number of phases", [](auto& m) { m.from_phase._length = 1; });
     expect_frame_refused("number of body counts", [](auto& m) { m.body_count._length = 1; });
     expect_frame_refused("number of tail counts", [](auto& m) { m.tail_count._length = 0; });

@@ -1,0 +1,40 @@
+#include "services/wire/dds_pace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+constexpr int kFew = 16;  // processes, for which every period is as short as it is useful
+
+/// What the periods are multiplied by: there are N^2 questions to answer, and on one host each waits for N others.
+int stretch(std::size_t processes) {
+    const int n = std::max(kFew, static_cast<int>(processes));
+    return n * n * n / (kFew * kFew * kFew);
+}
+
+}  // namespace
+
+// A process that starts must be seen within a second.
+std::string discovery_pace(std::size_t processes) {
+    constexpr int kLongestLease_ms = 10'000;
+    const int announced_ms = std::min(200 * std::max(kFew, static_cast<int>(processes)) / kFew, 800);
+    return fmt::format("<SPDPInterval>{} ms</SPDPInterval><LeaseDuration>{} ms</LeaseDuration>", announced_ms,
+                       std::min(1000 * stretch(processes), kLongestLease_ms));
+}
+
+// A lost setpoint must be asked for at once (NackDelay 0; the default 100 ms would cost ten slots), and a lost last one
+// must be noticed soon (heartbeats of 2 to 20 ms).
+std::string repair_pace(std::size_t processes) {
+    const int s = stretch(processes);
+    return fmt::format(
+        "<HeartbeatInterval min=\"{} ms\" minsched=\"{} ms\" max=\"{} ms\">{} ms</HeartbeatInterval>"
+        "<NackDelay>{} ms</NackDelay><AckDelay>{} ms</AckDelay>"
+        "<PreEmptiveAckDelay>{} ms</PreEmptiveAckDelay>"
+        "<AutoReschedNackDelay>{} ms</AutoReschedNackDelay>",
+        s, s, 20 * s, 2 * s, s - 1, s, s, 2 * s);
+}
+
+}  // namespace lockstep
