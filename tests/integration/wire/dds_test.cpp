@@ -1,6 +1,7 @@
 // Real DDS on the loopback: what is promised between processes.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -41,7 +42,7 @@ Frame frame_of(FrameNumber number, std::size_t axes, std::size_t pieces) {
 /// A process of its own: see peer.cpp.
 Child peer(const std::string& role, const NetworkConfig& network) {
     const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("integration_wire_peer");
-    return Child::execute({program.string(), role, std::to_string(network.domain)});
+    return Child::execute({program.string(), role, std::to_string(network.domain), std::to_string(network.processes)});
 }
 
 TEST(Dds, FramesArriveWholeAndInOrder) {
@@ -171,6 +172,21 @@ TEST(Dds, ACoordinatorAndAnAxisOfAnotherProcessTalkBothWays) {
     last.last = true;
     ASSERT_TRUE(coordinator.frames.write(last));
     EXPECT_EQ(axis.wait(), 0);
+}
+
+TEST(Dds, WhoEndsIsGoneLongBeforeItsLeaseIsOver) {
+    NetworkConfig network = own_network();
+    network.processes = 65;  // a lease of ten seconds
+    Child axis = peer("axis", network);
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1 && coordinator.states.matched() == 1; }));
+    Frame last = frame_of(1, 3, 0);
+    last.last = true;
+    ASSERT_TRUE(coordinator.frames.write(last));
+    ASSERT_EQ(axis.wait(), 0);
+    const auto ended = std::chrono::steady_clock::now();
+    ASSERT_TRUE(eventually([&] { return coordinator.states.matched() == 0; }));
+    EXPECT_LT(std::chrono::steady_clock::now() - ended, std::chrono::seconds{5}) << "it said that it leaves";
 }
 
 TEST(Dds, AReaderThatStandsStillDoesNotStopTheWriter) {

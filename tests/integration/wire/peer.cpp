@@ -1,4 +1,5 @@
-// The other process of a test: integration_wire_peer ROLE DOMAIN. Exits with 0 when it got all it waits for.
+// The other process of a test: integration_wire_peer ROLE DOMAIN [PROCESSES]. Exits with 0 when it got all it waits
+// for.
 #include <map>
 #include <string>
 
@@ -50,8 +51,9 @@ int play(bool (*role)(Bus&), const NetworkConfig& network) {
 }  // namespace lockstep
 
 int main(int argc, char** argv) {
-    if (argc != 3) { return 2; }
-    const lockstep::NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(argv[2]))};
+    if (argc < 3) { return 2; }
+    lockstep::NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(argv[2]))};
+    if (argc > 3) { network.processes = std::stoul(argv[3]); }
     return std::string(argv[1]) == "axis" ? lockstep::play(lockstep::hold_frames, network)
                                           : lockstep::play(lockstep::answer_chunks, network);
 }
