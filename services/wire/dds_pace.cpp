@@ -9,9 +9,11 @@ namespace {
 
 constexpr int kFew = 16;  // processes, for which every period is as short as it is useful
 
+int at_least_few(std::size_t processes) { return std::max(kFew, static_cast<int>(processes)); }
+
 /// What the periods are multiplied by: there are N^2 questions to answer, and on one host each waits for N others.
 int stretch(std::size_t processes) {
-    const int n = std::max(kFew, static_cast<int>(processes));
+    const int n = at_least_few(processes);
     return n * n * n / (kFew * kFew * kFew);
 }
 
@@ -20,7 +22,7 @@ int stretch(std::size_t processes) {
 // A process that starts must be seen within a second.
 std::string discovery_pace(std::size_t processes) {
     constexpr int kLongestLease_ms = 10'000;
-    const int announced_ms = std::min(200 * std::max(kFew, static_cast<int>(processes)) / kFew, 800);
+    const int announced_ms = std::min(200 * at_least_few(processes) / kFew, 800);
     return fmt::format("<SPDPInterval>{} ms</SPDPInterval><LeaseDuration>{} ms</LeaseDuration>", announced_ms,
                        std::min(1000 * stretch(processes), kLongestLease_ms));
 }
