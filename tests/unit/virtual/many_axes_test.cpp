@@ -1,0 +1,60 @@
+// A machine of as many axes as there can be: each of them counts.
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+MachineConfig full_machine() {
+    MachineConfig machine = small_machine();
+    machine.timing.slot_us = 10'000;
+    machine.axes.resize(kMaxAxes, machine.axes[0]);
+    for (std::size_t i = 0; i < kMaxAxes; ++i) { machine.axes[i].name = "A" + std::to_string(i); }
+    return machine;
+}
+
+class FullMachine : public Rig {
+protected:
+    FullMachine() : Rig({.machine = full_machine()}) {}
+
+    Program all_to(double mm) const {
+        Program program{.name = "test", .axes = {}, .start_mm = std::vector<double>(kMaxAxes, 5)};
+        for (const AxisConfig& axis : vm.machine().axes) { program.axes.push_back(axis.name); }
+        program.blocks.push_back({0, LinearMove{std::vector<double>(kMaxAxes, mm), 0, true}});
+        return program;
+    }
+};
+
+TEST(AxisSets, HoldEveryAxisOfAMachineAndNoOther) {
+    EXPECT_EQ(all_axes(0), AxisSet{0});
+    EXPECT_EQ(all_axes(3), AxisSet{0b111});
+    EXPECT_EQ(all_axes(kMaxAxes), ~AxisSet{0});
+    EXPECT_TRUE(has_axis(axis_bit(kMaxAxes - 1), kMaxAxes - 1));
+    EXPECT_FALSE(has_axis(axis_bit(kMaxAxes - 1), 0));
+}
+
+TEST_F(FullMachine, MovesAllAxesTogetherAndStopsForTheLastOne) {
+    home();
+    EXPECT_EQ(vm.state()->axes_present, all_axes(kMaxAxes));
+    ASSERT_EQ(run(all_to(15)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
+    EXPECT_EQ(counts(), std::vector<std::int64_t>(kMaxAxes, 1500));
+
+    ASSERT_EQ(ask(CommandKind::Home, axis_bit(kMaxAxes - 1)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
+    EXPECT_EQ(counts().back(), 500) << "it alone is at its park position";
+    EXPECT_EQ(counts().front(), 1500);
+
+    Program back = all_to(90);
+    back.start_mm.assign(kMaxAxes, 15);
+    back.start_mm.back() = 5;
+    ASSERT_EQ(run(back).status, ReplyStatus::Accepted);
+    wait(0.6);
+    const Ticks long_time{10'000'000};
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kMaxAxes - 1, .at = vm.now(), .lasts = long_time});
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 10)) << describe();
+    EXPECT_EQ(fault(), FaultCode::AxisLost);
+    EXPECT_LT(counts().front(), 9000) << "nobody goes on without it";
+}
+
+}  // namespace
+}  // namespace lockstep
