@@ -85,6 +85,7 @@ struct NetworkConfig {
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
     std::vector<std::string> peers;  // hosts to look for processes on, without multicast; none: multicast finds them
     std::size_t processes = 0;       // that hear each other: the more, the less often each asks the others
+    bool one_host = false;  // axes' states go through memory that all processes share, and seldom on the network
 };
 
 /// The flight recorder: what each process noted last, kept for the time after a fault.

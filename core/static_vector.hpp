@@ -18,6 +18,7 @@ public:
     /// What is beyond the size is not copied: room costs nothing where it is not used.
     StaticVector(const StaticVector& other) : size_(other.size_) { std::copy_n(other.begin(), size_, begin()); }
     StaticVector& operator=(const StaticVector& other) {
+        if (this == &other) { return *this; }
         size_ = other.size_;
         std::copy_n(other.begin(), size_, begin());
         return *this;

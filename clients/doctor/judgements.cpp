@@ -78,6 +78,21 @@ Finding judge_send_buffer(std::int64_t needed, std::int64_t given) {
             "sysctl -w net.core.wmem_max=" + std::to_string(needed)};
 }
 
+Finding judge_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
+    constexpr std::size_t kMany = 16;  // axes on a host, whose states are then most of its work
+    const std::size_t axes = machine.axes.size();
+    const bool shares = machine.network.one_host;
+    if (shares && !memory) {
+        return {Verdict::Bad, "axes' states", memory.error(), "df -h /dev/shm; or leave network.one_host out"};
+    }
+    if (shares) { return {Verdict::Good, "axes' states", "go through " + *memory, ""}; }
+    if (machine.network.interface != "lo" || axes < kMany) { return {Verdict::Good, "axes' states", "go by DDS", ""}; }
+    return {Verdict::Doubtful, "axes' states",
+            std::to_string(axes) + " axes on one host hear " + std::to_string(axes * (axes - 1)) +
+                " states by the network each slot",
+            "network { one_host: true } in the machine's file"};
+}
+
 Finding judge_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
     if (facts.scheduler.empty()) {
         const std::string use = wanted.priority > 0 ? "" : "; unused: the machine's file has no real_time.priority";

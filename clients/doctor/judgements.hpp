@@ -30,6 +30,9 @@ Finding judge_buffer(std::int64_t asked, std::int64_t given);
 /// Bytes of a send buffer: what a machine's peers need (peer_send_buffer), what the kernel gave.
 Finding judge_send_buffer(std::int64_t needed, std::int64_t given);
 
+/// memory: where network.one_host has the axes' states, or why it cannot be had.
+Finding judge_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory);
+
 /// Empty: permitted; else why not.
 struct RealTimeFacts {
     std::string scheduler;

@@ -94,7 +94,9 @@ std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const fs::
 
 MachineConfig staged(MachineConfig machine, Asked::Place place) {
     const bool linked = has_links(place);
-    machine.network = {.interface = linked ? "eth0" : "lo", .lcm_url = kLcmGroup + std::string(linked ? "1" : "0")};
+    machine.network = {.interface = linked ? "eth0" : "lo",
+                       .lcm_url = kLcmGroup + std::string(linked ? "1" : "0"),
+                       .one_host = machine.network.one_host && !linked};
     machine.record = {};
     machine.position_directory.clear();
     machine.coordinator_host.clear();

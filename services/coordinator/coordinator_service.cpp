@@ -140,7 +140,9 @@ private:
         if (now - complained_ < period) { return; }
         complained_ = now;
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
-            if (!has_axis(heard_, i)) { log_info("waits for axis " + machine_.axes[i].name); }
+            if (!has_axis(heard_, i)) {
+                log_info("waits for axis " + machine_.axes[i].name + " " + bus_.states.place());
+            }
         }
         for (const auto& [axis, hash] : configs_) {
             if (hash == config_hash_) { continue; }

@@ -61,6 +61,7 @@ NetworkConfig read_network(const proto::Network& message) {
         .domain = message.has_domain() ? message.domain() : preset.domain,
         .lcm_url = message.has_lcm_url() ? message.lcm_url() : preset.lcm_url,
         .peers = {message.peers().begin(), message.peers().end()},
+        .one_host = message.one_host(),
     };
 }
 

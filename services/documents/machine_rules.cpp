@@ -120,6 +120,8 @@ void check_hosts(const MachineConfig& machine, ProblemList& problems) {
     problems.require(
         machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
         "coordinator_host is \"" + machine.coordinator_host + "\"; the name of a host: letters, digits, - and .");
+    problems.require(!machine.network.one_host || machine.network.peers.empty(), "network.one_host",
+                     "network.one_host is true, but network.peers names hosts to look on; leave one of them out");
     const std::vector<std::string> hosts = hosts_of(machine);
     if (hosts.size() < 2) { return; }
     const std::string several = "the machine is on several hosts, such as " + hosts[0] + " and " + hosts[1];
@@ -127,6 +129,7 @@ void check_hosts(const MachineConfig& machine, ProblemList& problems) {
                      "timing.time_source is SHARED, one host's clock, but " + several + "; NETWORK or PTP");
     problems.require(machine.network.interface != "lo", "network.interface",
                      "network.interface is lo, but " + several + "; name the interface that joins them");
+    problems.require(!machine.network.one_host, "network.one_host", "network.one_host is true, but " + several);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ void write_network(const NetworkConfig& network, proto::Network& message) {
     message.set_domain(network.domain);
     message.set_lcm_url(network.lcm_url);
     for (const std::string& peer : network.peers) { message.add_peers(peer); }
+    message.set_one_host(network.one_host);
 }
 
 void write_flight(const FlightConfig& flight, proto::Flight& message) {

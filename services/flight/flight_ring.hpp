@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "services/flight/flight_source.hpp"
+#include "services/runtime/shared_mapping.hpp"
 
 namespace lockstep {
 
@@ -33,14 +34,17 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    FlightRing(std::filesystem::path path, int file, std::uint64_t* words, std::size_t bytes, std::uint64_t* slots,
-               std::size_t events)
-        : path_(std::move(path)), file_(file), words_(words), bytes_(bytes), slots_(slots), events_(events) {}
+    /// slots_at: the byte where the events begin.
+    FlightRing(std::filesystem::path path, int file, SharedMapping mapping, std::size_t slots_at, std::size_t events)
+        : path_(std::move(path)),
+          file_(file),
+          mapping_(std::move(mapping)),
+          slots_(mapping_.words() + slots_at / sizeof(std::uint64_t)),
+          events_(events) {}
 
     std::filesystem::path path_;
-    int file_;              // open for good: the lock on it says that its process lives
-    std::uint64_t* words_;  // null: moved from
-    std::size_t bytes_;
+    int file_;  // open for good: the lock on it says that its process lives; below 0: moved from
+    SharedMapping mapping_;
     std::uint64_t* slots_;
     std::size_t events_;
     std::uint64_t number_ = 0;

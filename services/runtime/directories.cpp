@@ -1,9 +1,13 @@
 #include "services/runtime/directories.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <optional>
+
+#include "services/runtime/named_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -42,6 +46,23 @@ std::vector<fs::path> memory_directories() {
         if (entry.path().filename().string().starts_with("lockstep-")) { all.push_back(entry.path()); }
     }
     return all;
+}
+
+std::expected<void, std::string> make_own_directory(const fs::path& directory) {
+    if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST) { return cannot(directory, "make it"); }
+    struct stat status {};
+    if (lstat(directory.c_str(), &status) != 0) { return cannot(directory, "look at it"); }
+    if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid()) {
+        return std::unexpected(directory.string() + ": is not a directory of this user; remove it");
+    }
+    return {};
+}
+
+fs::path shared_states_file(const std::string& machine, std::uint32_t domain) {
+    struct stat network {};
+    const bool known = stat("/proc/self/ns/net", &network) == 0;
+    const std::string of_network = known ? "." + std::to_string(network.st_ino) : "";
+    return memory_directory() / (machine + "." + std::to_string(domain) + of_network + ".states");
 }
 
 fs::path memory_directory() { return "/dev/shm/lockstep-" + std::to_string(geteuid()); }

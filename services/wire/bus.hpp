@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 
+#include "services/wire/axis_states.hpp"
 #include "services/wire/endpoints.hpp"
 
 namespace lockstep {
@@ -28,17 +29,17 @@ private:
 struct AxisBus {
     Participant participant;
     Reader<Frame> frames{participant};
-    Reader<AxisState> states{participant};  // the other axes'
+    StatesHeard states{participant};  // the other axes'
     Reader<MachineState> machine{participant};
     Reader<AxisCommand> commands{participant};
     Reader<Command> requests{participant};  // clients', to the coordinator
-    Writer<AxisState> state{participant};
+    StateSaid state{participant};
     Writer<AxisHealth> health{participant};
 };
 
 struct CoordinatorBus {
     Participant participant;
-    Reader<AxisState> states{participant};
+    StatesHeard states{participant};
     Reader<MachineState> other_coordinators{participant};
     Reader<Command> commands{participant};
     Reader<ProgramChunk> chunks{participant};

@@ -19,10 +19,11 @@ int stretch(std::size_t processes) {
 
 }  // namespace
 
-// A process that starts must be seen within a second.
+// Who is new says so at once and is answered at once; to say it again is for when that was lost, and for the lease.
 std::string discovery_pace(std::size_t processes) {
     constexpr int kLongestLease_ms = 10'000;
-    const int announced_ms = std::min(200 * at_least_few(processes) / kFew, 800);
+    const int n = at_least_few(processes);
+    const int announced_ms = std::min(200 * n * n / (kFew * kFew), kLongestLease_ms / 5);
     return fmt::format("<SPDPInterval>{} ms</SPDPInterval><LeaseDuration>{} ms</LeaseDuration>", announced_ms,
                        std::min(1000 * stretch(processes), kLongestLease_ms));
 }

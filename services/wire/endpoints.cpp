@@ -31,11 +31,15 @@ Entity checked(Participant& participant, const TopicSpec& spec, dds_entity_t han
     return entity;
 }
 
-void on_data_available(dds_entity_t, void* on_data) { (*static_cast<const OnData*>(on_data))(); }
+void on_data_available(dds_entity_t, void* told) {
+    Arrival& arrival = *static_cast<Arrival*>(told);
+    arrival.has_come = true;
+    if (arrival.on_data) { arrival.on_data(); }
+}
 
-Listener listener_for(const OnData* on_data) {
-    Listener listener{dds_create_listener(const_cast<OnData*>(on_data)), &dds_delete_listener};
-    if (on_data != nullptr) { dds_lset_data_available(listener.get(), on_data_available); }
+Listener listener_for(Arrival& arrival) {
+    Listener listener{dds_create_listener(&arrival), &dds_delete_listener};
+    dds_lset_data_available(listener.get(), on_data_available);
     return listener;
 }
 
@@ -47,10 +51,10 @@ Entity make_writer(Participant& participant, const TopicSpec& spec) {
     return checked(participant, spec, dds_create_writer(participant.publisher(), topic, qos_for(spec).get(), nullptr));
 }
 
-Entity make_reader(Participant& participant, const TopicSpec& spec, const OnData* on_data) {
+Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival) {
     const dds_entity_t topic = make_topic(participant, spec);
     if (topic < 0) { return checked(participant, spec, topic); }
-    const Listener listener = listener_for(on_data);
+    const Listener listener = listener_for(arrival);
     return checked(participant, spec,
                    dds_create_reader(participant.subscriber(), topic, qos_for(spec).get(), listener.get()));
 }

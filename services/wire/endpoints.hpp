@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,6 +14,7 @@
 
 #include "services/wire/entity.hpp"
 #include "services/wire/participant.hpp"
+#include "services/wire/refusals.hpp"
 #include "services/wire/speakers.hpp"
 #include "services/wire/topics.hpp"
 #include "services/wire/translate.hpp"
@@ -23,9 +25,16 @@ namespace lockstep {
 using OnData = std::function<void()>;
 
 namespace detail {
+/// What DDS tells a reader on a thread of its own.
+struct Arrival {
+    explicit Arrival(OnData also) : on_data(std::move(also)) {}
+    std::atomic<bool> has_come{false};
+    OnData on_data;
+};
+
 /// On failure the participant notes it, and the entity is not good.
 Entity make_writer(Participant& participant, const TopicSpec& spec);
-Entity make_reader(Participant& participant, const TopicSpec& spec, const OnData* on_data);
+Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival);
 std::uint32_t matched_readers(const Entity& writer);
 std::uint32_t matched_writers(const Entity& reader);
 
@@ -58,18 +67,12 @@ private:
     Entity entity_;
 };
 
-/// What a reader was sent and did not believe.
-struct Refusals {
-    std::uint64_t count = 0;
-    std::string last;  // why
-};
-
 template <typename T>
 class Reader {
 public:
     explicit Reader(Participant& participant, OnData on_data = {})
-        : on_data_(on_data ? std::make_unique<OnData>(std::move(on_data)) : nullptr),
-          entity_(detail::make_reader(participant, Topic<T>::kSpec, on_data_.get())),
+        : arrival_(std::make_unique<detail::Arrival>(std::move(on_data))),
+          entity_(detail::make_reader(participant, Topic<T>::kSpec, *arrival_)),
           speakers_(participant.machine()) {}
 
     /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many. A
@@ -77,10 +80,11 @@ public:
     template <typename Use>
     std::size_t take(Use use) {
         std::size_t used = 0;
+        if (!arrival_->has_come.exchange(false)) { return used; }  // a loop asks often, and DDS's answer takes locks
         for (std::size_t batch = 0; batch < kMaxBatches; ++batch) {
-            const std::size_t taken = take_batch(use, used);
-            if (taken < kBatch) { break; }
+            if (take_batch(use, used) < kBatch) { return used; }
         }
+        arrival_->has_come = true;
         return used;
     }
 
@@ -119,8 +123,7 @@ private:
                 use(std::move(value_));
                 ++used;
             } else {
-                ++refusals_.count;
-                refusals_.last = std::move(believed.error());
+                refusals_.add(std::move(believed.error()));
             }
         }
         return count;
@@ -133,7 +136,7 @@ private:
                                ", which its writer is not");
     }
 
-    std::unique_ptr<OnData> on_data_;  // DDS holds its address: it stays put and outlives the entity
+    std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address: it stays put and outlives the entity
     Entity entity_;
     Speakers speakers_;
     T value_{};  // the message at hand

@@ -47,6 +47,8 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     Participant made;
     made.domain_ = std::move(*domain);
     made.machine_ = machine;
+    made.network_ = network;
+    made.axis_ = membership.axis;
     made.participant_ =
         Entity(dds_create_participant(network.domain, participant_qos(machine, membership).get(), nullptr));
     if (!made.participant_.good()) { return std::unexpected(cannot_join(network, membership, made.participant_)); }

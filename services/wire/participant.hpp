@@ -39,6 +39,8 @@ public:
                                                         const Membership& membership = {});
 
     const std::string& machine() const { return machine_; }
+    const NetworkConfig& network() const { return network_; }
+    const std::optional<std::uint32_t>& axis() const { return axis_; }  // for which its process speaks
 
     dds_entity_t handle() const { return participant_.handle(); }
     dds_entity_t publisher() const { return publisher_.handle(); }
@@ -54,6 +56,8 @@ private:
 
     std::shared_ptr<const Domain> domain_;  // outlives all that follows
     std::string machine_;
+    NetworkConfig network_;
+    std::optional<std::uint32_t> axis_;
     Entity participant_;
     Entity publisher_;
     Entity subscriber_;

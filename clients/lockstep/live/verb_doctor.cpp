@@ -18,6 +18,7 @@
 #include "services/runtime/multicast.hpp"
 #include "services/security/rights.hpp"
 #include "services/wire/peer_discovery.hpp"
+#include "services/wire/state_board.hpp"
 
 namespace lockstep {
 namespace {
@@ -33,6 +34,14 @@ struct DoctorOptions : LiveOptions {
     double seconds = 3;
 };
 
+/// Where they are, or why they cannot be there.
+std::expected<std::string, std::string> shared_states(const MachineConfig& machine) {
+    if (!machine.network.one_host) { return ""; }
+    const auto board = StateBoardReader::open(shared_states_file(machine.name, machine.network.domain), std::nullopt);
+    if (!board) { return std::unexpected(board.error()); }
+    return board->path().string();
+}
+
 void examine_network(const MachineConfig& machine, Findings& findings) {
     const NetworkConfig& network = machine.network;
     const auto facts = doctor::look_at_interface(network.interface);
@@ -42,6 +51,7 @@ void examine_network(const MachineConfig& machine, Findings& findings) {
     findings.push_back(doctor::judge_route(network, route, heard));
     const std::int64_t asked = doctor::buffer_asked(network.lcm_url);
     if (asked > 0) { findings.push_back(doctor::judge_buffer(asked, doctor::receive_buffer_given(asked))); }
+    findings.push_back(doctor::judge_states(machine, shared_states(machine)));
     if (network.peers.empty()) { return; }
     const std::int64_t needed = peer_send_buffer(network.peers.size());
     findings.push_back(doctor::judge_send_buffer(needed, doctor::send_buffer_given(needed)));

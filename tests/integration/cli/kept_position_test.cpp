@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kThereAndBack = "G21 G90\nG1 X60 Y20 F3000\nG1 X20 Y0\nM2\n";
+constexpr const char* kShortJob = "G21 G90\nG1 X60 Y20 F3000\nG1 X20 Y0\nM2\n";
 
 class KeptPositions : public OwnMachine {
 protected:
@@ -52,7 +52,7 @@ TEST_F(KeptPositions, AKilledAxisComesBackHomedWhereItWasAtRest) {
     kill_y();
     EXPECT_TRUE(y().homed()) << tail_of(state().log_file("axis-Y"), 20);
     ASSERT_TRUE(becomes("Idle"));
-    const Ran run = run_lockstep({"run", write("job.gcode", kThereAndBack)});
+    const Ran run = run_lockstep({"run", write("job.gcode", kShortJob)});
     EXPECT_EQ(run.code, 0) << run.out << run.err;
     EXPECT_EQ(y().position_steps(), 0);
     expect_verified();
@@ -60,7 +60,7 @@ TEST_F(KeptPositions, AKilledAxisComesBackHomedWhereItWasAtRest) {
 
 TEST_F(KeptPositions, AnAxisThatIsKilledInMotionComesBackUnhomedAndSaysWhy) {
     ASSERT_TRUE(y_is_kept());
-    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
     kill_y();
@@ -75,7 +75,7 @@ TEST_F(KeptPositions, AnAxisThatIsKilledInMotionComesBackUnhomedAndSaysWhy) {
 
 /// The log ends before another process moves the axis: with what that one found in the device.
 TEST_F(KeptPositions, WhatTheDeviceOfAKilledAxisWentOnToDoIsAsPlanned) {
-    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
     kill_y();
@@ -85,7 +85,7 @@ TEST_F(KeptPositions, WhatTheDeviceOfAKilledAxisWentOnToDoIsAsPlanned) {
 
 /// Axes come to rest by themselves, and nobody says how the job ended.
 TEST_F(KeptPositions, WhatIsRunOfAJobWhoseCoordinatorIsKilledIsAsPlanned) {
-    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
     kill(process("coordinator"), SIGKILL);

@@ -16,6 +16,9 @@
 
 namespace lockstep {
 
+/// A job that lasts some seconds, for the machine below.
+inline constexpr const char* kThereAndBack = "G21 G90\nG1 X150 Y30 F1200\nG1 X20 Y0\nM2\n";
+
 /// Two axes that home within a second: X from 0 to 200 mm, Y from -50 to 50 mm.
 class OwnMachine : public testing::Test {
 protected:
@@ -37,6 +40,9 @@ protected:
     /// Until the machine is in this phase; false if it is not within the bound.
     bool becomes(const std::string& phase) const;
     pid_t process(const std::string& name) const;
+
+    /// The end of a process's log.
+    std::string text_of_log(const std::string& process) const { return tail_of(state().log_file(process), 1000); }
 
     StateDirectory state() const { return StateDirectory(name_); }
     const std::string& file() const { return file_; }

@@ -12,8 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kThereAndBack = "G21 G90\nG1 X150 Y30 F1200\nG1 X20 Y0\nM2\n";
-
 class TwoCoordinators : public OwnMachine {
 protected:
     explicit TwoCoordinators(Words up = {"--standby"}) : words_(std::move(up)) {}
@@ -24,7 +22,6 @@ protected:
         const Ran home = run_lockstep({"home"});
         ASSERT_EQ(home.code, 0) << home.out << home.err;
     }
-    std::string text_of_log(const std::string& name) const { return tail_of(state().log_file(name), 1000); }
     /// The time in the log, to compare; empty: never.
     std::string claimed_at(const std::string& name) const {
         const std::string text = text_of_log(name);

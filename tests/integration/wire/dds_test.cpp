@@ -106,6 +106,32 @@ TEST(Dds, AnAxisDoesNotHearItself) {
     EXPECT_EQ(heard_by_first[0], 0);
 }
 
+TEST(Dds, AMachineOnOneHostShowsItsStatesSeldomAndItsNewsAtOnce) {
+    NetworkConfig network = own_network();
+    network.one_host = true;
+    auto viewer = open_or_throw<ViewerBus>(network);
+    auto axis = open_or_throw<AxisBus>(network, "mill", 1);
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    const auto ignore = [](AxisState&&) {};
+    ASSERT_TRUE(eventually([&] {
+        axis.state.write({.axis = 1});
+        return viewer.states.take(ignore) > 0;
+    }));
+    (void)coordinator.states.take(ignore);
+    constexpr Slot kSaid = 200;
+    const auto begun = std::chrono::steady_clock::now();
+    for (Slot stamp = 1; stamp <= kSaid; ++stamp) { axis.state.write({.axis = 1, .stamp = stamp}); }
+    axis.state.write({.axis = 1, .stamp = kSaid + 1, .homed = true});
+    const auto lasted = std::chrono::steady_clock::now() - begun;
+    EXPECT_EQ(coordinator.states.take(ignore), kSaid + 1) << "all of them by memory";
+    std::vector<AxisState> shown;
+    ASSERT_TRUE(eventually([&] {
+        viewer.states.take([&](AxisState&& state) { shown.push_back(state); });
+        return !shown.empty() && shown.back().homed;
+    }));
+    EXPECT_LE(shown.size(), 2U + static_cast<std::size_t>(lasted / 100ms));
+}
+
 TEST(Dds, WhatIsSaidOfAnAxisIsBelievedFromItAlone) {
     const NetworkConfig network = own_network();
     auto coordinator = open_or_throw<CoordinatorBus>(network);

@@ -53,6 +53,22 @@ TEST(DoctorOnTheBuffer, ASmallerOneThanAbsentPeersFillMaySilenceAPart) {
     EXPECT_EQ(small.remedy, "sysctl -w net.core.wmem_max=449536");
 }
 
+TEST(DoctorOnStates, ManyAxesOnOneHostShareTheirMemory) {
+    MachineConfig machine;
+    machine.axes.resize(15);
+    EXPECT_EQ(judge_states(machine, "").verdict, Verdict::Good);
+    machine.axes.resize(16);
+    const Finding many = judge_states(machine, "");
+    EXPECT_EQ(many.verdict, Verdict::Doubtful);
+    EXPECT_THAT(many.found, HasSubstr("16 axes on one host hear 240 states"));
+    EXPECT_THAT(many.remedy, HasSubstr("one_host: true"));
+    machine.network.interface = "eth0";
+    EXPECT_EQ(judge_states(machine, "").verdict, Verdict::Good) << "they may be on many hosts";
+    machine.network = {.one_host = true};
+    EXPECT_EQ(judge_states(machine, "/dev/shm/lockstep-0/mill.0.states").verdict, Verdict::Good);
+    EXPECT_EQ(judge_states(machine, std::unexpected(std::string("no space left"))).verdict, Verdict::Bad);
+}
+
 TEST(DoctorOnRealTime, WhatIsRefusedIsBadOnlyWhereItIsAskedFor) {
     const RealTimeFacts refused{.scheduler = "not permitted", .memory = "the limit is 64 KB"};
     EXPECT_EQ(judge_scheduler({}, refused).verdict, Verdict::Good);

@@ -83,7 +83,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("network { interface: \"<lo>\" }"), 11, 11, "<lo>"},
                     Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
                     Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"},
-                    Refusal{machine_with("network { peers: \"10.0.0.1 10.0.0.2\" }"), 11, 1, "an IPv4 address or a"}));
+                    Refusal{machine_with("network { peers: \"10.0.0.1 10.0.0.2\" }"), 11, 1, "an IPv4 address or a"},
+                    Refusal{machine_with("network { one_host: true peers: \"10.0.0.1\" }"), 11, 11,
+                            "leave one of them"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Hosts, MachineRefused,
@@ -96,7 +98,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" network { interface: \"eth0\" }", 1, 1,
                             "one host's clock, but the machine is on several hosts, such as b and a"},
                     Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" timing { time_source: NETWORK }", 1, 1,
-                            "network.interface is lo, but"}));
+                            "network.interface is lo, but"},
+                    Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" timing { time_source: NETWORK } "
+                                                       "network { interface: \"eth0\" one_host: true }",
+                            12, 83, "network.one_host is true, but the machine is on several hosts"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Method, MachineRefused,

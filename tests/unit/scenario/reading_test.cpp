@@ -43,6 +43,14 @@ TEST(ScenarioReading, TheMachineOfAScenarioIsApartFromAllOthers) {
     EXPECT_EQ(parsed(whole("")).machine.network.interface, "lo");
 }
 
+TEST(ScenarioReading, MemoryIsSharedOnlyWhereThereAreNoLinks) {
+    MachineConfig machine;
+    machine.network.one_host = true;
+    EXPECT_TRUE(staged(machine, Asked::PROCESS).network.one_host);
+    EXPECT_FALSE(staged(machine, Asked::NAMESPACE).network.one_host);
+    EXPECT_FALSE(staged(machine, Asked::CONTAINER).network.one_host);
+}
+
 TEST(ScenarioReading, APlaceThatIsNamedTakesThePlaceOfTheScenarios) {
     const std::string cut = whole("step { act { cut { process: \"axis-X\" } } }");
     EXPECT_FALSE(parse_scenario(cut, "here.textproto")) << "on one host there are no links";

@@ -31,7 +31,7 @@ TEST(DdsProfile, ManyProcessesAskEachOtherLessOften) {
     EXPECT_THAT(*few, HasSubstr("max=\"20 ms\">2 ms</HeartbeatInterval><NackDelay>0 ms"));
     EXPECT_THAT(*few, HasSubstr("<SPDPInterval>200 ms</SPDPInterval><LeaseDuration>1000 ms"));
     EXPECT_THAT(*many, HasSubstr("max=\"1340 ms\">134 ms</HeartbeatInterval><NackDelay>66 ms"));
-    EXPECT_THAT(*many, HasSubstr("<SPDPInterval>800 ms</SPDPInterval><LeaseDuration>10000 ms"));
+    EXPECT_THAT(*many, HasSubstr("<SPDPInterval>2000 ms</SPDPInterval><LeaseDuration>10000 ms"));
 }
 
 TEST(DdsProfile, TheSendBufferHoldsWhatIsAskedOfPeersThatAreNotThere) {

@@ -1,0 +1,19 @@
+// What a process was sent and did not believe.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lockstep {
+
+struct Refusals {
+    std::uint64_t count = 0;
+    std::string last;  // why
+
+    void add(std::string why) {
+        ++count;
+        last = std::move(why);
+    }
+};
+
+}  // namespace lockstep

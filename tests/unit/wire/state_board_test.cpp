@@ -1,0 +1,212 @@
+// States by shared memory: all of them whole and in order, whoever is killed, late or lying.
+#include "services/wire/state_board.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "tests/unit/wire/random_messages.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::size_t kPartBytes = 65536 + 64;  // from one axis's in the file to the next one's
+constexpr std::size_t kFirstSlotByte = 64;
+
+class StateBoard : public testing::Test {
+protected:
+    StateBoard() { fs::remove_all(path.parent_path()); }
+    ~StateBoard() override { fs::remove_all(path.parent_path()); }
+
+    StateBoardWriter writer(std::uint32_t axis) const { return StateBoardWriter::open(path, axis).value(); }
+    StateBoardReader reader(std::optional<std::uint32_t> own = {}) const {
+        return StateBoardReader::open(path, own).value();
+    }
+    void overwrite(std::size_t at, const std::string& bytes) const {
+        std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(at));
+        file << bytes;
+    }
+
+    fs::path path = fs::path(testing::TempDir()) /
+                    ("lockstep_board_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())) /
+                    "mill.states";
+};
+
+AxisState said(std::uint32_t axis, Slot stamp) { return {.axis = axis, .stamp = stamp}; }
+
+std::vector<AxisState> heard(StateBoardReader& reader) {
+    std::vector<AxisState> states;
+    reader.take([&](AxisState&& state) { states.push_back(state); });
+    return states;
+}
+
+TEST_F(StateBoard, AllHearWhatTheOthersSayInItsOrder) {
+    RandomMessages random(5);
+    StateBoardWriter first = writer(0);
+    StateBoardWriter last = writer(kMaxAxes - 1);
+    StateBoardReader of_first = reader(0);
+    StateBoardReader of_coordinator = reader();
+    std::vector<AxisState> states;
+    for (int i = 0; i < 3; ++i) {
+        for (auto [axis, to] : {std::pair{std::uint32_t{0}, &first}, {kMaxAxes - 1, &last}}) {
+            states.push_back(random.axis_state());
+            states.back().axis = axis;
+            to->write(states.back());
+        }
+    }
+    EXPECT_THAT(heard(of_coordinator), ElementsAre(states[0], states[2], states[4], states[1], states[3], states[5]));
+    EXPECT_THAT(heard(of_first), ElementsAre(states[1], states[3], states[5])) << "not its own";
+    EXPECT_THAT(heard(of_coordinator), IsEmpty()) << "each once";
+}
+
+TEST_F(StateBoard, WhatWasSaidBeforeSomebodyListensIsNotHeard) {
+    StateBoardWriter axis = writer(1);
+    axis.write(said(1, 1));
+    StateBoardReader late = reader();
+    EXPECT_THAT(heard(late), IsEmpty());
+    axis.write(said(1, 2));
+    EXPECT_THAT(heard(late), ElementsAre(said(1, 2)));
+}
+
+TEST_F(StateBoard, WhoStalledFindsTheNewest) {
+    StateBoardWriter axis = writer(1);
+    StateBoardReader stalled = reader();
+    constexpr Slot kSaid = 2 * kStatesKept + 17;
+    for (Slot stamp = 1; stamp <= kSaid; ++stamp) { axis.write(said(1, stamp)); }
+    const std::vector<AxisState> states = heard(stalled);
+    ASSERT_EQ(states.size(), kStatesKept);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        EXPECT_EQ(states[i].stamp, kSaid - static_cast<Slot>(kStatesKept - 1 - i));
+    }
+}
+
+TEST_F(StateBoard, IsHeardWholeAndInOrderWhileItIsWritten) {
+    StateBoardWriter axis = writer(2);
+    StateBoardReader listener = reader();
+    std::jthread says([&](const std::stop_token& stop) {
+        for (Slot i = 1; !stop.stop_requested(); ++i) {
+            axis.write({.identity = static_cast<Identity>(i),
+                        .axis = 2,
+                        .stamp = i,
+                        .following_error_steps = i,
+                        .refused_frames = static_cast<std::uint64_t>(i)});
+        }
+    });
+    Slot latest = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        listener.take([&](AxisState&& state) {
+            EXPECT_GT(state.stamp, latest);
+            latest = state.stamp;
+            EXPECT_EQ(state.identity, static_cast<Identity>(latest));
+            EXPECT_EQ(state.following_error_steps, latest);
+            EXPECT_EQ(state.refused_frames, static_cast<std::uint64_t>(latest));
+        });
+    }
+    EXPECT_GT(latest, 0);
+    EXPECT_EQ(listener.refusals().count, 0U);
+}
+
+TEST_F(StateBoard, AnAxisHasOneProcess) {
+    {
+        const StateBoardWriter first = writer(3);
+        const auto second = StateBoardWriter::open(path, 3);
+        ASSERT_FALSE(second);
+        EXPECT_THAT(second.error(), HasSubstr("axis 3 is already run by another process"));
+        EXPECT_TRUE(StateBoardWriter::open(path, 4)) << "another axis may";
+    }
+    EXPECT_TRUE(StateBoardWriter::open(path, 3));
+}
+
+TEST_F(StateBoard, WhoIsKilledLeavesItsPartToTheNext) {
+    StateBoardReader listener = reader();
+    const pid_t child = fork();
+    if (child == 0) {
+        StateBoardWriter axis = writer(1);
+        axis.write(said(1, 41));
+        raise(SIGKILL);
+    }
+    waitpid(child, nullptr, 0);
+    EXPECT_THAT(heard(listener), ElementsAre(said(1, 41)));
+    writer(1).write(said(1, 42));
+    EXPECT_THAT(heard(listener), ElementsAre(said(1, 42)));
+}
+
+TEST_F(StateBoard, WhatIsHalfWrittenIsNotHeard) {
+    StateBoardWriter axis = writer(0);
+    StateBoardReader listener = reader();
+    for (const Slot stamp : {1, 2, 3}) { axis.write(said(0, stamp)); }
+    const std::size_t slot_bytes = NumberedSlot<lockstep_wire_AxisState>::kWords * sizeof(std::uint64_t);
+    overwrite(kFirstSlotByte + 2 * slot_bytes, std::string(8, '\0'));  // its number
+    EXPECT_THAT(heard(listener), ElementsAre(said(0, 1), said(0, 3)));
+}
+
+TEST_F(StateBoard, AnotherVersionIsRefusedUntilItsAxisBeginsAnew) {
+    StateBoardReader listener = reader();
+    {
+        StateBoardWriter axis = writer(0);
+        overwrite(0, "another!");
+        axis.write(said(0, 1));
+        EXPECT_THAT(heard(listener), IsEmpty());
+        EXPECT_EQ(listener.refusals().count, 1U);
+        EXPECT_THAT(listener.refusals().last, HasSubstr("another version"));
+    }
+    StateBoardWriter anew = writer(0);
+    (void)heard(listener);
+    anew.write(said(0, 2));
+    EXPECT_THAT(heard(listener), ElementsAre(said(0, 2)));
+}
+
+TEST_F(StateBoard, NobodySpeaksForAnotherAxis) {
+    StateBoardWriter axis = writer(0);
+    StateBoardReader listener = reader();
+    axis.write(said(1, 1));
+    EXPECT_THAT(heard(listener), IsEmpty());
+    EXPECT_THAT(listener.refusals().last, HasSubstr("in the part of axis 0"));
+}
+
+TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
+    StateBoardWriter axis = writer(1);
+    StateBoardReader listener = reader();
+    RandomMessages random(6);
+    for (int i = 0; i < 2000; ++i) {
+        for (int said = 0; said < 3; ++said) { axis.write(random.axis_state()); }
+        const auto at = static_cast<std::size_t>(random.between(8, 3000));  // the count of states as well
+        overwrite(kPartBytes + at, std::string(1, static_cast<char>(random.bits())));
+        (void)heard(listener);
+    }
+    EXPECT_GT(listener.refusals().count, 0U);
+    (void)heard(listener);
+    axis.write(said(1, 7));
+    EXPECT_THAT(heard(listener), ElementsAre(said(1, 7))) << "what is said then is heard again";
+}
+
+TEST_F(StateBoard, GoesWithItsLastProcess) {
+    {
+        const StateBoardReader listener = reader();
+        { const StateBoardWriter axis = writer(0); }
+        EXPECT_TRUE(fs::exists(path));
+    }
+    EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(StateBoard, IsForThisUserAlone) {
+    const StateBoardReader listener = reader();
+    EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    fs::create_symlink(path, path.parent_path() / "other");
+    EXPECT_FALSE(StateBoardReader::open(path.parent_path() / "other", {})) << "another may have put it there";
+}
+
+}  // namespace
+}  // namespace lockstep
