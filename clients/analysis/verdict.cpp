@@ -6,6 +6,7 @@
 #include <array>
 
 #include "clients/analysis/numbers.hpp"
+#include "clients/analysis/words.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -61,8 +62,8 @@ void judge_jobs(const Analysis& analysis, Findings& found) {
 
 void judge_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) {
     if (const std::int64_t missing = missing_steps_of(axis); missing != 0) {
-        found.push_back(
-            {Grade::Doubtful, fmt::format("{}: at least {} are not in the log", axis.name(), plural(missing, "step"))});
+        found.push_back({Grade::Doubtful, fmt::format("{}: at least {} are not in the log; {}", axis.name(),
+                                                      plural(missing, "step"), kWhereTheRestIs)});
     }
     const AxisConfig* config = analysis.axis_config(axis.name());
     const double peak = axis.statistics().peak_steps_per_tick() * 1e9 / static_cast<double>(analysis.tick_ns());

@@ -8,6 +8,10 @@
 
 namespace lockstep::analysis {
 
+/// What to do where a log lacks messages: who heard them may have stood still, not who sent them.
+inline constexpr const char* kWhereTheRestIs =
+    "what was not heard is in the processes' own logs: lockstep log merge puts them together";
+
 /// "3 axes · 128 450 steps · 12.4 s · nothing missing"
 std::string in_a_line(const Analysis& analysis);
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "clients/analysis/words.hpp"
 #include "services/wire/step_batcher.hpp"
 
 namespace lockstep::verification {
@@ -51,12 +52,14 @@ void AxisCheck::take(Run run) {
 }
 
 void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
+    if (!findings_.going()) { return; }
     const std::string which = end - from == 1
                                   ? "run " + std::to_string(from) + " is"
                                   : "runs " + std::to_string(from) + " to " + std::to_string(end - 1) + " are";
     differ("axis " + name_ + ": the record of " + which + " not in the log; the steps up to " +
                at_tick(last_tick_, "its beginning") + " are compared",
            {}, {});
+    findings_.notes.emplace_back(analysis::kWhereTheRestIs);
 }
 
 void AxisCheck::on_batch(const analysis::StepBatch& batch) {
@@ -83,6 +86,7 @@ void AxisCheck::on_break(const analysis::Break& what) {
                plural(std::abs(what.position_change), "step") + " missing between " +
                at_tick(what.from, "the log's beginning") + " and " + at_tick(what.to, "the log's end"),
            expected != nullptr ? std::optional(expected->tick) : std::nullopt, {});
+    findings_.notes.emplace_back(analysis::kWhereTheRestIs);
 }
 
 /// Compares as far as steps and runs have come.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <ranges>
 
 #include "clients/lockstep/live/chunked_program.hpp"
 #include "core/protocol/rules.hpp"
@@ -18,7 +19,9 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRepeatCommandAfter = 250ms;
 constexpr nanoseconds kAnswerPatience = 3s;
-constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that reads or plans a large program answers late
+constexpr nanoseconds kHeardPatience = 5s;       // for an axis that the coordinator hears: this process will, too
+constexpr nanoseconds kUnheardPatience = 500ms;  // for one that it does not
+constexpr nanoseconds kPlanPatience = 60s;       // a coordinator that reads or plans a large program answers late
 
 static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
 
@@ -78,8 +81,8 @@ std::expected<void, Failure> Session::reach(nanoseconds patience) {
     return {};
 }
 
-std::expected<void, Failure> Session::reach_axes(nanoseconds patience) {
-    const nanoseconds deadline = monotonic_now() + patience;
+std::expected<void, Failure> Session::reach_axes() {
+    const nanoseconds deadline = monotonic_now() + kReachPatience;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         while (!axis_present(i)) {
             if (monotonic_now() > deadline) {
@@ -90,6 +93,15 @@ std::expected<void, Failure> Session::reach_axes(nanoseconds patience) {
         }
     }
     return {};
+}
+
+void Session::await_axes() {
+    const nanoseconds begin = monotonic_now();
+    const auto may_come = [&](std::size_t i) {
+        const bool is_heard = state_ && has_axis(state_->state.axes_present, i);
+        return !axis_present(i) && monotonic_now() - begin < (is_heard ? kHeardPatience : kUnheardPatience);
+    };
+    while (std::ranges::any_of(std::views::iota(std::size_t{0}, axes_.size()), may_come)) { listen(50ms); }
 }
 
 void Session::await_healths(nanoseconds patience) {

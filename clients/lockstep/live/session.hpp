@@ -39,7 +39,9 @@ public:
     /// Waits until a coordinator speaks and listens. Error: none does; who is heard at all, and what to do.
     std::expected<void, Failure> reach(std::chrono::nanoseconds patience = kReachPatience);
     /// Waits until every axis is heard. Error: who is not.
-    std::expected<void, Failure> reach_axes(std::chrono::nanoseconds patience = kReachPatience);
+    std::expected<void, Failure> reach_axes();
+    /// Waits for the axes that the coordinator hears, and a moment for the others: who is not heard then is not there.
+    void await_axes();
     /// Waits, at most so long, for the live figures of every axis that is heard: they come ten times a second.
     void await_healths(std::chrono::nanoseconds patience);
 

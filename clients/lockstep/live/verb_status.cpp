@@ -18,8 +18,8 @@ ExitCode status(const LiveOptions& options) {
     if (!machine) { return voice.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Look);
     if (!session) { return voice.fail(session.error()); }
-    (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such
-    session->await_healths(300ms);
+    session->await_axes();
+    session->await_healths(1s);
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     proto::StatusReport report = status_report(*session);
     add_incidents(session->config(), report);

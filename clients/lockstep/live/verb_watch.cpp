@@ -56,7 +56,7 @@ ExitCode watch(const LiveOptions& options) {
     auto session = Session::open(*machine, Purpose::Look);
     if (!session) { return voice.fail(session.error()); }
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
-    (void)session->reach_axes(500ms);  // an axis that is not heard is shown as such
+    session->await_axes();
     session->await_healths(300ms);
     const StopSignal stop;
     if (voice.is_terminal() && !voice.json()) {

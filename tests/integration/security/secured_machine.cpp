@@ -24,15 +24,16 @@ void SecuredMachine::SetUp() {
 MachineConfig SecuredMachine::config() const { return load_machine_file(file()).value(); }
 
 std::unique_ptr<Command> SecuredMachine::begin_stranger(const std::string& partition, const std::string& keys,
-                                                        const std::string& member) const {
+                                                        const std::string& member, const Words& how) const {
     const MachineConfig machine = config();
-    return std::make_unique<Command>(
-        LOCKSTEP_STRANGER, Words{std::to_string(machine.network.domain), machine.name, partition, keys, member});
+    Words words{std::to_string(machine.network.domain), machine.name, partition, keys, member};
+    words.insert(words.end(), how.begin(), how.end());
+    return std::make_unique<Command>(LOCKSTEP_STRANGER, words);
 }
 
-std::string SecuredMachine::stranger(const std::string& partition, const std::string& keys,
-                                     const std::string& member) const {
-    const Ran ran = begin_stranger(partition, keys, member)->wait();
+std::string SecuredMachine::stranger(const std::string& partition, const std::string& keys, const std::string& member,
+                                     const Words& how) const {
+    const Ran ran = begin_stranger(partition, keys, member, how)->wait();
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
     return ran.out;
 }

@@ -16,11 +16,12 @@ protected:
     std::filesystem::path keys() const { return folder() / "keys"; }
     MachineConfig config() const;
 
-    /// What the stranger says came of it. partition, keys and member: as stranger.cpp has them.
-    std::string stranger(const std::string& partition, const std::string& keys, const std::string& member) const;
+    /// What the stranger says came of it. partition, keys, member and how: as stranger.cpp has them.
+    std::string stranger(const std::string& partition, const std::string& keys, const std::string& member,
+                         const Words& how = {}) const;
     /// The same, beside the test.
     std::unique_ptr<Command> begin_stranger(const std::string& partition, const std::string& keys,
-                                            const std::string& member) const;
+                                            const std::string& member, const Words& how = {}) const;
     /// Nobody took notice of him, and the machine is as it was.
     void expect_shut_out(const std::string& said) const;
     /// All axes stand where homing parked them, no job was begun, nothing is wrong.

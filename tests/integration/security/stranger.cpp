@@ -1,6 +1,7 @@
 // Somebody who wants to move the machine, on its network and with what he has got hold of:
-//   integration_security_stranger DOMAIN MACHINE PARTITION KEYS MEMBER
+//   integration_security_stranger DOMAIN MACHINE PARTITION KEYS MEMBER [READERS]
 // PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: whose keys of them.
+// READERS: somebody who belongs there, and is to be heard by so many; he begins to count his tries when he is.
 //   integration_security_stranger DOMAIN MACHINE protocol NUMBER -     a process of the machine, of another version
 // Tries for a while to speak on every topic that moves something, and to listen; says what came of it, a line each.
 #include <chrono>
@@ -20,6 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kTries = 150;
+constexpr int kPatience = 1000;  // tries more, of who is to be matched: on a busy host that takes its time
 constexpr auto kBetween = 20ms;
 
 /// A word on one topic, again and again.
@@ -58,7 +60,7 @@ struct Outcome {
     std::size_t heard = 0;      // states
 };
 
-Outcome try_all(Participant& participant) {
+Outcome try_all(Participant& participant, std::uint32_t readers) {
     Mouth<Command> commands(participant, home());
     Mouth<Frame> frames(participant, sudden_frame());
     Mouth<AxisCommand> orders(participant, own_move());
@@ -66,8 +68,11 @@ Outcome try_all(Participant& participant) {
     Reader<AxisState> axes(participant);
     Reader<MachineState> machine(participant);
     Outcome outcome;
-    const int tries = participant.failure() ? kTries / 4 : kTries;  // of who was refused at once little is to be seen
-    for (int i = 0; i < tries; ++i) {
+    int left = participant.failure() ? kTries / 4 : kTries;  // of who was refused at once little is to be seen
+    int patience = readers > 0 ? kPatience : 0;
+    while (left > 0) {
+        const bool is_in = outcome.matched >= readers && outcome.heard > 0;
+        --(is_in || patience == 0 ? left : patience);
         outcome.matched =
             std::max(outcome.matched, commands.speak() + frames.speak() + orders.speak() + states.speak());
         outcome.heard += axes.take([](AxisState&&) {}) + machine.take([](MachineState&&) {});
@@ -98,7 +103,8 @@ int intrude(const std::vector<std::string>& words) {
         std::cout << "refused: " << participant.error() << std::endl;
         return 0;
     }
-    const Outcome outcome = try_all(*participant);
+    const std::uint32_t readers = words.size() == 6 ? static_cast<std::uint32_t>(std::stoul(words[5])) : 0;
+    const Outcome outcome = try_all(*participant, readers);
     if (participant->failure()) { std::cout << "refused: " << *participant->failure() << std::endl; }
     std::cout << "matched " << outcome.matched << "\nheard " << outcome.heard << std::endl;
     return 0;
@@ -109,6 +115,6 @@ int intrude(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    if (words.size() != 5) { return 2; }
+    if (words.size() < 5 || words.size() > 6) { return 2; }
     return words[2] == "protocol" ? lockstep::speak_another_protocol(words) : lockstep::intrude(words);
 }
