@@ -7,6 +7,10 @@
 
 namespace lockstep {
 
+/// The longest stall that a machine's file may allow for, in slots. What is kept of an axis's states outlasts it: here,
+/// on the network (services/wire/topics.hpp) and in shared memory (services/wire/state_board.hpp).
+inline constexpr int kMaxStallSlots = 200;
+
 class PeerEvidence {
 public:
     /// States may come late, twice or out of order; only their stamps count.

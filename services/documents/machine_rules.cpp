@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/coordinator/lai_path.hpp"
+#include "core/protocol/peer_evidence.hpp"
 #include "core/protocol/rules.inc"
 #include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
@@ -11,7 +12,6 @@
 namespace lockstep {
 namespace {
 
-constexpr int kMaxStallSlots = 200;  // an axis remembers its peers for 512 slots (core/protocol/peer_evidence.hpp)
 constexpr int kMaxSlots = 10'000;
 constexpr std::uint32_t kMaxDomain = 232;  // the last whose ports are below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;

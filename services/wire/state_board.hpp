@@ -17,6 +17,7 @@
 
 #include "core/machine.hpp"
 #include "core/protocol/messages.hpp"
+#include "core/protocol/peer_evidence.hpp"
 #include "idl/dds/axis.h"
 #include "services/runtime/numbered_slot.hpp"
 #include "services/runtime/shared_mapping.hpp"
@@ -24,8 +25,9 @@
 
 namespace lockstep {
 
-/// Kept of each axis: more than are said in the longest stall that a machine may allow for, 200 slots.
+/// Kept of each axis: more than are said in the longest stall that a machine may allow for.
 inline constexpr std::size_t kStatesKept = 256;
+static_assert(kStatesKept > kMaxStallSlots);
 
 /// The file, there for as long as anybody uses it.
 class StateBoardFile {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <numeric>
 
 #include "services/wire/bus.hpp"
 #include "tests/integration/wire/child.hpp"
@@ -243,6 +244,29 @@ TEST(Dds, AReaderThatStandsStillDoesNotStopTheWriter) {
     last.last = true;
     ASSERT_TRUE(coordinator.frames.write(last));
     EXPECT_EQ(axis.wait(), 0);
+}
+
+TEST(Dds, WhoStandsStillAsLongAsAMachineMayAllowFindsEveryState) {
+    const NetworkConfig network = own_network();
+    auto axis = open_or_throw<AxisBus>(network, "mill", 0);
+    auto coordinator = open_or_throw<CoordinatorBus>(network);
+    const auto ignore = [](AxisState&&) {};
+    ASSERT_TRUE(eventually([&] {
+        axis.state.write({.axis = 0});
+        return coordinator.states.take(ignore) > 0;
+    }));
+    std::this_thread::sleep_for(100ms);
+    (void)coordinator.states.take(ignore);
+    for (Slot stamp = 1; stamp <= kMaxStallSlots; ++stamp) { axis.state.write({.axis = 0, .stamp = stamp}); }
+    std::vector<Slot> heard;
+    ASSERT_TRUE(eventually([&] {
+        std::this_thread::sleep_for(500ms);  // he takes none before all have come
+        coordinator.states.take([&](AxisState&& state) { heard.push_back(state.stamp); });
+        return heard.size() >= kMaxStallSlots;
+    })) << heard.size();
+    std::vector<Slot> all(kMaxStallSlots);
+    std::iota(all.begin(), all.end(), Slot{1});
+    EXPECT_EQ(heard, all);
 }
 
 TEST(Dds, EveryPartOfAProgramArrivesThoughPacketsAreLost) {
