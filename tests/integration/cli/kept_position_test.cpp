@@ -67,6 +67,7 @@ TEST_F(KeptPositions, AnAxisThatIsKilledInMotionComesBackUnhomedAndSaysWhy) {
     EXPECT_FALSE(y().homed());
     EXPECT_EQ(y().unproved().name(), "device-has-run");
     EXPECT_THAT(run_lockstep({"status"}).out, HasSubstr("Y is not homed, device-has-run"));
+    ASSERT_TRUE(becomes("Fault"));
     EXPECT_EQ(run_lockstep({"reset"}).code, 0);
     EXPECT_EQ(run_lockstep({"home"}).code, 0);
     EXPECT_FALSE(y().has_unproved());

@@ -45,6 +45,7 @@ void OwnMachine::SetUp() {
     lcm_url_ = network.lcm_url;
     MachineConfig machine;
     machine.name = name_;
+    machine.timing.slot_us = 20'000;  // a busy host may stall its processes for 200 ms
     machine.network = network;
     machine.axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)};
     machine.axes[0].method = StepMethod::Spielauer;  // X homes and moves on its own by it

@@ -110,7 +110,7 @@ TEST_F(Watch, LiveFiguresAreInTheStatus) {
     EXPECT_EQ(seen.step_lateness_us().max(), 0);
     EXPECT_GT(seen.step_interval_us().min(), 0);
     EXPECT_GT(seen.setpoint_slack_ms().min(), 0);
-    EXPECT_LE(seen.setpoint_slack_ms().max(), 390);
+    EXPECT_LE(seen.setpoint_slack_ms().max(), 780);  // sent ahead by 39 slots
     EXPECT_GT(seen.loop_max_us(), 0);
     EXPECT_GE(seen.loop_max_us(), seen.loop_p50_us());
     EXPECT_GT(seen.least_free_segments(), 0U);
