@@ -3,9 +3,11 @@
 
 #include <functional>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/exit_code.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace lockstep {
 

@@ -1,8 +1,10 @@
 // lockstep scenario
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/colour.hpp"
-#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/scenario/report.hpp"

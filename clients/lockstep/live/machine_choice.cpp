@@ -7,18 +7,6 @@
 
 namespace lockstep {
 
-void add_live_options(CLI::App& verb, LiveOptions& options) {
-    verb.add_option(
-        "--machine", options.machine_file,
-        "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host");
-    verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
-}
-
-std::string footer(const std::string& examples) {
-    return "Examples:\n" + examples +
-           "Exit codes: 0 done, 1 failed or refused, 2 bad usage or input (nothing was done), 3 machine not reachable";
-}
-
 std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
                                                           const std::vector<std::filesystem::path>& up) {
     if (!option.empty()) { return option; }

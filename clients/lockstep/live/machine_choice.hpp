@@ -7,23 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live/failure.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
-
-/// What every verb that speaks to a machine takes.
-struct LiveOptions {
-    std::string machine_file;
-    bool json = false;
-};
-
-void add_live_options(CLI::App& verb, LiveOptions& options);
-
-/// Examples, one per line, then the exit codes.
-std::string footer(const std::string& examples);
 
 struct ChosenMachine {
     std::filesystem::path file;

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <set>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/doctor/probes.hpp"
 #include "clients/lockstep/live/keys_report.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"

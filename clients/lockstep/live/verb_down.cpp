@@ -1,4 +1,7 @@
 // lockstep down
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/state_directory.hpp"

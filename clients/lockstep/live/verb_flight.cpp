@@ -1,7 +1,10 @@
 // lockstep flight
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/live/flight_files.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"

@@ -1,6 +1,9 @@
 // lockstep hold, resume, stop, estop, reset
 #include <array>
 
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/refusal.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/voice.hpp"

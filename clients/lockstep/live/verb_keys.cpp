@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/live/keys_report.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"

@@ -1,5 +1,8 @@
 // lockstep move
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/live/job.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/move_program.hpp"
 #include "clients/lockstep/verb.hpp"
 

@@ -1,4 +1,7 @@
 // lockstep override
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/refusal.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/voice.hpp"

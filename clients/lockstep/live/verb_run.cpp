@@ -1,5 +1,8 @@
 // lockstep run
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/live/job.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/program_start.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/verb.hpp"

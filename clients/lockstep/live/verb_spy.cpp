@@ -4,6 +4,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
 #include "clients/lockstep/live/spy_command.hpp"
 #include "clients/lockstep/live/voice.hpp"

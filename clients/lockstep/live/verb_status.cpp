@@ -1,6 +1,9 @@
 // lockstep status
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/status_text.hpp"

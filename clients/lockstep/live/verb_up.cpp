@@ -1,7 +1,10 @@
 // lockstep up
 #include <map>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/live/bring_up.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/status_text.hpp"
 #include "clients/lockstep/live/take_down.hpp"

@@ -1,5 +1,8 @@
 // lockstep watch
+#include <CLI/CLI.hpp>
+
 #include "clients/lockstep/colour.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/screen.hpp"
 #include "clients/lockstep/live/session.hpp"

@@ -4,11 +4,13 @@
 #include <memory>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/words.hpp"
 #include "clients/lockstep/colour.hpp"
-#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/offline/analyze_incident.hpp"

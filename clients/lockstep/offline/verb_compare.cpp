@@ -2,12 +2,14 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "clients/comparison/comparison.hpp"
 #include "clients/comparison/figures.hpp"
 #include "clients/comparison/move_text.hpp"
 #include "clients/comparison/report.hpp"
 #include "clients/comparison/words.hpp"
-#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "services/documents/text_file.hpp"

@@ -1,7 +1,9 @@
 // lockstep plan
 #include <memory>
 
-#include "clients/lockstep/live/machine_choice.hpp"
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/offline/figure_files.hpp"
 #include "clients/lockstep/offline/plan_text.hpp"

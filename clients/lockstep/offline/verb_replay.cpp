@@ -3,7 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "clients/lockstep/live/machine_choice.hpp"
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/offline/verdict_text.hpp"
