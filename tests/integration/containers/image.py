@@ -101,7 +101,7 @@ def compiler_cache(work):
     directory = pathlib.Path(say("cache_dir") or "/none")
     if not directory.is_dir():
         return []
-    settings = "".join(f"{key} = {say(key)}\n" for key in ("base_dir", "hash_dir", "sloppiness", "max_size"))
+    settings = "".join(f"{key} = {say(key)}\n" for key in ("hash_dir", "sloppiness", "max_size"))
     (work / "ccache.conf").write_text("cache_dir = /ccache\n" + settings)
     language = [f"{name}={os.environ[name]}" for name in ("LANG", "LC_ALL") if name in os.environ]
     told = [word for said in ["CCACHE_CONFIGPATH=/ccache.conf", *language] for word in ("--build-arg", said)]
