@@ -71,10 +71,10 @@ class Chaos:
         return self._stall(self.rng.choice(sorted(EVERYBODY)), "stall of 20 to 60 ms", self._ms(20, 60))
 
     def stall_axis(self):
-        return self._stall(self._axis(), "stall of an axis", self._ms(200, 1000))
+        return self._stall(self._axis(), "stall of an axis", self._ms(300, 1200))
 
     def stall_coordinator(self):
-        return self._stall("coordinator", "stall of the coordinator", self._ms(200, 1000))
+        return self._stall("coordinator", "stall of the coordinator", self._ms(300, 1200))
 
     # ---- Network
 

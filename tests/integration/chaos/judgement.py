@@ -8,7 +8,7 @@ from story import Chapter
 
 # An axis or coordinator that is late, silent or restarted may bring these about; anything else is a fault of its own.
 FAULTS_OF_LATENESS = {"", "axis-lost", "frames-differ", "frame-late", "emergency-stopped"}
-STALL_US = 80_000  # the machine allows for 100 ms
+STALL_US = 160_000  # the machine allows for 200 ms
 ALARMS = re.compile(r"ERROR: \w+Sanitizer|runtime error:|terminate called|Assertion|check failed|Segmentation", re.I)
 
 

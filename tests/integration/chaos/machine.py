@@ -12,7 +12,7 @@ CALL_PATIENCE_S = 90  # nothing is measured by it: a command that hangs must not
 
 
 def machine_text(name):
-    """Three axes alike that home within seconds; the processes may stall as the examples' may, for 100 ms."""
+    """Three axes alike that home within seconds. The processes may stall for 200 ms, as those of a busy host do."""
     axis = """axis {{ name: "{name}" steps_per_mm: 80 start_velocity_mm_s: 20 max_velocity_mm_s: 120
   max_accel_mm_s2: 1500 max_decel_mm_s2: 1200 position_min_mm: 0 position_max_mm: {travel}
   homing {{ toward_min: true search_velocity_mm_s: 20 latch_velocity_mm_s: 10 pulloff_mm: 1 switch_position_mm: -1
@@ -20,7 +20,7 @@ def machine_text(name):
   plant {{ start_position_mm: 4 travel_margin_mm: 2 max_torque_accel_mm_s2: 2250 max_jump_mm_s: 30 }} }}
 """
     return (f'name: "{name}"\n'
-            "timing { slot_us: 10000 stall_slots: 10 freshness_slots: 11 send_ahead_slots: 39 frame_slots: 23 }\n"
+            "timing { slot_us: 20000 stall_slots: 10 freshness_slots: 11 send_ahead_slots: 39 frame_slots: 23 }\n"
             f'network {{ interface: "eth0" domain: 7 lcm_url: "{LCM_URL}" }}\n'
             + "".join(axis.format(name=axis_name, travel=TRAVEL_MM) for axis_name in AXES))
 

@@ -3,7 +3,7 @@ import dataclasses
 import pathlib
 import sys
 
-FRAME_US = 230_000
+FRAME_US = 460_000
 EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "deploy" / "examples"
 
 
@@ -56,7 +56,7 @@ class Record:
         return None if None in rests else max(rests)
 
     def longest_silence_us(self, axis, since, until):
-        """Between an axis's states, which it makes every 10 ms."""
+        """Between an axis's states, of which it makes one a slot."""
         ticks = [state.tick_us for state in self.states if state.axis == axis and since <= state.tick_us < until]
         return max((after - before for before, after in zip(ticks, ticks[1:])), default=until - since)
 
