@@ -2,14 +2,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {
 
-/// The longest stall that a machine's file may allow for, in slots. What is kept of an axis's states outlasts it: here,
-/// on the network (services/wire/topics.hpp) and in shared memory (services/wire/state_board.hpp).
+/// The longest stall that a machine's file may allow for, in slots.
 inline constexpr int kMaxStallSlots = 200;
+/// Of each axis's states, on the network and in shared memory, for who stalls: more than are said meanwhile.
+inline constexpr std::size_t kStatesKept = 256;
+static_assert(kStatesKept > kMaxStallSlots);
 
 class PeerEvidence {
 public:

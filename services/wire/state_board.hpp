@@ -25,10 +25,6 @@
 
 namespace lockstep {
 
-/// Kept of each axis: more than are said in the longest stall that a machine may allow for.
-inline constexpr std::size_t kStatesKept = 256;
-static_assert(kStatesKept > kMaxStallSlots);
-
 /// The file, there for as long as anybody uses it.
 class StateBoardFile {
 public:

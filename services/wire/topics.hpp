@@ -8,9 +8,8 @@
 // coordinator repeats what is not held.
 //
 // States are best effort: each one contains all that the one before said and comes every slot, so a copy sent again
-// would only be late, and acknowledgements between all pairs of axes cost more than they give. They are kept 256 deep
-// per axis: after a stall, of the longest kind that a machine's file may allow for, the arming rule looks for states by
-// their stamps, not for the newest.
+// would only be late, and acknowledgements between all pairs of axes cost more than they give. They are kept
+// kStatesKept deep per axis: after a stall the arming rule looks for states by their stamps, not for the newest.
 //
 // Commands, program parts and replies are reliable and 64 deep: a client has fewer than 64 unanswered.
 //
@@ -51,10 +50,10 @@ struct Topic;
     };
 
 LOCKSTEP_TOPIC(Frame, Setpoint, {"lockstep/setpoint", kType, Delivery::Reliable, 64})
-LOCKSTEP_TOPIC(AxisState, AxisState, {"lockstep/axis_state", kType, Delivery::BestEffort, 256})
+LOCKSTEP_TOPIC(AxisState, AxisState, {"lockstep/axis_state", kType, Delivery::BestEffort, kStatesKept})
 LOCKSTEP_TOPIC(AxisHealth, AxisHealth, {"lockstep/axis_health", kType, Delivery::BestEffort, 8})
 LOCKSTEP_TOPIC(AxisCommand, AxisCommand, {"lockstep/axis_command", kType, Delivery::Reliable, 64})
-LOCKSTEP_TOPIC(MachineState, MachineState, {"lockstep/machine_state", kType, Delivery::BestEffort, 256})
+LOCKSTEP_TOPIC(MachineState, MachineState, {"lockstep/machine_state", kType, Delivery::BestEffort, kStatesKept})
 LOCKSTEP_TOPIC(Command, Command, {"lockstep/command", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(ProgramChunk, ProgramChunk, {"lockstep/program", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(Reply, Reply, {"lockstep/reply", kType, Delivery::Reliable, 64})
@@ -62,7 +61,5 @@ LOCKSTEP_TOPIC(ClockRequest, ClockRequest, {"lockstep/clock_request", kType, Del
 LOCKSTEP_TOPIC(ClockReply, ClockReply, {"lockstep/clock_reply", kType, Delivery::BestEffort, 8})
 
 #undef LOCKSTEP_TOPIC
-
-static_assert(Topic<AxisState>::kSpec.depth > kMaxStallSlots);
 
 }  // namespace lockstep

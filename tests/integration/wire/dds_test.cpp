@@ -42,6 +42,17 @@ Frame frame_of(FrameNumber number, std::size_t axes, std::size_t pieces) {
     return frame;
 }
 
+constexpr auto kIgnore = [](AxisState&&) {};
+
+/// Until what the axis says is heard there.
+template <typename States>
+bool is_heard(AxisBus& axis, std::uint32_t number, States& there) {
+    return eventually([&] {
+        axis.state.write({.axis = number});
+        return there.take(kIgnore) > 0;
+    });
+}
+
 /// A process of its own: see peer.cpp.
 Child peer(const std::string& role, const NetworkConfig& network) {
     const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("integration_wire_peer");
@@ -113,18 +124,14 @@ TEST(Dds, AMachineOnOneHostShowsItsStatesSeldomAndItsNewsAtOnce) {
     auto viewer = open_or_throw<ViewerBus>(network);
     auto axis = open_or_throw<AxisBus>(network, "mill", 1);
     auto coordinator = open_or_throw<CoordinatorBus>(network);
-    const auto ignore = [](AxisState&&) {};
-    ASSERT_TRUE(eventually([&] {
-        axis.state.write({.axis = 1});
-        return viewer.states.take(ignore) > 0;
-    }));
-    (void)coordinator.states.take(ignore);
+    ASSERT_TRUE(is_heard(axis, 1, viewer.states));
+    (void)coordinator.states.take(kIgnore);
     constexpr Slot kSaid = 200;
     const auto begun = std::chrono::steady_clock::now();
     for (Slot stamp = 1; stamp <= kSaid; ++stamp) { axis.state.write({.axis = 1, .stamp = stamp}); }
     axis.state.write({.axis = 1, .stamp = kSaid + 1, .homed = true});
     const auto lasted = std::chrono::steady_clock::now() - begun;
-    EXPECT_EQ(coordinator.states.take(ignore), kSaid + 1) << "all of them by memory";
+    EXPECT_EQ(coordinator.states.take(kIgnore), kSaid + 1) << "all of them by memory";
     std::vector<AxisState> shown;
     ASSERT_TRUE(eventually([&] {
         viewer.states.take([&](AxisState&& state) { shown.push_back(state); });
@@ -250,13 +257,9 @@ TEST(Dds, WhoStandsStillAsLongAsAMachineMayAllowFindsEveryState) {
     const NetworkConfig network = own_network();
     auto axis = open_or_throw<AxisBus>(network, "mill", 0);
     auto coordinator = open_or_throw<CoordinatorBus>(network);
-    const auto ignore = [](AxisState&&) {};
-    ASSERT_TRUE(eventually([&] {
-        axis.state.write({.axis = 0});
-        return coordinator.states.take(ignore) > 0;
-    }));
+    ASSERT_TRUE(is_heard(axis, 0, coordinator.states));
     std::this_thread::sleep_for(100ms);
-    (void)coordinator.states.take(ignore);
+    (void)coordinator.states.take(kIgnore);
     for (Slot stamp = 1; stamp <= kMaxStallSlots; ++stamp) { axis.state.write({.axis = 0, .stamp = stamp}); }
     std::vector<Slot> heard;
     ASSERT_TRUE(eventually([&] {
