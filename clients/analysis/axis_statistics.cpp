@@ -14,13 +14,13 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     const auto measured = std::make_shared<MeasuredSteps>();
     measured->steps.resize(batch.steps.size());
     measured->clock_error = batch.clock_error;
-    MeasuredStep* step = measured->steps.data();
-    for (const StepEdge& edge : batch.steps) {
+    for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+        const StepEdge edge = batch.steps[i];
         position += edge.direction;
         lowest_ = std::min(lowest_, position);
         highest_ = std::max(highest_, position);
         show_rest(edge.tick);
-        measure(edge, position, *step++);
+        measure(edge, batch.device_tick(i), position, measured->steps[i]);
         last_ = {edge.tick, position};
     }
     steps_ += static_cast<std::int64_t>(batch.steps.size());
@@ -50,11 +50,13 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
     stand_at(edge.tick);
 }
 
-void AxisStatistics::measure(StepEdge edge, std::int64_t position, MeasuredStep& step) {
-    const auto speed = meter_.step(edge);
+/// Speed and acceleration by the device's clock, which the motor follows, at their times on the machine's.
+void AxisStatistics::measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step) {
+    const auto speed = meter_.step({by_device, edge.direction});
     const auto& acceleration = meter_.acceleration();
-    if (speed) { speed_.add(*speed); }
-    if (acceleration) { acceleration_.add(*acceleration); }
+    const Ticks ahead = edge.tick - by_device;
+    if (speed) { speed_.add({speed->at + ahead, speed->value}); }
+    if (acceleration) { acceleration_.add({acceleration->at + ahead, acceleration->value}); }
     step.tick = edge.tick;
     step.count = position;
     step.direction = edge.direction;

@@ -53,7 +53,7 @@ public:
 
 private:
     void begin(StepEdge edge, std::int64_t position_before);
-    void measure(StepEdge edge, std::int64_t position, MeasuredStep& step);
+    void measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step);
     void stand_at(Tick tick);
     void show_rest(Tick until);
 

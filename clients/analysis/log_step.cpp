@@ -49,7 +49,10 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
 StepBatch in_machine_time(StepBatch batch) {
     if (batch.steps.empty() || (batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{})) { return batch; }
     const ClockStretch time = batch.machine_time();
-    for (StepEdge& step : batch.steps) { step.tick = time.at(step.tick); }
+    for (StepEdge& step : batch.steps) {
+        batch.device_ticks.push_back(step.tick);
+        step.tick = time.at(step.tick);
+    }
     batch.ahead_first = batch.ahead_last = {};
     return batch;
 }

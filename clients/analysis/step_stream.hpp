@@ -26,7 +26,12 @@ struct StepBatch {
     std::vector<StepEdge> steps;
     Ticks ahead_first{};  // machine time less the device's, at the first step
     Ticks ahead_last{};
-    Ticks clock_error{};  // of machine time, either way
+    Ticks clock_error{};               // of machine time, either way
+    std::vector<Tick> device_ticks{};  // of steps in machine time; empty: the same ticks
+
+    /// When the device made a step. Intervals are true by its clock alone: where one batch follows another, machine
+    /// time differs by what the estimate of it has changed.
+    Tick device_tick(std::size_t step) const { return device_ticks.empty() ? steps[step].tick : device_ticks[step]; }
 
     /// From the device's time to machine time. Not to be asked of a batch without steps.
     ClockStretch machine_time() const;

@@ -145,6 +145,34 @@ TEST_F(MachineTime, IsVerifiedAStepThatIsLateBeyondWhatItsClocksCanBeIsFound) {
         << findings->difference->text;
 }
 
+/// A network on which a message takes up to 4 ms: what is known of the time changes by as much from one exchange to the
+/// next, and where a message of steps ends, intervals of machine time with it.
+TEST(MachineTimeOfAPoorNetwork, SpeedsAreThoseByTheDevicesClockWhichTheMotorFollows) {
+    const std::filesystem::path log = test::test_directory() / "run.lcm";
+    VirtualOptions options = boards_apart();
+    options.network.delay_max = {4000};
+    options.machine.timing.clock_error_limit_us = options.machine.timing.most_clock_error_us();
+    const double top = options.machine.axes[0].max_velocity_mm_s * options.machine.axes[0].steps_per_mm * 1e-6;
+    {
+        test::RecordedMachine recorded(options, log);
+        recorded.home();
+        recorded.advance_ms(2000);
+        recorded.begin(test::program_of(recorded.vm().machine(), "G21 G90\nG0 X160\nX5\nX160\nX5\nX160\n"));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+    }
+    LoggedSteps logged;
+    ASSERT_TRUE(read_log(log, logged).has_value());
+    const auto& steps = logged.axes["X"];
+    Ticks least{1'000'000};
+    for (std::size_t i = 1; i < steps.size(); ++i) { least = std::min(least, steps[i].machine - steps[i - 1].machine); }
+    EXPECT_LT(static_cast<double>(least.value), 0.8 / top) << "else this proves nothing";
+
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found.has_value()) << found.error();
+    EXPECT_NEAR(found->axes.front()->statistics().peak_steps_per_tick(), top, 0.002 * top);
+    EXPECT_EQ(summary(*found).find("above its limit"), std::string::npos) << summary(*found);
+}
+
 /// As with PTP, whose time is counted from 1970.
 TEST(MachineTimeByPtp, OfAMachineThatCountsFrom1970IsReadAndVerified) {
     const std::filesystem::path log = test::test_directory() / "run.lcm";
