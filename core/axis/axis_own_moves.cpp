@@ -9,8 +9,6 @@
 namespace lockstep {
 namespace {
 
-constexpr Ticks kUncut{std::int64_t{1} << 40};
-
 /// Ahead of the device there are two frames, each longer than a process may stall.
 Ticks frame_span(const MachineConfig& machine) { return machine.slot_ticks() * (machine.timing.stall_slots + 2); }
 constexpr std::int64_t kSpansAhead = 2;
@@ -65,20 +63,17 @@ void AxisController::take_homing_step(const HomingStep& step, AxisOutputs& out) 
     }
 }
 
-/// By the axis's method; or by Ranade's, where homing is slower or longer than the method knows. A homing move by
-/// Ranade's is one frame: nobody halts it, and no stall breaks it up.
+/// By the axis's method; or by Ranade's, where homing is slower or longer than the method knows.
 OwnMove AxisController::own_move(const LocalMove& move, Tick start) const {
     const AxisConfig& axis = machine_.axes[axis_];
     const OwnMoveRequest request{std::abs(move.steps), move.speed_mm_s, move.ticks};
     auto pieces = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request);
-    const bool whole = is_homing() && (!pieces || axis.method == StepMethod::Ranade);
     if (!pieces) {
         pieces = OwnPieces::plan(axis, machine_.tick_ns, StepMethod::Ranade, {request.steps, move.speed_mm_s});
     }
     const bool backward = move.steps < 0;
     const Position from = rest_position(device_.position.count() - zero_count_, backward);
-    return OwnMove(std::move(*pieces), {from, backward, request.steps, start}, limits_,
-                   whole ? kUncut : frame_span(machine_));
+    return OwnMove(std::move(*pieces), {from, backward, request.steps, start}, limits_, frame_span(machine_));
 }
 
 /// A run that a switch cut short ended on a pulse, and the next sets out from the whole step: half a step's time is
@@ -99,7 +94,7 @@ void AxisController::start_local(const LocalMove& move, int tries, AxisOutputs& 
 /// Frames are loaded until the device has enough ahead, or no room.
 void AxisController::feed_local(AxisOutputs& out) {
     LocalRun& run = *local_;
-    if (fault_ != FaultCode::None && !is_homing() && !run.halted) { halt_local(out); }
+    if (fault_ != FaultCode::None && !run.halted) { halt_local(out); }
     const Tick ahead = now_ + frame_span(machine_) * kSpansAhead;
     while (!run.halted && (run.waiting || (!run.frames.all_made() && run.frames.end() < ahead))) {
         if (!run.waiting) { run.waiting = run.frames.next(); }
@@ -112,18 +107,20 @@ void AxisController::feed_local(AxisOutputs& out) {
     }
 }
 
-/// The device ends the frame in progress and runs its tail. Homing is not halted: it ends at its switch.
+/// The device ends the frame in progress and runs its tail.
 void AxisController::halt_local(AxisOutputs& out) {
-    if (mode_ != Mode::Local || is_homing()) { return done(FaultCode::None); }
+    if (mode_ != Mode::Local) { return done(FaultCode::None); }
     local_->halted = true;
     const FrameNumber begun = device_.run == run_ ? device_.frame : 0;
     out.orders.emplace_back(device::Veto{begun + 1});
 }
 
+/// Homing that is halted is over: the axis is homed only if its zero was set already.
 void AxisController::end_local(const DeviceStatus& device, AxisOutputs& out) {
     const LocalRun ended = *std::exchange(local_, std::nullopt);
     mode_ = Mode::Rest;
     const bool parks = homing_.stage() == HomingStage::Park;
+    if (ended.halted) { homing_.abandon(); }
     if (device.stopped_by_trigger) { happen(AxisEvent::SwitchStops); }
     if (device.stopped_by_limit) { happen(AxisEvent::LimitStops); }
     if (ended.frames.broken()) {

@@ -17,17 +17,19 @@ struct Brake {
 
 /// The first whole step that can be reached, but never one beyond the move's last. Where that is nearer than the way to
 /// brake, by what a method rounds, the speed jumps down first, within the start velocity. At rest it jumps by half of
-/// it: a method's pulses may come as unevenly as the other half allows.
-Brake plan_brake(Displacement from, double speed, std::int64_t last_step, const AxisLimits& limits) {
+/// it: a method's pulses may come as unevenly as the other half allows. `jumped`: of the start velocity, what the
+/// method's pulses have just used up.
+Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits) {
     const double d = limits.max_deceleration;
-    Brake brake{.entry = speed, .exit = std::min(speed, limits.start_velocity / 2)};
+    const double jump = std::max(0.0, limits.start_velocity - jumped);
+    Brake brake{.entry = speed, .exit = std::min({speed, limits.start_velocity / 2, jump})};
     const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // no shorter than two ticks
     const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
     const Int128 whole = (end + kOneStep - 1) / kOneStep * kOneStep;
     brake.to = std::min(Displacement{whole}, Displacement::steps(last_step));
     const double left = (brake.to - from).as_steps();
     const double steepest = std::sqrt(brake.exit * brake.exit + 2 * d * std::max(0.0, left));
-    brake.entry = std::min(speed, std::max(steepest, speed - limits.start_velocity));
+    brake.entry = std::min(speed, std::max(steepest, speed - jump));
     return brake;
 }
 
@@ -55,13 +57,15 @@ void OwnMove::fill_body(HeldFrame& frame) {
         frame.ticks += piece->ticks;
         gone_ = gone_ + piece->covered();
         const double a = piece->acceleration.steps_per_tick2();
+        fastest_ -= limits_.max_deceleration * static_cast<double>(piece->ticks.value);
         speed_ = piece->velocity.steps_per_tick() + a * (static_cast<double>(piece->ticks.value) + 0.5);
+        fastest_ = std::max(fastest_, speed_);
     }
 }
 
 /// One piece of constant deceleration; the ticks are rounded up, and its velocity is solved to end where it must.
 void OwnMove::fill_tail(HeldFrame& frame) const {
-    const Brake brake = plan_brake(gone_, speed_, place_.steps, limits_);
+    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_);
     const Displacement way = brake.to - gone_;
     if (way.raw <= 0) { return; }
     const double ticks = std::ceil(2 * way.as_steps() / (brake.entry + brake.exit));

@@ -39,8 +39,9 @@ private:
     FrameNumber made_ = 0;
     Tick end_;
     Position at_;
-    Displacement gone_;  // forward
-    double speed_ = 0;   // at the end of the last body, steps per tick
+    Displacement gone_;   // forward
+    double speed_ = 0;    // at the end of the last body, steps per tick
+    double fastest_ = 0;  // the most that the speeds so far may have fallen to by then
 };
 
 }  // namespace lockstep

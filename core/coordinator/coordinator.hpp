@@ -160,7 +160,8 @@ private:
     void advance_own(CoordinatorOutputs& out);
     void halt_own();
     bool in_own_move() const { return job_ && job_->kind == JobKind::MoveOwn; }
-    bool in_motion() const { return moving_ || in_own_move(); }
+    bool axes_move_alone() const { return in_own_move() || (job_ && job_->kind == JobKind::Home); }
+    bool in_motion() const { return moving_ || axes_move_alone(); }
     double planned_seconds(std::size_t axis, std::int64_t steps, Ticks asked) const;
     void say_progress_of_own(MachineState& state) const;
     Subticks into_path() const;

@@ -87,6 +87,7 @@ Reply Coordinator::home(const Command& command, CoordinatorOutputs& out) {
     job_begun_ = ownership_.term();
     job_ = Job{.number = ++jobs_, .kind = JobKind::Home, .axes = command.axes == 0 ? all : command.axes};
     job_->sequence = std::numeric_limits<int>::min();
+    intent_ = Intent::GoOn;
     out.jobs.push_back({.kind = JobEvent::Kind::Begun, .job = job_->number, .job_kind = JobKind::Home});
     enter(MachinePhase::Homing, out);
     send_homing_group(out);
@@ -157,7 +158,7 @@ Reply Coordinator::turn_overrides(const Command& command) {
 }
 
 Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorOutputs& out) {
-    if (in_own_move()) { return interrupt_own(command, intent, out); }
+    if (axes_move_alone()) { return interrupt_own(command, intent, out); }
     const bool resting = phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused;
     if (intent == Intent::Stop && resting && !moving_) {
         const Reply reply = accepted(command);
@@ -187,9 +188,7 @@ Reply Coordinator::resume(const Command& command, CoordinatorOutputs& out) {
 }
 
 Reply Coordinator::reset(const Command& command, CoordinatorOutputs& out) {
-    if (in_motion() || phase_ == MachinePhase::Homing) {
-        return refused(command, FaultCode::Busy, "the machine is in motion");
-    }
+    if (in_motion()) { return refused(command, FaultCode::Busy, "the machine is in motion"); }
     if (job_) { end_job(JobOutcome::Stopped, out); }
     cut_inherited(TakeoverDoubt::Interrupted, out);
     for (std::size_t i = 0; i < views_.size(); ++i) { order(i, AxisCommandKind::Reset); }

@@ -48,7 +48,7 @@ void Coordinator::advance(CoordinatorOutputs& out) {
         return;
     }
     if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
-    if (in_own_move()) { return advance_own(out); }
+    if (axes_move_alone()) { return advance_own(out); }
     const bool acknowledged = ownership_.acknowledged(views_);
     if (phase_ == MachinePhase::Idle && ownership_.lacks_axes(now_slot_)) { enter(MachinePhase::Waiting, out); }
     bool orders_open = false;

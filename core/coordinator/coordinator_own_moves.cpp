@@ -71,12 +71,13 @@ void Coordinator::begin_own(Job job, Ticks ticks, CoordinatorOutputs& out) {
     enter(MachinePhase::Running, out);
 }
 
+/// Homing cannot go on from where it was held: a hold ends it as a stop does.
 Reply Coordinator::interrupt_own(const Command& command, Intent intent, CoordinatorOutputs& out) {
-    if (intent == Intent::Hold) {
+    if (intent == Intent::Hold && in_own_move()) {
         return refused(command, FaultCode::NothingToDo,
                        "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
     }
-    intent_ = std::max(intent_, intent);
+    intent_ = std::max(intent_, Intent::Stop);
     halt_own();
     enter(MachinePhase::Stopping, out);
     return accepted(command);
@@ -85,7 +86,9 @@ Reply Coordinator::interrupt_own(const Command& command, Intent intent, Coordina
 /// An emergency stop ordered before stays the last word.
 void Coordinator::halt_own() {
     for (std::size_t i = 0; i < orders_.size(); ++i) {
-        if (orders_[i] && orders_[i]->kind == AxisCommandKind::MoveOwn) { order(i, AxisCommandKind::Halt); }
+        if (order_done(i)) { continue; }
+        const AxisCommandKind kind = orders_[i]->kind;
+        if (kind == AxisCommandKind::MoveOwn || kind == AxisCommandKind::Home) { order(i, AxisCommandKind::Halt); }
     }
 }
 
@@ -97,8 +100,8 @@ void Coordinator::advance_own(CoordinatorOutputs& out) {
         if (!has_axis(job_->axes, i) || !views_[i].state) { continue; }
         const AxisState& state = *views_[i].state;
         if (state.command_fault != 0) { return fail(static_cast<FaultCode>(state.command_fault), i, out); }
-        const bool arrived = state.position.count() == job_->to[i];
-        if (!arrived && intent_ == Intent::GoOn) { return fail(FaultCode::PositionMismatch, i, out); }
+        if (intent_ != Intent::GoOn) { continue; }
+        if (state.position.count() != job_->to[i]) { return fail(FaultCode::PositionMismatch, i, out); }
     }
     if (intent_ == Intent::Abort) {
         end_job(JobOutcome::Failed, out);

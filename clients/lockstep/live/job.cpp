@@ -52,11 +52,16 @@ std::string cut_short_text(const proto::RunReport& report) {
     return text + " near line " + line + "; the rest of the job: lockstep run FILE --from-line " + line;
 }
 
-void say_end(const Job& job, const proto::RunReport& report, Voice& voice) {
+std::string stopped_text(const Job& job, const Session& session) {
+    if (job.command != CommandKind::Home) { return "stopped on the path; the rest of the job is dropped"; }
+    return unhomed_text(status_report(session));
+}
+
+void say_end(const Session& session, const Job& job, const proto::RunReport& report, Voice& voice) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
     voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; at " + places_text(report), 80, "  "));
     if (report.has_fault()) { voice.say(fault_text(report.fault())); }
-    if (report.outcome() == "stopped") { voice.say("stopped on the path; the rest of the job is dropped"); }
+    if (report.outcome() == "stopped") { voice.say(stopped_text(job, session)); }
     if (report.outcome() == "cut-short") { voice.say(wrapped(cut_short_text(report), 80, "  ")); }
     if (report.outcome() == "lost") {
         voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status");
@@ -104,7 +109,7 @@ ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunRep
         voice.say(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
         return kExitDone;
     }
-    say_end(job, report, voice);
+    say_end(session, job, report, voice);
     return verdict == JobVerdict::Done ? kExitDone : kExitFailed;
 }
 

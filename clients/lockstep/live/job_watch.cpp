@@ -42,10 +42,11 @@ Failure JobWatch::silent() const {
 
 std::expected<void, Failure> JobWatch::send_stop() {
     stop_sent_ = true;
-    voice_.say("stopping on the path ...");
+    voice_.say(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
     const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }
-    if (reply->status == ReplyStatus::Accepted) { return {}; }
+    const bool has_ended = reply->fault == static_cast<std::uint16_t>(FaultCode::NothingToDo);
+    if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
     return std::unexpected(
         failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
 }

@@ -132,6 +132,14 @@ std::string homing_text(const proto::StatusReport& status) {
     return text;
 }
 
+std::string unhomed_text(const proto::StatusReport& status) {
+    std::string names;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (!axis.homed()) { names += (names.empty() ? "" : ", ") + axis.name(); }
+    }
+    return names.empty() ? names : "not homed: " + names + "; home: lockstep home";
+}
+
 std::string places_text(const proto::RunReport& report) {
     std::string text;
     for (const proto::FinalPosition& place : report.final_positions()) {

@@ -20,6 +20,8 @@ std::string progress_bar(const proto::StatusReport& status);
 std::string progress_text(const proto::StatusReport& status);
 /// One line: "X homed at 12.000   Y Initialize"; before it is homed an axis's position means nothing.
 std::string homing_text(const proto::StatusReport& status);
+/// "not homed: X, Y; home: lockstep home"; empty where every axis is homed.
+std::string unhomed_text(const proto::StatusReport& status);
 /// "X 12.000  Y 3.250", of final positions.
 std::string places_text(const proto::RunReport& report);
 

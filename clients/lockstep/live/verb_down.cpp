@@ -18,16 +18,16 @@ using namespace std::chrono_literals;
 
 constexpr auto kRestPatience = 10s;
 
-/// A machine in motion comes to rest on its path first. One that does not answer is taken down as it is.
+/// A machine in motion or homing comes to rest first, on its path. One that does not answer is taken down as it is.
 void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session || !session->reach(1s)) { return; }
     const auto moves = [&] {
         const MachinePhase phase = session->state()->state.phase;
-        return phase == MachinePhase::Running || phase == MachinePhase::Stopping;
+        return phase == MachinePhase::Homing || phase == MachinePhase::Running || phase == MachinePhase::Stopping;
     };
     if (!moves()) { return; }
-    voice.say("stopping on the path ...");
+    voice.say("stopping first ...");
     if (!session->command({.kind = CommandKind::Stop})) { return; }
     const auto deadline = monotonic_now() + kRestPatience;
     while (moves() && monotonic_now() < deadline) { session->listen(50ms); }

@@ -41,7 +41,8 @@ void add_home(CLI::App& app, Action& action) {
     const auto options = std::make_shared<HomeOptions>();
     verb->add_option("axes", options->axes, "the axes' names; all where none is named");
     add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep home\n  lockstep home X Y\n"));
+    verb->footer("Ctrl-C, lockstep stop and lockstep hold end homing at rest: axes without their zero stay unhomed.\n" +
+                 footer("  lockstep home\n  lockstep home X Y\n"));
     verb->callback([&action, options] { action = [options] { return home(*options); }; });
 }
 

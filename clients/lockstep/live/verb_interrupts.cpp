@@ -3,67 +3,58 @@
 
 #include <CLI/CLI.hpp>
 
+#include "clients/lockstep/live/command_effect.hpp"
 #include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/refusal.hpp"
+#include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/session.hpp"
+#include "clients/lockstep/live/status_text.hpp"
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/live/words.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "idl/proto/report.pb.h"
-#include "services/runtime/clock.hpp"
 
 namespace lockstep {
 namespace {
-
-using namespace std::chrono_literals;
 
 struct Interrupt {
     const char* name;
     CommandKind command;
     const char* what;
-    bool (*is_settled)(MachinePhase);  // what the verb waits for, once accepted
-    const char* then;                  // what a person may do next
+    const char* then;  // what a person may do next
 };
-
-bool is_at_rest(MachinePhase phase) { return phase != MachinePhase::Running && phase != MachinePhase::Stopping; }
-bool is_ready(MachinePhase phase) { return phase == MachinePhase::Idle || phase == MachinePhase::Fault; }
-bool is_anything(MachinePhase) { return true; }
 
 constexpr std::array kInterrupts{
-    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed", is_at_rest,
+    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed",
               "go on with: lockstep resume; end the job with: lockstep stop"},
-    Interrupt{"resume", CommandKind::Resume, "go on with a job that is held or paused", is_anything,
+    Interrupt{"resume", CommandKind::Resume, "go on with a job that is held or paused",
               "watch it with: lockstep watch"},
-    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", is_at_rest, ""},
+    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
               "cease all pulses at once, also without a coordinator; positions are kept, homing is suspect",
-              is_anything, "when it is safe: lockstep reset, lockstep home"},
-    Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", is_ready, ""},
+              "when it is safe: lockstep reset, lockstep home"},
+    Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", ""},
 };
 
-constexpr std::chrono::seconds kSettlePatience{10};
 constexpr std::chrono::seconds kStopPatience{3};
 
-/// Waits for states said after the reply; a machine that takes longer is left to itself.
-void settle(Session& session, const Interrupt& interrupt) {
-    const auto replied = monotonic_now();
-    const auto is_settled = [&] {
-        const auto& heard = session.state();
-        const auto slot = std::chrono::microseconds{session.config().timing.slot_us};
-        return heard && heard->time > replied + slot && interrupt.is_settled(heard->state.phase);
-    };
-    while (!is_settled() && monotonic_now() - replied < kSettlePatience) { session.listen(50ms); }
+/// A hold ends homing, which cannot be resumed.
+std::string next_text(const Session& session, const Interrupt& interrupt, MachinePhase phase) {
+    if (interrupt.command != CommandKind::Hold || phase == MachinePhase::Holding || phase == MachinePhase::Paused) {
+        return interrupt.then;
+    }
+    return unhomed_text(status_report(session));
 }
 
 ExitCode say_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Voice& voice) {
+    if (reply.status == ReplyStatus::Refused) { return say_refusal(reply, voice); }
+    const auto phase = await_effect(session, interrupt.command);
+    if (!phase) { return voice.fail(failed(std::string(interrupt.name) + ": accepted, but " + phase.error())); }
     proto::CommandReport report;
-    report.set_accepted(reply.status == ReplyStatus::Accepted);
-    if (!report.accepted()) { return say_refusal(reply, voice); }
-    settle(session, interrupt);
-    report.set_text(session.state() ? "the machine is " + std::string(name_of(session.state()->state.phase))
-                                    : "the machine has not said its state yet");
+    report.set_accepted(true);
+    report.set_text("the machine is " + std::string(name_of(*phase)));
     voice.report(report);
-    const std::string then = interrupt.then;
+    const std::string then = next_text(session, interrupt, *phase);
     voice.say(std::string(interrupt.name) + ": accepted; " + report.text() + (then.empty() ? "" : "\n" + then));
     return kExitDone;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "clients/lockstep/live/command_effect.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {
@@ -82,10 +83,18 @@ Done Acts::command(Asked::Command word) {
         case Asked::HOLD: return ask({.kind = CommandKind::Hold});
         case Asked::RESUME: return ask({.kind = CommandKind::Resume});
         case Asked::STOP: return ask({.kind = CommandKind::Stop});
-        case Asked::RESET: return ask({.kind = CommandKind::Reset});
+        case Asked::RESET: return reset();
         case Asked::EMERGENCY_STOP: return stop_at_once();
         default: return std::unexpected("there is nothing to ask");
     }
+}
+
+/// Done once the machine is Idle.
+Done Acts::reset() {
+    if (const Done asked = ask({.kind = CommandKind::Reset}); !asked) { return asked; }
+    const auto phase = await_effect(session_, CommandKind::Reset);
+    if (!phase) { return std::unexpected(phase.error()); }
+    return {};
 }
 
 /// The axes hear it themselves, whether a coordinator answers or not.

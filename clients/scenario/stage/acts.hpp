@@ -34,6 +34,7 @@ private:
     std::expected<void, std::string> do_it(const Asked::Act& act);
     std::expected<void, std::string> lose(const Asked::Loss& loss);
     std::expected<void, std::string> command(Asked::Command word);
+    std::expected<void, std::string> reset();
     std::expected<void, std::string> stop_at_once();
     std::expected<void, std::string> ask(const Command& command);
 
