@@ -38,18 +38,19 @@ void add_verbs(CLI::App& app, Action& action) {
     add_scenario(app, action);
 }
 
-/// What CLI11 says, but for a verb that there is not: it would only miss one.
+/// What CLI11 says, but for a verb that there is not: it would only miss one. And whose help to read.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
     const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
     const bool known = std::ranges::any_of(verbs, [&](const CLI::App* verb) { return verb->get_name() == first; });
-    if (!first.empty() && !first.starts_with('-') && !known) { return "there is no verb '" + first + "'"; }
-    return error.what();
+    if (known) { return error.what() + std::string("; see: lockstep ") + first + " --help"; }
+    const bool is_verb = !first.empty() && !first.starts_with('-');
+    return (is_verb ? "there is no verb '" + first + "'" : error.what()) + std::string("; see: lockstep --help");
 }
 
 /// Help and version are what was asked for; anything else is bad usage, said as JSON where JSON was asked for.
 int say_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first, bool json) {
     if (error.get_exit_code() == 0) { return app.exit(error); }
-    return Voice(json).fail(bad_input(what_is_wrong(app, error, first) + "; see: lockstep --help"));
+    return Voice(json).fail(bad_input(what_is_wrong(app, error, first)));
 }
 
 }  // namespace

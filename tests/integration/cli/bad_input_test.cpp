@@ -21,6 +21,9 @@ TEST_F(BadInput, OnTheCommandLineIsRefused) {
     EXPECT_THAT(refused({}), HasSubstr("--help"));
     EXPECT_THAT(refused({"dance"}), HasSubstr("--help"));
     EXPECT_THAT(refused({"run"}), HasSubstr("file is required"));
+    EXPECT_THAT(refused({"run"}), HasSubstr("see: lockstep run --help"));
+    EXPECT_THAT(refused({"move"}), HasSubstr("see: lockstep move --help"));
+    EXPECT_THAT(refused({"override", "--feed", "nan"}), HasSubstr("see: lockstep override --help"));
     EXPECT_THAT(refused({"up", "--fpga", "real"}), HasSubstr("{sim,shm}"));
     EXPECT_THAT(refused({"move", "X"}), HasSubstr("X=10"));
     EXPECT_THAT(refused({"move", "X=201"}), HasSubstr("outside the travel"));
