@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include "services/runtime/heap.hpp"
 #include "services/wire/dds_log.hpp"
 #include "services/wire/dds_pace.hpp"
 #include "services/wire/interface_sockets.hpp"
@@ -15,6 +16,10 @@ namespace lockstep {
 namespace {
 
 constexpr const char* kAddedProfile = "CYCLONEDDS_URI";
+
+// Messages that wait for their turn lie in receive buffers, each of which fills until none fits any more. DDS's default
+// of 1 MiB takes thousands of clients to fill for the first time, and until then looks like a leak.
+constexpr const char* kReceiveBuffers = "<Sizing><ReceiveBufferSize>256 KiB</ReceiveBufferSize></Sizing>";
 
 // To the sink of dds_log.hpp, and to no file.
 constexpr const char* kTrace = "<Tracing><Category>discovery</Category><OutputFile>/dev/null</OutputFile></Tracing>";
@@ -48,8 +53,8 @@ std::expected<std::string, std::string> dds_profile(const NetworkConfig& network
     std::string profile = "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface name=\"" +
                           network.interface + "\" multicast=\"" + multicast + "\"/></Interfaces></General>" +
                           (network.peers.empty() ? by_multicast : peer_discovery(network.peers)) + "<Internal>" +
-                          repair_pace(network.processes) + "</Internal>" + (told == Discovery::Traced ? kTrace : "") +
-                          "</Domain></CycloneDDS>";
+                          repair_pace(network.processes) + "</Internal>" + kReceiveBuffers +
+                          (told == Discovery::Traced ? kTrace : "") + "</Domain></CycloneDDS>";
     const char* added = std::getenv(kAddedProfile);
     return added == nullptr ? profile : profile + "," + added;
 }
@@ -60,6 +65,7 @@ std::expected<std::shared_ptr<const Domain>, std::string> Domain::make(const Net
     const auto profile = dds_profile(network, watches ? Discovery::Traced : Discovery::Quiet);
     if (!profile) { return std::unexpected(profile.error()); }
     if (watches) { watch_newcomers(); }
+    give_back_large_blocks();
     const Descriptors before = udp_sockets();
     Entity entity(dds_create_domain(network.domain, profile->c_str()));
     if (!entity.good()) { return std::unexpected(cannot_open_domain(network, entity.why_not())); }

@@ -41,6 +41,10 @@ TEST(DdsProfile, TheSendBufferHoldsWhatIsAskedOfPeersThatAreNotThere) {
     EXPECT_THAT(*profile, HasSubstr("<SocketSendBufferSize max=\"" + std::to_string(peer_send_buffer(2)) + " B\"/>"));
 }
 
+TEST(DdsProfile, ReceiveBuffersAreSmallEnoughToBeFilledSoon) {
+    EXPECT_THAT(*dds_profile({.interface = "eth0"}), HasSubstr("<ReceiveBufferSize>256 KiB</ReceiveBufferSize>"));
+}
+
 TEST(DdsProfile, ANameThatIsNoInterfacesNeverGetsIn) {
     EXPECT_FALSE(dds_profile({.interface = "\"/><Tracing"}).has_value());
 }
