@@ -95,12 +95,9 @@ void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
 
 /// A client repeats its command until it is answered: only once does it stop anything.
 bool AxisController::is_news(const Command& request) {
-    const auto last = stops_taken_.find(request.client);
-    if (last != stops_taken_.end() && request.sequence <= last->second) { return false; }
-    if (last == stops_taken_.end() && stops_taken_.size() >= kClientsRemembered) {
-        stops_taken_.erase(stops_taken_.begin());
-    }
-    stops_taken_[request.client] = request.sequence;
+    const std::uint64_t* const last = stops_taken_.find(request.client);
+    if (last != nullptr && request.sequence <= *last) { return false; }
+    stops_taken_.note(request.client, request.sequence);
     return true;
 }
 

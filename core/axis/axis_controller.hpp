@@ -5,7 +5,6 @@
 #pragma once
 
 #include <deque>
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "core/axis/position_claim.hpp"
 #include "core/axis/setpoint_follower.hpp"
 #include "core/clock/clock_view.hpp"
+#include "core/protocol/client_memory.hpp"
 #include "core/protocol/second_hearing.hpp"
 
 namespace lockstep {
@@ -167,7 +167,6 @@ private:
     AxisState state(Slot slot) const;
 
     static constexpr int kMaxTries = 10;
-    static constexpr std::size_t kClientsRemembered = 32;
 
     std::size_t axis_;
     MachineConfig machine_;
@@ -202,7 +201,7 @@ private:
     Term owner_;  // the highest ever followed
     Slot owner_heard_ = 0;
     TermHearing claimants_;
-    std::map<Identity, std::uint64_t> stops_taken_;  // the newest emergency stop of each client
+    ClientMemory<std::uint64_t> stops_taken_;  // the newest emergency stop of each client
     std::uint64_t command_taken_ = 0;
     std::uint64_t command_done_ = 0;
     FaultCode command_fault_ = FaultCode::None;

@@ -16,6 +16,7 @@
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
+#include "core/protocol/client_memory.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
@@ -192,7 +193,6 @@ private:
     MachineState state() const;
 
     static constexpr std::size_t kProgramsKept = 4;
-    static constexpr std::size_t kClientsRemembered = 32;
     static constexpr int kMaxFruitless = 3;
 
     MachineConfig machine_;
@@ -223,7 +223,7 @@ private:
     std::int32_t cut_line_ = 0;  // and where
     std::map<std::uint64_t, std::shared_ptr<const Program>> programs_;
     std::vector<std::uint64_t> program_order_;
-    std::map<Identity, Reply> replies_;  // the last one to each client, for commands that come again
+    ClientMemory<Reply> replies_;  // the last one to each client
 
     Tick now_;
     Slot now_slot_ = 0;

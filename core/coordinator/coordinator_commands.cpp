@@ -7,7 +7,7 @@ namespace lockstep {
 
 void Coordinator::take_command(const Command& command, CoordinatorOutputs& out) {
     if (is_old(command)) {
-        const Reply& last = replies_.at(command.client);
+        const Reply& last = *replies_.find(command.client);
         if (command.sequence == last.sequence) { out.replies.push_back(last); }
         return;
     }
@@ -17,13 +17,12 @@ void Coordinator::take_command(const Command& command, CoordinatorOutputs& out) 
 }
 
 bool Coordinator::is_old(const Command& command) const {
-    const auto last = replies_.find(command.client);
-    return last != replies_.end() && command.sequence <= last->second.sequence;
+    const Reply* const last = replies_.find(command.client);
+    return last != nullptr && command.sequence <= last->sequence;
 }
 
 void Coordinator::note_command(const Command& command, Reply reply) {
-    if (replies_.size() >= kClientsRemembered) { replies_.erase(replies_.begin()); }
-    replies_[command.client] = std::move(reply);
+    replies_.note(command.client, std::move(reply));
 }
 
 Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {
