@@ -6,7 +6,7 @@
 #include <memory>
 
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
 namespace lockstep {
@@ -24,7 +24,7 @@ std::expected<spdlog::sink_ptr, std::string> sink_for(const LogTarget& target) {
     if (!std::ofstream(*target.file, std::ios::app)) {  // spdlog would throw
         return std::unexpected("cannot write the log " + target.file->string() + ": " + std::strerror(errno));
     }
-    return std::make_shared<spdlog::sinks::basic_file_sink_mt>(target.file->string());
+    return std::make_shared<spdlog::sinks::rotating_file_sink_mt>(target.file->string(), kLogFileBytes, kOlderLogFiles);
 }
 
 }  // namespace

@@ -13,6 +13,10 @@
 
 namespace lockstep {
 
+/// A log file that has grown to this size is renamed from NAME.log to NAME.1.log, and so on; the oldest is removed.
+inline constexpr std::size_t kLogFileBytes = 4 << 20;
+inline constexpr std::size_t kOlderLogFiles = 2;
+
 struct LogTarget {
     std::string service;                             // "coordinator", "axis", ...
     std::string axis;                                // empty: none
