@@ -21,9 +21,7 @@ bool Coordinator::is_old(const Command& command) const {
     return last != nullptr && command.sequence <= last->sequence;
 }
 
-void Coordinator::note_command(const Command& command, Reply reply) {
-    replies_.note(command.client, std::move(reply));
-}
+void Coordinator::note_command(const Command& command, Reply reply) { replies_.note(command.client, std::move(reply)); }
 
 Reply Coordinator::answer(const Command& command, CoordinatorOutputs& out) {
     switch (command.kind) {
