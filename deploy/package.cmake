@@ -6,7 +6,7 @@ install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
-install(FILES README.md ARCHITECTURE.md sim_fpga/REGISTERS.md deploy/security.md
+install(FILES README.md ARCHITECTURE.md sim_fpga/REGISTERS.md deploy/security.md docs/configuration.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
 install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockstep-axis@.service
   deploy/systemd/lockstep-logger.service
