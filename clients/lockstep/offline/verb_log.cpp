@@ -100,6 +100,9 @@ void add_merge(CLI::App& log, Action& action) {
 void add_log(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("log", "work with logs: merge");
     verb->require_subcommand(1);
+    verb->footer(
+        "Example:\n  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n\n"
+        "Options: lockstep log merge --help");
     add_merge(*verb, action);
 }
 
