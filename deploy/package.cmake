@@ -8,6 +8,27 @@ install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
 install(FILES README.md ARCHITECTURE.md sim_fpga/REGISTERS.md deploy/security.md docs/configuration.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
+install(FILES deploy/completion/lockstep.bash RENAME lockstep
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lockstep)
+install(FILES deploy/completion/_lockstep
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT lockstep)
+
+# The manual is what the programs' own --help says. It is the same for every processor: where they are built for another
+# one and cannot run here, the pages of this machine's own build are taken, if it is there.
+set(MANUAL ${PROJECT_BINARY_DIR}/man)
+if(CMAKE_CROSSCOMPILING)
+  set(MANUAL ${PROJECT_SOURCE_DIR}/build/man)
+else()
+  set(DOCUMENTED lockstep lockstep-coordinator lockstep-axis lockstep-fpga)
+  set(PROGRAMS ${DOCUMENTED})
+  list(TRANSFORM PROGRAMS REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+  add_custom_command(OUTPUT ${MANUAL}/lockstep.1
+    COMMAND ${PROJECT_SOURCE_DIR}/deploy/make-manual ${MANUAL} ${PROJECT_VERSION} ${PROGRAMS}
+    DEPENDS ${DOCUMENTED} ${PROJECT_SOURCE_DIR}/deploy/make-manual VERBATIM)
+  add_custom_target(manual ALL DEPENDS ${MANUAL}/lockstep.1)
+endif()
+install(DIRECTORY ${MANUAL}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lockstep OPTIONAL)
+
 install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockstep-axis@.service
   deploy/systemd/lockstep-logger.service
   DESTINATION lib/systemd/system COMPONENT lockstep)
@@ -30,6 +51,9 @@ install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `make package` builds what it packs
 # What `lockstep` carries, and no more.
 add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep_lcm_python)
+if(TARGET manual)
+  add_dependencies(package_files manual)
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lockstep)
 set(CPACK_PACKAGE_VENDOR Lockstep)
