@@ -69,7 +69,13 @@ namespace lockstep {
     X(PositionPushed, 133, "position-pushed", "the encoder says that the axis was moved without pulses",              \
       "home it: lockstep home")                                                                                       \
     X(HomeSwitchUnsteady, 134, "home-switch-unsteady", "the home switch closed at another place with every touch",    \
-      "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm")
+      "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm")            \
+    X(DeviceLost, 135, "device-lost", "the axis's device died, was exchanged, or its registers make no sense",        \
+      "the axis's log says which device and why; see that it runs, then: lockstep reset, lockstep home")              \
+    X(DeviceMissing, 136, "device-missing", "the axis waits for its device",                                          \
+      "the axis's log says for which, and why; start it: the axis takes it by itself")                                \
+    X(NotAtRest, 137, "not-at-rest", "an axis has not come to rest though all its frames are over",                   \
+      "see its log; lockstep reset; if that does not help, restart its lockstep-axis, then: lockstep home")
 
 enum class FaultCode : std::uint16_t {
     None = 0,

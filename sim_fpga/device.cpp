@@ -13,22 +13,33 @@ SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_
       segments_(window),
       capture_(window),
       plant_(std::move(plant)),
+      tick_ns_(static_cast<std::uint64_t>(tick_ns)),
+      power_up_(power_up),
       engine_(now, rest_position(0, false)),
       inputs_(plant_.inputs()) {
-    reset(tick_ns, power_up);
+    reset();
 }
 
-void SimulatedDevice::reset(std::int64_t tick_ns, std::uint64_t power_up) {
+void SimulatedDevice::reset() {
     for (const std::size_t word :
          {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead, kCaptureTail}) {
         window_.store(word, 0);
     }
     window_.store(kVersion, kVersionValue);
     window_.store(kMapChecksum, kMapChecksumValue);
-    window_.store(kTickNs, static_cast<std::uint64_t>(tick_ns));
-    window_.store(kPowerUp, power_up);
+    window_.store(kTickNs, tick_ns_);
+    window_.store(kPowerUp, power_up_);
     publish();
     window_.store(kMagic, kMagicValue);
+}
+
+bool SimulatedDevice::is_intact() const {
+    const bool is_own = window_.load(kMagic) == kMagicValue && window_.load(kVersion) == kVersionValue &&
+                        window_.load(kMapChecksum) == kMapChecksumValue && window_.load(kTickNs) == tick_ns_ &&
+                        window_.load(kPowerUp) == power_up_;
+    const std::uint64_t loaded = window_.load(kSegmentHead) - segments_.taken();
+    const std::uint64_t captured = capture_.head() - window_.load(kCaptureTail);
+    return is_own && loaded <= kSegmentRingEntries && captured <= kCaptureRingEntries;
 }
 
 void SimulatedDevice::advance(Tick until) {

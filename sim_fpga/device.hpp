@@ -34,6 +34,10 @@ public:
     /// the host's words and acts on them.
     void advance(Tick until);
 
+    /// Whether the registers are still those of this device, and the host's make sense: not where their memory was
+    /// taken away or overwritten. All there is to do then is to power up anew.
+    bool is_intact() const;
+
     Tick now() const { return engine_.now(); }
     /// A frame or a tail is in progress.
     bool in_motion() const { return phase_ == Phase::Body || phase_ == Phase::Tail; }
@@ -44,7 +48,7 @@ public:
 private:
     enum class Phase : std::uint8_t { AtRest, Waiting, Body, Tail };
 
-    void reset(std::int64_t tick_ns, std::uint64_t power_up);
+    void reset();
     void take_run();
     Tick decide(Tick until);
     Tick decide_first_frame(Tick until);
@@ -72,6 +76,8 @@ private:
     SegmentRing segments_;
     CaptureRing capture_;
     Plant plant_;
+    std::uint64_t tick_ns_;
+    std::uint64_t power_up_;
     StepEngine engine_;
 
     Phase phase_ = Phase::AtRest;

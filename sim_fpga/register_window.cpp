@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "sim_fpga/page_guard.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -22,7 +24,9 @@ std::unexpected<std::string> system_error(const std::string& what, const char* a
 struct Unmap {
     int file;
     std::string unlink_name;  // empty: not made here
-    void operator()(std::uint64_t* words) const {
+    std::shared_ptr<PageGuard> guard;
+    void operator()(std::uint64_t* words) {
+        guard.reset();
         ::munmap(words, registers::kWindowBytes);
         if (!unlink_name.empty()) { ::shm_unlink(unlink_name.c_str()); }
         ::close(file);
@@ -115,8 +119,9 @@ std::expected<RegisterWindow, std::string> RegisterWindow::map(int file, const s
         ::close(file);
         return error;
     }
-    return RegisterWindow(
-        std::shared_ptr<std::uint64_t[]>(static_cast<std::uint64_t*>(memory), Unmap{file, std::move(unlink_name)}));
+    auto guard = std::make_shared<PageGuard>(memory, registers::kWindowBytes);
+    return RegisterWindow(std::shared_ptr<std::uint64_t[]>(static_cast<std::uint64_t*>(memory),
+                                                           Unmap{file, std::move(unlink_name), std::move(guard)}));
 }
 
 }  // namespace lockstep

@@ -18,7 +18,8 @@
 
 namespace lockstep {
 
-/// A handle: copies see the same words. The last copy unmaps, and removes the name if it was made here.
+/// A handle: copies see the same words. The last copy unmaps, and removes the name if it was made here. Words whose
+/// memory is taken away while they are mapped read 0 from then on, all of them, in this process (page_guard.hpp).
 class RegisterWindow {
 public:
     /// Zeroed memory of this process.

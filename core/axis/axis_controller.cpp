@@ -21,13 +21,7 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     const Slot slot = rules::slot_of(now_, slot_);
     // An owner that it has not heard because it did not run is not silent.
     if (state_slot_) { owner_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
-    if (kept_) { claim_position(inputs, out); }
-    observe(inputs.device, out);
-    if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
-        homed_ = false;
-        veto_for_own_reasons(out);
-        fail(FaultCode::DeviceFault, out);
-    }
+    look(inputs, out);
     hear(inputs, out);
     take_frames(inputs, out);
     if (mode_ == Mode::Local) { feed_local(out); }
@@ -47,19 +41,35 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     return out;
 }
 
-/// Once, before anything else: what the device has done since is not this process's doing.
+void AxisController::look(const AxisInputs& inputs, AxisOutputs& out) {
+    if (!inputs.has_device) {
+        if (has_device_) { lose_device(out); }
+        return;
+    }
+    if (!std::exchange(has_device_, true)) {
+        out.device_changed = true;
+        claim_position(inputs, out);
+    }
+    observe(inputs.device, out);
+    if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
+        homed_ = false;
+        veto_for_own_reasons(out);
+        fail(FaultCode::DeviceFault, out);
+    }
+}
+
+/// Once for each device found, before anything else: what it has done since is not this process's doing.
 void AxisController::claim_position(const AxisInputs& inputs, AxisOutputs& out) {
-    const KeptOrNot kept = *std::exchange(kept_, std::nullopt);
-    unproved_ = !kept                  ? kept.error()
+    unproved_ = !kept_                 ? kept_.error()
                 : inputs.device_failed ? FaultCode::DeviceFault
-                                       : doubt_of(*kept, scale_of(machine_, axis_), inputs.device);
+                                       : doubt_of(*kept_, scale_of(machine_, axis_), inputs.device);
     if (unproved_ != FaultCode::None) {
         out.notices.push_back({AxisNotice::Kind::PositionUnproved, unproved_, 0});
         return;
     }
-    zero_count_ = kept->zero_count;
-    encoder_zero_ = kept->encoder_zero;
-    kept_run_ = kept->run;
+    zero_count_ = kept_->zero_count;
+    encoder_zero_ = kept_->encoder_zero;
+    kept_run_ = kept_->run;
     homed_ = true;
     happen(AxisEvent::PositionKept);
     out.notices.push_back({AxisNotice::Kind::PositionProved, FaultCode::None, 0});
@@ -70,8 +80,9 @@ std::optional<KeptPosition> AxisController::position_to_keep() {
     const bool rests = mode_ == Mode::Rest && device_.finished && device_.run == run_ && device_.run_asked == run_;
     if (!homed_ || fault_ != FaultCode::None || !rests || kept_run_ == run_) { return std::nullopt; }
     kept_run_ = run_;
-    return KeptPosition{scale_of(machine_, axis_), device_.power_up, run_,
-                        device_.position,          zero_count_,      encoder_zero_};
+    kept_ =
+        KeptPosition{scale_of(machine_, axis_), device_.power_up, run_, device_.position, zero_count_, encoder_zero_};
+    return *kept_;
 }
 
 void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
@@ -159,6 +170,7 @@ void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& d
 void AxisController::begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
     if (mode_ != Mode::Rest || device.moving) { return refuse(command, FaultCode::Busy, out); }
     if (phase_ == AxisPhase::Fault) { return refuse(command, FaultCode::InFault, out); }
+    if (!has_device_) { return refuse(command, FaultCode::DeviceMissing, out); }
     fault_ = unproved_ = FaultCode::None;
     homed_ = false;
     happen(AxisEvent::HomingBegins);

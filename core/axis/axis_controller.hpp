@@ -24,7 +24,8 @@ namespace lockstep {
 struct AxisInputs {
     Tick now;  // machine time
     DeviceStatus device;
-    bool device_failed = false;  // it could not be read, or refused an order: what it then does is not known
+    bool has_device = true;      // false: none answers, and `device` means nothing
+    bool device_failed = false;  // it refused an order: what it then does is not known
     std::span<const Frame> frames;
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
@@ -80,6 +81,7 @@ struct AxisOutputs {
     std::vector<AxisNotice> notices;
     std::optional<KeptPosition> rests;  // homed, after a run: to be kept for the process that comes after this one
     ClockView device_clock;             // in machine time: steps and tracks are recorded in the device's own
+    bool device_changed = false;        // from this step on counts are those of another device, or power-up
 };
 
 using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;
@@ -114,9 +116,11 @@ private:
     };
     enum class Mode : std::uint8_t { Rest, Following, Local };
 
+    void look(const AxisInputs& inputs, AxisOutputs& out);
     void claim_position(const AxisInputs& inputs, AxisOutputs& out);
     std::optional<KeptPosition> position_to_keep();
     void observe(const DeviceStatus& device, AxisOutputs& out);
+    void lose_device(AxisOutputs& out);
     void veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out);
     void veto_for_own_reasons(AxisOutputs& out);
     void record_progress(const DeviceStatus& device, AxisOutputs& out);
@@ -184,8 +188,9 @@ private:
     bool homed_ = false;
     std::int64_t zero_count_ = 0;
     std::int64_t encoder_zero_ = 0;  // of the encoder minus the count, at the homing
-    std::optional<KeptOrNot> kept_;  // until it has been judged
-    FaultCode unproved_ = FaultCode::None;
+    KeptOrNot kept_;                 // the newest, for when a device is found
+    bool has_device_ = false;
+    FaultCode unproved_ = FaultCode::DeviceMissing;
     std::uint64_t kept_run_ = 0;  // the position after it has been said
     std::uint64_t run_ = 0;       // the device run begun last
     FrameNumber recorded_ = 0;    // bodies of the run recorded so far

@@ -23,6 +23,26 @@ void AxisController::observe(const DeviceStatus& device, AxisOutputs& out) {
     }
 }
 
+/// It makes no pulses, as far as is known, from where it was last seen: its run is at an end there. Where the slide is,
+/// only the device can prove, if it comes back.
+void AxisController::lose_device(AxisOutputs& out) {
+    has_device_ = false;
+    if (mode_ == Mode::Following) { veto_for_own_reasons(out); }
+    if (mode_ != Mode::Rest && device_.run == run_) {
+        DeviceStatus end = device_;
+        end.finished = end.stopped_by_host = true;
+        record_progress(end, out);
+    }
+    if (mode_ == Mode::Following) { end_following(out); }
+    abandon_local();
+    device_.moving = false;
+    device_.velocity = {};
+    last_speed_ = 0;
+    homed_ = false;
+    unproved_ = FaultCode::DeviceMissing;
+    fail(FaultCode::DeviceLost, out);
+}
+
 /// The device has fallen to a tail, perhaps while this process stalled with a frame decided on: others may be running
 /// it. What this axis holds from here on must be no evidence to them.
 void AxisController::veto_when_left_behind(const DeviceStatus& device, AxisOutputs& out) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/axis/retime.hpp"
 
@@ -13,7 +14,8 @@ constexpr std::size_t kRemembered = 64;  // frames: more than can be loaded and 
 }  // namespace
 
 DeviceTime::DeviceTime(const MachineConfig& machine)
-    : source_(machine.timing.time_source),
+    : tick_ns_(machine.tick_ns),
+      source_(machine.timing.time_source),
       ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       machine_(machine.tick_ns),
       shown_(machine.tick_ns) {}
@@ -31,6 +33,7 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
 
 /// Takes a look at the device's clock.
 bool DeviceTime::certain(Tick own, Tick shown) {
+    if (std::exchange(changed_, false)) { shown_ = ClockEstimator(tick_ns_); }
     const auto finding = shown_.offer({own, shown, shown, own});
     if (finding == ClockEstimator::Finding::Doubtful) { return false; }
     if (finding == ClockEstimator::Finding::ClockSet) { own_was_set(own, shown); }

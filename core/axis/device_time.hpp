@@ -37,6 +37,9 @@ public:
     /// tells by how much. `in_use`: the axis moves, its time is slewed and not set.
     bool look(Tick own, const Device& device, bool in_use);
 
+    /// What is looked at from the next look on is another device's clock.
+    void change_device() { changed_ = true; }
+
     /// At the last look, as all below.
     Tick now() const { return now_; }
     /// How far `now` may be off, and the bodies loaded into the device and not yet made. A tail is for when these fail,
@@ -71,10 +74,12 @@ private:
     void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
     Ticks slewed(Ticks machine, Ticks asked, std::size_t pieces) const;
 
+    std::int64_t tick_ns_;
     TimeSource source_;
     Ticks ptp_error_;
     MachineTime machine_;
     ClockEstimator shown_;  // by the device
+    bool changed_ = false;  // it is another's
     Tick own_;              // this process's clock, at the last look without doubt
     Tick seen_;             // the device's, then
     Tick now_;

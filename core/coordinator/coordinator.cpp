@@ -94,6 +94,13 @@ std::optional<std::size_t> Coordinator::missing_axis() const {
     return std::nullopt;
 }
 
+std::optional<std::size_t> Coordinator::axis_without_device() const {
+    constexpr auto kMissing = static_cast<std::uint16_t>(FaultCode::DeviceMissing);
+    const auto lacks = [](const AxisView& view) { return view.state && view.state->unproved == kMissing; };
+    const auto found = std::ranges::find_if(views_, lacks);
+    return found == views_.end() ? std::nullopt : std::optional<std::size_t>(found - views_.begin());
+}
+
 /// Whether an axis's clock may be further off than this.
 bool Coordinator::is_uncertain(std::size_t axis, Ticks limit) const {
     return views_[axis].state && views_[axis].state->clock_error > limit;
@@ -101,6 +108,7 @@ bool Coordinator::is_uncertain(std::size_t axis, Ticks limit) const {
 
 /// Who is there, who is not, and who is in trouble.
 void Coordinator::watch_axes(CoordinatorOutputs& out) {
+    if (phase_ == MachinePhase::Idle && axis_without_device()) { enter(MachinePhase::Waiting, out); }
     for (std::size_t i = 0; i < views_.size(); ++i) {
         const AxisView& view = views_[i];
         if (view.state && !present(i)) {

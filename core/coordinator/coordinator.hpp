@@ -177,6 +177,7 @@ private:
     void begin_leg(CoordinatorOutputs& out);
     void end_leg(CoordinatorOutputs& out);
     void settle(const EpochEnd& end, CoordinatorOutputs& out);
+    void give_up_epoch(CoordinatorOutputs& out);
     void interrupted(const EpochEnd& end, CoordinatorOutputs& out);
     void go_on(CoordinatorOutputs& out);
     void end_job(JobOutcome outcome, CoordinatorOutputs& out);
@@ -187,6 +188,7 @@ private:
     bool order_done(std::size_t axis) const;
     bool present(std::size_t axis) const { return views_[axis].present(now_slot_, machine_.timing); }
     std::optional<std::size_t> missing_axis() const;
+    std::optional<std::size_t> axis_without_device() const;
     bool is_uncertain(std::size_t axis, Ticks limit) const;
     std::optional<Reply> refuse_uncertain_clocks(const Command& command) const;
     AxisCounts counts() const;

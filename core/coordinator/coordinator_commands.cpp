@@ -52,6 +52,10 @@ std::optional<Reply> Coordinator::refuse_unless_ready(const Command& command) co
     if (const auto missing = missing_axis()) {
         return refused(command, FaultCode::AxisMissing, "axis " + machine_.axes[*missing].name + " is not heard");
     }
+    if (const auto lacking = axis_without_device(); lacking && phase_ != MachinePhase::Fault) {
+        return refused(command, FaultCode::DeviceMissing,
+                       "axis " + machine_.axes[*lacking].name + " waits for its device; its log says for which");
+    }
     if (phase_ == MachinePhase::Fault) {
         return refused(command, FaultCode::InFault, "the machine is in Fault: " + std::string(name_of(fault_)));
     }

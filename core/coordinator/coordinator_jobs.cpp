@@ -44,7 +44,8 @@ void Coordinator::advance(CoordinatorOutputs& out) {
                                 .overrides = turn->overrides,
                                 .behind = turn->behind});
         }
-        if (const auto end = runner_.judge(now_slot_, views_)) { settle(*end, out); }
+        if (const auto end = runner_.judge(now_slot_, views_)) { return settle(*end, out); }
+        if (runner_.is_overdue()) { give_up_epoch(out); }
         return;
     }
     if (phase_ == MachinePhase::Homing) { return advance_homing(out); }
@@ -54,7 +55,8 @@ void Coordinator::advance(CoordinatorOutputs& out) {
     bool orders_open = false;
     for (std::size_t i = 0; i < orders_.size(); ++i) { orders_open |= !order_done(i); }
     const bool all_rest = std::ranges::all_of(views_, [](const AxisView& v) { return v.state && v.state->at_rest; });
-    if (phase_ != MachinePhase::Waiting || !acknowledged || missing_axis() || orders_open || !all_rest) { return; }
+    const bool all_here = !missing_axis() && !axis_without_device();
+    if (phase_ != MachinePhase::Waiting || !acknowledged || !all_here || orders_open || !all_rest) { return; }
     if (inherited_) { go_on_with_inherited(out); }
     if (!job_) { enter(MachinePhase::Idle, out); }
 }
@@ -126,6 +128,19 @@ void Coordinator::settle(const EpochEnd& end, CoordinatorOutputs& out) {
     if (intent_ == Intent::GoOn) { return end_leg(out); }
     ++job_->leg;
     enter(MachinePhase::Paused, out);
+}
+
+/// No stop is waited for without end: a person is told who does not come to rest.
+void Coordinator::give_up_epoch(CoordinatorOutputs& out) {
+    const auto moves = [&](const AxisView& view) {
+        return view.present(now_slot_, machine_.timing) && !view.state->at_rest;
+    };
+    const auto restless = std::ranges::find_if(views_, moves);
+    const auto axis = restless == views_.end() ? 0 : restless - views_.begin();
+    fail(FaultCode::NotAtRest, static_cast<std::size_t>(axis), out);
+    moving_ = false;
+    end_job(JobOutcome::Failed, out);
+    enter(MachinePhase::Fault, out);
 }
 
 void Coordinator::end_leg(CoordinatorOutputs& out) {

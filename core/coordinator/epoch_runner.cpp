@@ -17,6 +17,8 @@ void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot n
     at_ = std::move(at);
     start_ = rules::start_of(now + machine_.timing.send_ahead_slots + kMargin, slot_);
     made_ = {};
+    rests_ = start_;
+    slots_over_ = 0;
     sent_ = 0;
     ended_ = late_ = false;
     veto_.reset();
@@ -28,6 +30,7 @@ void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot n
 }
 
 std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
+    slots_over_ = now > rules::slot_of(rests_, slot_) ? slots_over_ + 1 : 0;
     FrameNumber held_by_all = sent_;
     for (const AxisView& axis : axes) {
         const bool follows = axis.state && axis.state->epoch == epoch_;
@@ -76,6 +79,9 @@ Frame EpochRunner::make_frame() {
     frame.last = ended_ = made_ == whole;
     endings_.push_back(frame.last ? Ending{path_.moves.size(), {}, at_, true} : fill_tail(frame, made_));
     if (endings_.size() > kEndingsKept) { endings_.pop_front(); }
+    for (const AxisTrack& axis : frame.axes) {
+        rests_ = std::max(rests_, frame.start + frame.ticks + total_ticks(axis.tail));
+    }
     return frame;
 }
 

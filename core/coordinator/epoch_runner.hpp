@@ -58,6 +58,11 @@ public:
     /// Nothing while anybody may still move. Axes not present are left out of the judgement.
     std::optional<EpochEnd> judge(Slot now, std::span<const AxisView> axes) const;
 
+    /// All that was sent is long over, with its tails, and still the epoch is not judged: not even a device that was
+    /// silent for as long as it may be, nor word of it that came as late, explains that. Only slots in which frames
+    /// were asked for count: while this process stalls, it receives nothing.
+    bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(machine_.timing) + rules::kHopSlots; }
+
     /// Where the machine rests behind this frame and those made after it.
     std::vector<FrameRest> rests_from(FrameNumber frame) const;
 
@@ -88,7 +93,9 @@ private:
     Epoch epoch_ = 0;
     Path path_;
     Tick start_;
-    Ticks made_;  // of the path, in frames so far
+    Ticks made_;           // of the path, in frames so far
+    Tick rests_;           // by when the machine does, whichever of the frames made so far is the last one run
+    Slot slots_over_ = 0;  // in which frames were asked for since
     std::vector<Position> at_;
     FrameNumber sent_ = 0;
     std::optional<Overrides> turned_;  // to be planned with yet

@@ -12,18 +12,12 @@ AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick n
             true};
 }
 
-std::expected<AxisNode, std::string> AxisNode::attach(const Setup& setup, AxisDevice device) {
-    auto driver = DeviceDriver::attach(device.window, setup.machine.tick_ns);
-    if (!driver) { return std::unexpected(driver.error()); }
-    return AxisNode(setup, std::move(device), std::move(*driver));
-}
-
-AxisNode::AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver)
-    : device_(std::move(device)),
-      driver_(std::move(driver)),
+AxisNode::AxisNode(const Setup& setup, OpenDevice open)
+    : open_(std::move(open)),
+      machine_(setup.machine),
+      lacks_("not looked for yet"),
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, setup.kept),
-      time_(setup.machine),
-      longest_standstill_(setup.machine.slot_ticks() * rules::silence_slots(setup.machine.timing)) {}
+      time_(setup.machine) {}
 
 AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     AxisOutputs out = decide(own, mail, on_step);
@@ -32,34 +26,72 @@ AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step
 }
 
 AxisOutputs AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_step) {
-    if (device_.simulated) { device_.simulated->advance(own); }
+    if (!found_) { seek_device(own); }
+    advance_simulated(own);
     for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
     look(own);
-    knows_time_ = time_.look(own, {status_.now, device_.shares_clock}, !controller_.at_rest());
-    AxisOutputs out = knows_time_ ? control(mail) : AxisOutputs{};
-    drain(on_step, out.device_clock);
+    const bool shares_clock = !has_device() || found_->device.shares_clock;
+    knows_time_ = time_.look(own, {status_.now, shares_clock}, !controller_.at_rest());
+    AxisOutputs out = knows_time_ && !is_looking() ? control(mail) : AxisOutputs{};
+    drain(own, on_step, out.device_clock);
     return out;
 }
 
 void AxisNode::carry_out(Tick own, const AxisOutputs& decided) {
     give(decided.orders);
-    if (device_.simulated) { device_.simulated->advance(own); }
+    advance_simulated(own);
 }
 
-void AxisNode::drain(const OnStep& on_step, const ClockView& machine_time) {
+void AxisNode::advance_simulated(Tick own) {
+    if (found_ && found_->device.simulated) { found_->device.simulated->advance(own); }
+}
+
+void AxisNode::seek_device(Tick own) {
+    const Ticks period{std::chrono::nanoseconds(kSeekPeriod).count() / machine_.tick_ns};
+    if (sought_ && own >= *sought_ && own - *sought_ < period) { return; }
+    sought_ = own;
+    if (const auto found = find_device(own); !found) { lacks_ = found.error(); }
+}
+
+std::expected<void, std::string> AxisNode::find_device(Tick own) {
+    auto device = open_(own);
+    if (!device) { return std::unexpected(device.error()); }
+    auto driver = DeviceDriver::attach(device->window, machine_.tick_ns);
+    if (!driver) { return std::unexpected(driver.error()); }
+    found_.emplace(Found{std::move(*device), std::move(*driver), DeviceWatch(machine_)});
+    return {};
+}
+
+void AxisNode::lose_device(Tick own, const std::string& why) {
+    (void)found_->driver.apply(device::Veto{1});
+    troubles_ += has_device() ? 1 : 0;
+    if (has_device()) { time_.change_device(); }
+    found_.reset();
+    status_.moving = false;
+    status_.finished = true;
+    lost_before_ += std::exchange(lost_captures_, 0);
+    sought_ = own;
+    lacks_ = why;
+}
+
+void AxisNode::drain(Tick own, const OnStep& on_step, const ClockView& machine_time) {
+    if (!has_device()) { return; }
     HealthMeter* meter = knows_time_ ? meter_ : nullptr;
-    const auto drained = driver_.drain_capture([&](StepEdge step) {
+    const auto drained = found_->driver.drain_capture([&](StepEdge step) {
         on_step(step);
         if (meter != nullptr) { meter->step({machine_time.at(step.tick), step.direction}); }
     });
-    if (!drained) { return note(drained.error()); }
+    if (!drained) { return lose_device(own, drained.error()); }
+    lost_captures_ = found_->driver.lost_captures();
     if (meter != nullptr) { meter->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
 }
 
 AxisOutputs AxisNode::control(const AxisMail& mail) {
+    has_begun_ = true;
     const DeviceStatus status = time_.in_machine_time(status_);
     const AxisInputs in{.now = time_.now(),
                         .device = status,
+                        .has_device = has_device(),
                         .device_failed = std::exchange(failed_, false),
                         .frames = mail.frames,
                         .peers = mail.peers,
@@ -80,14 +112,15 @@ AxisOutputs AxisNode::control(const AxisMail& mail) {
 }
 
 void AxisNode::look(Tick own) {
-    const auto status = driver_.read();
-    if (!status) { return note(status.error()); }
-    if (status->now != status_.now || clock_moved_ == Tick{}) { clock_moved_ = own; }
-    if (own - clock_moved_ > longest_standstill_) {
-        note("the device's clock stands still at tick " + std::to_string(status->now.value) +
-             "; is its process, or its board, still running?");
-    }
+    if (!found_) { return; }
+    const auto status = found_->driver.read();
+    if (!status) { return lose_device(own, status.error()); }
+    if (const auto doubt = found_->watch.doubt_of(own, *status)) { return lose_device(own, "device: " + *doubt); }
     status_ = *status;
+    found_->first = found_->first.value_or(status->now);
+    if (found_->lives || status->now == *found_->first) { return; }
+    found_->lives = true;
+    time_.change_device();
 }
 
 void AxisNode::note(std::string trouble) {
@@ -98,7 +131,9 @@ void AxisNode::note(std::string trouble) {
 
 void AxisNode::give(const std::vector<DeviceOrder>& orders) {
     for (const DeviceOrder& order : orders) {
-        if (const auto given = driver_.apply(order); !given) { note(given.error()); }
+        if (!has_device()) { return; }
+        const auto given = found_->driver.apply(order);
+        given ? found_->watch.take(order) : note(given.error());
     }
 }
 

@@ -1,6 +1,7 @@
 // An axis controller and its device, joined: what an axis's process runs each loop, live or in virtual time.
 #pragma once
 
+#include <chrono>
 #include <expected>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device_time.hpp"
+#include "core/axis/device_watch.hpp"
 #include "core/axis/health_meter.hpp"
 #include "core/flight/axis_flight.hpp"
 #include "services/axis/device_driver.hpp"
@@ -26,6 +28,9 @@ struct AxisDevice {
 
 /// A simulated device in this process, powered up at `now`.
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now);
+
+/// Opens an axis's device when this process's clock reads `own`. Error: why it is not there. Never waits.
+using OpenDevice = std::function<std::expected<AxisDevice, std::string>(Tick own)>;
 
 /// The messages of one loop.
 struct AxisMail {
@@ -48,12 +53,14 @@ public:
     };
     using OnStep = std::function<void(StepEdge)>;
 
-    /// Error: the device is not there or is another.
-    static std::expected<AxisNode, std::string> attach(const Setup& setup, AxisDevice device);
+    /// A device that is not there, or that is lost, is looked for anew every kSeekPeriod.
+    AxisNode(const Setup& setup, OpenDevice open);
+    static constexpr std::chrono::milliseconds kSeekPeriod{200};
 
     /// One loop when this process's clock reads `own`, which is machine time where that is shared: lets a simulated
     /// device run up to it, decides, and gives the device its orders. Every step made since the last loop goes to
-    /// on_step, in order, in the device's time. Trouble with the device becomes a fault. Nothing is decided or said
+    /// on_step, in order, in the device's time. Trouble with the device becomes a fault; one that is given up is
+    /// closed, and told before, for the case that it goes on after all, to come to rest. Nothing is decided or said
     /// before the machine time is known.
     AxisOutputs step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
@@ -65,9 +72,11 @@ public:
     void measure(HealthMeter& meter) { meter_ = &meter; }
     /// From the next step on what is decided is noted. `flight` outlives the node.
     void note_in(AxisFlight& flight) { flight_ = &flight; }
-    /// What it is said of the device: orders refused and looks that failed, and steps whose time was not kept.
+    /// What it is said of the devices: orders refused and devices lost, and steps whose time was not kept.
     std::uint64_t troubles() const { return troubles_; }
-    std::uint64_t lost_captures() const { return driver_.lost_captures(); }
+    std::uint64_t lost_captures() const { return lost_before_ + lost_captures_; }
+    /// Why it has no device; empty: it has one, or has only begun to look.
+    std::string lacks() const { return has_device() || is_looking() ? std::string() : lacks_; }
     /// How far `now` may be off.
     Ticks clock_error() const { return time_.error(); }
 
@@ -79,21 +88,40 @@ public:
     const AxisController& controller() const { return controller_; }
 
 private:
-    AxisNode(const Setup& setup, AxisDevice device, DeviceDriver driver);
+    void seek_device(Tick own);
+    std::expected<void, std::string> find_device(Tick own);
+    void lose_device(Tick own, const std::string& why);
+    void advance_simulated(Tick own);
     void look(Tick own);
     AxisOutputs control(const AxisMail& mail);
-    void drain(const OnStep& on_step, const ClockView& machine_time);
+    void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
-    AxisDevice device_;
-    DeviceDriver driver_;
+    /// One that was found. What a dead one has left looks like one, but for its clock.
+    struct Found {
+        AxisDevice device;
+        DeviceDriver driver;
+        DeviceWatch watch;
+        std::optional<Tick> first = {};  // that it showed
+        bool lives = false;              // its clock goes on
+    };
+    bool has_device() const { return found_ && found_->lives; }
+    /// At the start: nothing is said before it is clear whether there is one.
+    bool is_looking() const { return found_ && !found_->lives && !has_begun_; }
+
+    OpenDevice open_;
+    MachineConfig machine_;
+    std::optional<Found> found_;
+    std::optional<Tick> sought_;  // last, by this process's clock; nothing: at once
+    std::string lacks_;
     AxisController controller_;
+    bool has_begun_ = false;
     DeviceTime time_;
     bool knows_time_ = false;
-    DeviceStatus status_;
-    Tick clock_moved_;          // when, by this process's clock, the device's clock was last seen to go on
-    Ticks longest_standstill_;  // of it: a device that is late looks the same for a while
+    DeviceStatus status_{.free_segments = registers::kSegmentRingEntries};  // the last there was
+    std::uint64_t lost_captures_ = 0;                                       // of this device
+    std::uint64_t lost_before_ = 0;                                         // of those before it
     std::string trouble_;
     std::uint64_t troubles_ = 0;
     HealthMeter* meter_ = nullptr;  // null: nothing is measured

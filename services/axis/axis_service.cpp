@@ -9,6 +9,7 @@
 #include "services/axis/device_window.hpp"
 #include "services/axis/position_file.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
 #include "services/flight/flight_recorder.hpp"
 #include "services/record/axis_recorder.hpp"
@@ -30,12 +31,15 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-std::expected<AxisDevice, std::string> open_device(const std::string& fpga, const AxisConfig& axis,
-                                                   std::int64_t tick_ns, Tick now) {
-    if (fpga == "sim") { return simulated_device(axis, tick_ns, now); }
-    auto window = open_window(fpga);
-    if (!window) { return std::unexpected("device " + fpga + ": " + window.error()); }
-    return AxisDevice{std::move(*window), nullptr, true};
+OpenDevice opener_of(const std::string& fpga, const AxisConfig& axis, std::int64_t tick_ns) {
+    if (fpga == "sim") {
+        return [axis, tick_ns](Tick now) { return simulated_device(axis, tick_ns, now); };
+    }
+    return [fpga](Tick) -> std::expected<AxisDevice, std::string> {
+        auto window = open_window(fpga);
+        if (!window) { return std::unexpected(window.error()); }
+        return AxisDevice{std::move(*window), nullptr, true};
+    };
 }
 
 void complain_of_disk(const std::string& why) {
@@ -52,11 +56,13 @@ KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
 /// The loop's state: what came, what is said, what is complained about.
 class AxisService {
 public:
-    AxisService(const AxisNode::Setup& setup, const MachineClock& clock, AxisNode node, AxisBus bus,
+    /// `fpga`: as AxisConfig::device.
+    AxisService(const AxisNode::Setup& setup, const std::string& fpga, const MachineClock& clock, AxisBus bus,
                 std::unique_ptr<RecordSink> sink)
         : setup_(setup),
+          fpga_(fpga),
           clock_(clock),
-          node_(std::move(node)),
+          node_(setup, opener_of(fpga, setup.machine.axes[setup.axis], setup.machine.tick_ns)),
           bus_(std::move(bus)),
           sink_(std::move(sink)),
           flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
@@ -85,6 +91,7 @@ public:
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
         if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
+        report_device();
         complain(now);
         log_strangers(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
@@ -130,6 +137,15 @@ private:
                bus_.commands.refusals().count + bus_.requests.refusals().count;
     }
 
+    void report_device() {
+        const bool has_device = node_.lacks().empty();
+        if (has_device == has_device_) { return; }
+        has_device_ = has_device;
+        has_device ? log_info("device " + fpga_ + " is there") : report_missing_device();
+    }
+
+    void report_missing_device() const { log_warning("waits for its device " + fpga_ + ": " + node_.lacks()); }
+
     /// Once every few seconds: whom it waits for, what it was sent and did not believe, what its device says.
     void complain(Tick now) {
         const Ticks period{5'000'000'000 / setup_.machine.tick_ns};
@@ -143,6 +159,7 @@ private:
                         bus_.states.refusals().last + " " + bus_.machine.refusals().last + " " +
                         bus_.commands.refusals().last + " " + bus_.requests.refusals().last);
         }
+        if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
         if (node_.trouble() != trouble_) {
             trouble_ = node_.trouble();
@@ -151,6 +168,7 @@ private:
     }
 
     AxisNode::Setup setup_;
+    std::string fpga_;
     MachineClock clock_;
     AxisNode node_;
     AxisBus bus_;
@@ -172,6 +190,7 @@ private:
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
     std::string trouble_;
+    bool has_device_ = true;  // as reported
     bool doubled_ = false;
 };
 
@@ -187,15 +206,11 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
                                 kept_position(machine, axis)};
     const std::string fpga = options.fpga.empty() ? machine.axes[axis].device : options.fpga;
-    auto device = open_device(fpga, machine.axes[axis], machine.tick_ns, clock.now());
-    if (!device) { return fail(device.error()); }
-    auto node = AxisNode::attach(setup, std::move(*device));
-    if (!node) { return fail(node.error()); }
     const auto admission = admit_service(machine, axis_member(machine, axis));
     if (!admission) { return fail(admission.error()); }
     auto bus = open_bus<AxisBus>(machine.network, machine.name, *admission);
     if (!bus) { return fail(bus.error()); }
-    AxisService service(setup, clock, std::move(*node), std::move(*bus),
+    AxisService service(setup, fpga, clock, std::move(*bus),
                         open_record(machine, machine.axes[axis].name, options.record));
     log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + fpga);
 
@@ -236,6 +251,10 @@ int serve_axis(const AxisServiceOptions& options) {
     }
     if (options.clock_error != ClockError{} && !simulated) {
         std::cerr << "--clock-error needs --fpga sim: lockstep-fpga keeps the right time\n";
+        return kServiceBadInput;
+    }
+    if (!options.fpga.empty() && !is_device_name(options.fpga)) {
+        std::cerr << "--fpga " << options.fpga << ": none of sim, shm:NAME and uio:PATH\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"axis", config.name, options.log_file}); !log) {

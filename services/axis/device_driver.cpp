@@ -86,9 +86,8 @@ private:
     Position position_;
 };
 
-}  // namespace
-
-std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow window, std::int64_t tick_ns) {
+/// Looked at again with every read: memory that was taken away or overwritten no longer shows it.
+std::expected<void, std::string> identify(const RegisterWindow& window, std::int64_t tick_ns) {
     const Identification words[] = {
         {"MAGIC", kMagic, kMagicValue, "is this a Lockstep axis device, and powered up?"},
         {"VERSION", kVersion, kVersionValue, "use device and host of the same release"},
@@ -101,9 +100,16 @@ std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow win
                                    hex(expected) + "; " + remedy);
         }
     }
+    return {};
+}
+
+}  // namespace
+
+std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow window, std::int64_t tick_ns) {
+    if (const auto known = identify(window, tick_ns); !known) { return std::unexpected(known.error()); }
     if (const auto segments = segments_in(window); !segments) { return std::unexpected(segments.error()); }
     if (const auto captures = captures_in(window); !captures) { return std::unexpected(captures.error()); }
-    return DeviceDriver(std::move(window));
+    return DeviceDriver(std::move(window), tick_ns);
 }
 
 std::expected<DeviceStatus, std::string> DeviceDriver::read() {
@@ -111,6 +117,7 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
         const std::uint64_t before = window_.load(kSequence);
         DeviceStatus status = read_words();
         const auto loaded = segments_in(window_);
+        if (const auto known = identify(window_, tick_ns_); !known) { return std::unexpected(known.error()); }
         if (before % 2 != 0 || window_.load(kSequence) != before) { continue; }
         if (!loaded) { return std::unexpected(loaded.error()); }
         status.free_segments = static_cast<std::uint32_t>(kSegmentRingEntries - *loaded);
@@ -122,7 +129,10 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
 }
 
 std::expected<DeviceStatus, std::string> DeviceDriver::stale_look() {
-    if (last_look_ && ++stale_reads_ <= kMaxStaleReads) { return *last_look_; }
+    if (last_look_ && ++stale_reads_ <= kMaxStaleReads) {
+        last_look_->run_asked = window_.load(kRunRequest);  // the host's own word
+        return *last_look_;
+    }
     return std::unexpected("device: SEQUENCE reads " + hex(window_.load(kSequence)) +
                            ": it stopped in the middle of an update; restart it");
 }
@@ -212,11 +222,19 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
     const auto captured = captures_in(window_);
     if (!captured) { return captured; }
     const std::uint64_t tail = window_.load(kCaptureTail);
+    const Tick now{signed_word(kTick)};  // read behind the head: the steps in the ring are of this tick or before
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
         const std::size_t slot = index % kCaptureRingEntries;
         const std::uint64_t word = window_.load(kCaptureRing + slot * kCaptureRingEntryBytes);
-        on_step(
-            {.tick = {static_cast<std::int64_t>(word) >> 1}, .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)});
+        const StepEdge step{.tick = {static_cast<std::int64_t>(word) >> 1},
+                            .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)};
+        if (step.tick > now || (last_step_ && step.tick <= *last_step_)) {
+            return std::unexpected("device: capture ring entry " + std::to_string(index) + " reads tick " +
+                                   std::to_string(step.tick.value) + ", which cannot be at tick " +
+                                   std::to_string(now.value));
+        }
+        last_step_ = step.tick;
+        on_step(step);
     }
     window_.store(kCaptureTail, tail + *captured);
     return captured;

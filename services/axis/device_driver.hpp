@@ -23,8 +23,8 @@ public:
 
     /// One consistent look, never a wait: while the device is held up in the middle of an update it is the look before,
     /// as if the device had not come that far. Error where that goes on for kMaxStaleReads reads, where there is no
-    /// look before, or where the words make no sense. A device that stopped between updates shows by `now` standing
-    /// still.
+    /// look before, or where the words make no sense or are no device's any more. A device that stopped between updates
+    /// shows by `now` standing still.
     std::expected<DeviceStatus, std::string> read();
     static constexpr int kMaxStaleReads = 1000;
 
@@ -32,14 +32,15 @@ public:
     /// a run whose number is not new.
     std::expected<void, std::string> apply(const DeviceOrder& order);
 
-    /// Calls back with every step made since the last call, in order. Returns how many. Error: wild ring ends.
+    /// Calls back with every step made since the last call, in order. Returns how many. Error: wild ring ends, or ticks
+    /// that do not rise.
     std::expected<std::uint64_t, std::string> drain_capture(const std::function<void(StepEdge)>& on_step);
     /// Steps since the device's power-up that came while the capture ring was full.
     std::uint64_t lost_captures() const { return window_.load(registers::kCaptureLost); }
 
 private:
     using Result = std::expected<void, std::string>;
-    explicit DeviceDriver(RegisterWindow window) : window_(std::move(window)) {}
+    DeviceDriver(RegisterWindow window, std::int64_t tick_ns) : window_(std::move(window)), tick_ns_(tick_ns) {}
 
     Result apply_one(const device::BeginRun& order);
     Result apply_one(const device::LoadFrame& order);
@@ -51,7 +52,9 @@ private:
     std::int64_t signed_word(std::size_t offset) const { return static_cast<std::int64_t>(window_.load(offset)); }
 
     RegisterWindow window_;
+    std::int64_t tick_ns_;
     std::optional<DeviceStatus> last_look_;
+    std::optional<Tick> last_step_;
     int stale_reads_ = 0;
 };
 

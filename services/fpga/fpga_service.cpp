@@ -4,6 +4,7 @@
 #include <chrono>
 #include <expected>
 #include <iostream>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -18,50 +19,84 @@ namespace {
 
 constexpr std::chrono::milliseconds kPeriod{1};
 
-struct Hardware {
-    AxisConfig axis;
-    std::int64_t tick_ns;
-    TimeSource time_source;
-    RegisterWindow window;
-};
-
 std::uint64_t drawn_number() {
     std::random_device random;
     return std::uniform_int_distribution<std::uint64_t>()(random);
 }
 
-std::expected<Hardware, std::string> set_up(const FpgaOptions& options) {
+/// The device and what is behind it. Its registers may be taken away or overwritten by others: then it powers up anew,
+/// and the slide stays where it is.
+class Board {
+public:
+    Board(const FpgaOptions& options, const AxisConfig& axis, const MachineConfig& machine)
+        : options_(options),
+          tick_ns_(machine.tick_ns),
+          clock_(machine.tick_ns, machine.timing.time_source),
+          plant_(axis, machine.tick_ns) {}
+
+    /// Error: its registers cannot be made.
+    std::expected<void, std::string> power_up() {
+        if (device_) { plant_ = device_->plant(); }
+        device_.reset();  // with its window: the name is free again
+        auto window = options_.file.empty() ? RegisterWindow::create_shared(options_.name)
+                                            : RegisterWindow::create_file(options_.file);
+        if (!window) { return std::unexpected(window.error()); }
+        device_.emplace(std::move(*window), plant_, tick_ns_, clock_.now(), drawn_number());
+        log_info("device \"" + options_.name + options_.file + "\" is powered up");
+        return {};
+    }
+
+    std::expected<void, std::string> advance() {
+        if (!device_->is_intact()) {
+            log_error("the registers were overwritten or taken away; powers up anew, unhomed");
+            if (auto up = power_up(); !up) { return up; }
+        }
+        device_->advance(clock_.now());
+        return {};
+    }
+
+private:
+    FpgaOptions options_;
+    std::int64_t tick_ns_;
+    MachineClock clock_;
+    Plant plant_;
+    std::optional<SimulatedDevice> device_;
+};
+
+std::expected<Board, std::string> set_up(const FpgaOptions& options) {
     const auto machine = load_machine_file(options.machine_file);
     if (!machine) { return std::unexpected(to_text(options.machine_file, machine.error())); }
     const auto axis = std::ranges::find(machine->axes, options.axis, &AxisConfig::name);
     if (axis == machine->axes.end()) {
         return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\"");
     }
-    auto window =
-        options.file.empty() ? RegisterWindow::create_shared(options.name) : RegisterWindow::create_file(options.file);
-    if (!window) { return std::unexpected(window.error()); }
-    return Hardware{*axis, machine->tick_ns, machine->timing.time_source, std::move(*window)};
+    Board board(options, *axis, *machine);
+    if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
+    return board;
+}
+
+int fail(const std::string& why) {
+    log_error(why);
+    return 1;
 }
 
 }  // namespace
 
 int serve_fpga(const FpgaOptions& options) {
-    const StopSignal stop;
+    StopSignal stop;
     if (const auto log = open_log({.service = "fpga", .axis = options.axis}); !log) {
         std::cerr << log.error() << '\n';
         return 1;
     }
-    auto hardware = set_up(options);
-    if (!hardware) {
-        log_error(hardware.error());
-        return 1;
-    }
-    const MachineClock clock(hardware->tick_ns, hardware->time_source);
-    const Plant plant(hardware->axis, hardware->tick_ns);
-    SimulatedDevice device(hardware->window, plant, hardware->tick_ns, clock.now(), drawn_number());
-    log_info("device \"" + options.name + options.file + "\" is powered up");
+    auto board = set_up(options);
+    if (!board) { return fail(board.error()); }
     PeriodicLoop loop(kPeriod);
-    loop.run(stop, [&](std::chrono::nanoseconds) { device.advance(clock.now()); });
+    std::expected<void, std::string> well;
+    loop.run(stop, [&](std::chrono::nanoseconds) {
+        well = board->advance();
+        if (!well) { stop.request(); }
+    });
+    if (!well) { return fail(well.error()); }
     log_info("ended; the loop was late by " + std::to_string(loop.worst_lateness().count() / 1000) + " us at worst");
     return 0;
 }

@@ -56,6 +56,7 @@ void AxisRecorder::publish(step_batch_t& batch) {
 
 void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
+    if (out.device_changed) { placed_ = false; }
     if (!placed_ && out.state) {
         place(*out.state);
         zero_count_ = zero_count;  // as the state has it: a process may begin homed

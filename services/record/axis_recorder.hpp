@@ -49,8 +49,8 @@ private:
     std::uint64_t positions_ = 0;
     std::uint64_t figures_ = 0;
     std::uint64_t lost_captures_ = 0;
-    /// It is known where the device stands: not at first, since it may have outlived another process, nor after steps
-    /// without their time.
+    /// It is known where the device stands: not at first, since it may have outlived another process, nor where it has
+    /// been exchanged, nor after steps without their time.
     bool placed_ = false;
     std::vector<StepEdge> steps_;    // not given to the batcher yet
     ClockView clock_;                // the device's, in machine time, at the last loop

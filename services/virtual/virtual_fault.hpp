@@ -19,6 +19,9 @@ struct VirtualFault {
         Stick,        // a switch of an axis reads closed, or open, wherever its slide is
         Push,         // a hand moves an axis's slide
         DamageFrame,  // the newest frame that an axis's device holds is altered
+        StopDevice,   // an axis's device does nothing; at the end it goes on
+        KillDevice,   // it is gone; at the end another one is there, and the slide where it was
+        Overwrite,    // its registers are overwritten; at the end it is powered up anew
     };
     Kind kind = Kind::Freeze;
     std::size_t process = 0;
@@ -30,13 +33,18 @@ struct VirtualFault {
     PlantContact contact = &PlantInputs::limit_min;  // Stick: which
     bool closed = true;                              // Stick: reads closed
     std::int64_t push_steps = 0;                     // Push
+    bool garbage = true;                             // Overwrite: with noise; else with zeros
     bool outgoing = true;                            // Cut: what the process says is lost
     bool incoming = true;                            // Cut: what is said to it is lost
 
     constexpr Tick end() const { return at + lasts; }
     /// Of an axis's slide, switches or device, not of processes or links.
     constexpr bool is_of_plant() const {
-        return kind == Kind::Stick || kind == Kind::Push || kind == Kind::DamageFrame;
+        return kind == Kind::Stick || kind == Kind::Push || kind == Kind::DamageFrame || is_of_device();
+    }
+    /// The device is lost to its axis if it lasts.
+    constexpr bool is_of_device() const {
+        return kind == Kind::StopDevice || kind == Kind::KillDevice || kind == Kind::Overwrite;
     }
 };
 

@@ -59,11 +59,50 @@ void VirtualMachine::start(std::size_t process) {
         const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash,
                                     axes_[process].kept};
         axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
-        // A device made here is of this version: attaching cannot fail.
-        axes_[process].node.emplace(*AxisNode::attach(setup, {axes_[process].device.window, nullptr}));
+        axes_[process].node.emplace(setup, [this, process](Tick) { return open_device(process); });
     }
     processes_[process] = {true, now_};
     if (options_.flight) { note_flight(process); }
+}
+
+/// The axis's end of it: the device itself is advanced here.
+std::expected<AxisDevice, std::string> VirtualMachine::open_device(std::size_t axis) const {
+    const Axis& it = axes_[axis];
+    if (it.no_device) { return std::unexpected("nobody holds its registers"); }
+    return AxisDevice{it.device.window, nullptr};
+}
+
+void VirtualMachine::advance_device(std::size_t axis) {
+    if (!axes_[axis].stopped) { device(axis).advance(device_time(axis)); }
+}
+
+void VirtualMachine::power_up_anew(std::size_t axis, RegisterWindow window) {
+    AxisDevice& it = axes_[axis].device;
+    it.simulated = std::make_unique<SimulatedDevice>(window, it.simulated->plant(), options_.machine.tick_ns,
+                                                     device_time(axis), static_cast<std::uint64_t>(now_.value));
+    it.window = std::move(window);
+}
+
+void VirtualMachine::overwrite(std::size_t axis, bool garbage) {
+    std::mt19937_64 random(options_.seed ^ static_cast<std::uint64_t>(now_.value));
+    for (std::size_t word = 0; word < registers::kWindowBytes; word += sizeof(std::uint64_t)) {
+        axes_[axis].device.window.store(word, garbage ? random() : 0);
+    }
+}
+
+/// What becomes of an axis's device itself.
+void VirtualMachine::strike(const VirtualFault& fault, bool begins) {
+    const std::size_t i = fault.process;
+    Axis& axis = axes_[i];
+    advance_device(i);
+    axis.stopped = begins && fault.kind != VirtualFault::Kind::Overwrite;
+    axis.no_device = begins && fault.kind == VirtualFault::Kind::KillDevice;
+    if (fault.kind == VirtualFault::Kind::Overwrite) {
+        begins ? overwrite(i, fault.garbage) : power_up_anew(i, axis.device.window);
+    } else if (fault.kind == VirtualFault::Kind::KillDevice && !begins) {
+        power_up_anew(i, RegisterWindow::in_process());
+    }
+    advance_device(i);
 }
 
 void VirtualMachine::note_flight(std::size_t process) {
@@ -83,7 +122,7 @@ void VirtualMachine::crash(std::size_t process) {
 
 void VirtualMachine::restart(std::size_t process) {
     mail_.collect(network_, now_, process);  // nobody was there to receive it
-    if (!is_coordinator(process)) { device(process).advance(device_time(process)); }
+    if (!is_coordinator(process)) { advance_device(process); }
     start(process);
 }
 
@@ -109,7 +148,7 @@ void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
 /// At this very tick of the device, which looks at its inputs at once.
 void VirtualMachine::disturb(const VirtualFault& fault, bool begins) {
     const std::size_t i = fault.process;
-    device(i).advance(device_time(i));
+    advance_device(i);
     if (fault.kind == VirtualFault::Kind::Stick) {
         device(i).plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
     } else if (fault.kind == VirtualFault::Kind::Push && begins) {
@@ -117,7 +156,7 @@ void VirtualMachine::disturb(const VirtualFault& fault, bool begins) {
     } else if (begins) {
         damage_newest_frame(axes_[i].device.window);
     }
-    device(i).advance(device_time(i));
+    advance_device(i);
 }
 
 void VirtualMachine::schedule(const VirtualFault& fault) {
@@ -141,6 +180,9 @@ void VirtualMachine::take_turn(const Turn& turn) {
         case VirtualFault::Kind::Stick:
         case VirtualFault::Kind::Push:
         case VirtualFault::Kind::DamageFrame: disturb(turn.fault, turn.begins); break;
+        case VirtualFault::Kind::StopDevice:
+        case VirtualFault::Kind::KillDevice:
+        case VirtualFault::Kind::Overwrite: strike(turn.fault, turn.begins); break;
     }
     for (VirtualObserver* observer : observers_) { observer->on_fault(now_, turn.fault, turn.begins); }
 }
@@ -251,7 +293,7 @@ AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
     };
     AxisNode& node = *axes_[i].node;
     const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
-    device(i).advance(device_time(i));
+    advance_device(i);
     AxisOutputs out =
         node.decide(process_time(i),
                     {mail_.frames, mail_.axes, mail_.machine, mail_.axis_commands, mail_.commands, exchanges}, on_step);
@@ -260,9 +302,9 @@ AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
 }
 
 void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
-    device(i).advance(device_time(i));
+    advance_device(i);
     axes_[i].node->carry_out(process_time(i), out);
-    device(i).advance(device_time(i));  // it acts on its orders
+    advance_device(i);  // it acts on its orders
     ask_time(i);
     if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }
     if (out.state) { multicast(*out.state, i); }

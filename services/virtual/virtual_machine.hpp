@@ -102,6 +102,8 @@ private:
     /// An axis: its device, and the process that runs it, while there is one.
     struct Axis {
         AxisDevice device;
+        bool stopped = false;    // the device
+        bool no_device = false;  // that could be opened
         std::optional<AxisNode> node;
         std::optional<AxisFlight> flight;
         std::optional<ClockAsker> asker;
@@ -125,6 +127,11 @@ private:
     std::optional<std::size_t> next_process() const;
     void take_turn(const Turn& turn);
     void start(std::size_t process);
+    std::expected<AxisDevice, std::string> open_device(std::size_t axis) const;
+    void advance_device(std::size_t axis);
+    void power_up_anew(std::size_t axis, RegisterWindow window);
+    void overwrite(std::size_t axis, bool garbage);
+    void strike(const VirtualFault& fault, bool begins);
     void note_flight(std::size_t process);
     void crash(std::size_t process);
     void restart(std::size_t process);

@@ -125,6 +125,13 @@ Failure missing(const Session& session, const StateDirectory& state) {
             return failed(with_log("axis " + name + " is not heard", "axis-" + name, state));
         }
     }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const std::string& name = session.config().axes[i].name;
+        const auto& axis = session.axis(i);
+        if (axis && axis->state.unproved == static_cast<std::uint16_t>(FaultCode::DeviceMissing)) {
+            return failed(with_log("axis " + name + " waits for its device", "axis-" + name, state));
+        }
+    }
     return failed(with_log("the machine does not become idle", "coordinator", state));
 }
 

@@ -84,14 +84,20 @@ proto::RunReport new_report(const Job& job) {
     return report;
 }
 
-std::expected<Reply, Failure> begin(Session& session, const Job& job) {
+std::expected<Reply, Failure> begin(Session& session, const Job& job, const StopSignal& stop) {
     std::uint64_t program = 0;
     if (job.program) {
-        const auto sent = session.send(*job.program);
+        const auto sent = session.send(*job.program, &stop);
         if (!sent) { return std::unexpected(sent.error()); }
         program = *sent;
     }
-    return session.command({.kind = job.command, .axes = job.axes, .program = program, .ticks = job.ticks});
+    const Command command{.kind = job.command, .axes = job.axes, .program = program, .ticks = job.ticks};
+    auto reply = session.command(command, &stop);
+    if (reply || !stop.requested()) { return reply; }
+    (void)session.command({.kind = CommandKind::Stop});
+    return std::unexpected(
+        failed("interrupted before the coordinator answered: whether the job was begun is not "
+               "known, and a stop was sent; see: lockstep status"));
 }
 
 ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {
@@ -119,7 +125,7 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     if (session.config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     const StopSignal stop;
     proto::RunReport report = new_report(job);
-    const auto reply = begin(session, job);
+    const auto reply = begin(session, job, stop);
     if (!reply) { return voice.fail(reply.error()); }
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, voice); }
     report.set_job(reply->job);

@@ -2,11 +2,15 @@
 
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/status_text.hpp"
+#include "services/runtime/clock.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr std::chrono::milliseconds kGlance{100};  // how soon a signal is noticed
+/// For the machine to come to rest after a stop: a healthy one takes the frames that are under way, about a second, and
+/// its tail.
+constexpr std::chrono::seconds kRestPatience{10};
 
 }  // namespace
 
@@ -29,6 +33,7 @@ std::expected<JobVerdict, Failure> JobWatch::wait() {
         if (stop_.requested() && !stop_sent_) {
             if (auto sent = send_stop(); !sent) { return std::unexpected(sent.error()); }
         }
+        if (stop_sent_ && monotonic_now() - *stop_sent_ > kRestPatience) { return std::unexpected(restless()); }
         if (state.job == number_) { tell(state); }
     }
 }
@@ -40,8 +45,13 @@ Failure JobWatch::silent() const {
     return failure;
 }
 
+Failure JobWatch::restless() const {
+    return failed("the job has not ended within " + std::to_string(kRestPatience.count()) +
+                  " s of the stop; the machine may be in motion: lockstep status; to cease all pulses: lockstep estop");
+}
+
 std::expected<void, Failure> JobWatch::send_stop() {
-    stop_sent_ = true;
+    stop_sent_ = monotonic_now();
     voice_.say(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
     const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }

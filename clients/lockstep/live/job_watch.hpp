@@ -1,6 +1,7 @@
 // Waits for a job's end, and tells what happens meanwhile: progress, pauses, a stop that was asked for.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <expected>
 #include <optional>
@@ -17,12 +18,13 @@ public:
     /// `number`: of the job, from the reply to `command`.
     JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop);
 
-    /// A stop signal stops the machine on its path; then the job's end is waited for as ever. Error: the coordinator
-    /// fell silent, or refused the stop.
+    /// A stop signal stops the machine on its path; then the job's end is waited for, but not for ever. Error: the
+    /// coordinator fell silent, or refused the stop, or the job does not end.
     std::expected<JobVerdict, Failure> wait();
 
 private:
     Failure silent() const;
+    Failure restless() const;
     std::expected<void, Failure> send_stop();
     void tell(const MachineState& state);
     void tell_progress();
@@ -34,7 +36,7 @@ private:
     const StopSignal& stop_;
     Term asked_;
     Term runs_it_;  // who was last heard to
-    bool stop_sent_ = false;
+    std::optional<std::chrono::nanoseconds> stop_sent_;
     std::int32_t line_ = 0;  // the last in motion
     std::optional<MachinePhase> told_;
 };

@@ -174,14 +174,17 @@ Failure Session::silent() const {
                        start);
 }
 
-std::expected<Reply, Failure> Session::command(Command command) {
+std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {
     command.client = client_;
     command.sequence = ++sequence_;
-    const nanoseconds deadline = monotonic_now() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
+    nanoseconds deadline = monotonic_now() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
     nanoseconds repeat_at{};
     while (!replies_.contains(command.sequence)) {
         const nanoseconds now = monotonic_now();
         if (now > deadline) { return std::unexpected(silent()); }
+        const bool is_stopped = stop != nullptr && stop->requested();
+        if (is_stopped && repeat_at != nanoseconds::max()) { deadline = std::min(deadline, now + kAnswerPatience); }
+        if (is_stopped) { repeat_at = nanoseconds::max(); }  // what was asked may have been begun
         if (now >= repeat_at) {
             (void)asking().commands.write(command);
             repeat_at = now + kRepeatCommandAfter;
@@ -202,12 +205,13 @@ std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
     return replies_.extract(command.sequence).mapped();
 }
 
-std::expected<std::uint64_t, Failure> Session::send(const Program& program) {
+std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop) {
     const std::uint64_t id = new_identity() | 1;  // never 0, which says: none
     ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program));
     sequence_ += chunks.count();
     nanoseconds deadline = monotonic_now() + kPlanPatience;
     while (!chunks.done()) {
+        if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
         if (monotonic_now() > deadline) { return std::unexpected(silent()); }
         for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)asking().chunks.write(chunk); }
         listen(50ms);

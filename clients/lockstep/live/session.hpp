@@ -14,6 +14,7 @@
 #include "core/program.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
 
 namespace lockstep {
@@ -64,12 +65,12 @@ public:
     bool is_silent() const;
     Failure silent() const;
 
-    /// Asks until the answer comes; who asks is filled in. Error: none comes.
-    std::expected<Reply, Failure> command(Command command);
+    /// Asks until the answer comes; who asks is filled in. Error: none comes, or not soon after a signal to `stop`.
+    std::expected<Reply, Failure> command(Command command, const StopSignal* stop = nullptr);
     /// Calls out to coordinator and axes alike: axes stop by themselves. Nothing: no coordinator answered in the time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
-    /// Sends a program; what it is called in a command. Error: it is refused, or no answer comes.
-    std::expected<std::uint64_t, Failure> send(const Program& program);
+    /// Sends a program; what it is called in a command. Error: it is refused, no answer comes, or a signal to `stop`.
+    std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr);
 
 private:
     using Bus = std::variant<ViewerBus, ClientBus>;

@@ -77,7 +77,7 @@ private:
     std::expected<pid_t, std::string> pid_;
 };
 
-/// Each until it can be attached to: an axis tries once, as it begins.
+/// Each until it can be attached to: a scenario's time does not begin with waiting for devices.
 std::expected<void, std::string> start_devices(const Scenario& scenario, Cast& cast) {
     for (const AxisConfig& axis : scenario.machine.axes) {
         const std::string name = "fpga-" + axis.name;

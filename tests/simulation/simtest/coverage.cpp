@@ -41,7 +41,8 @@ constexpr std::array kInjectedNames{"freeze of an axis that must not stop the ma
                                     "home switch stuck closed",
                                     "home switch stuck open",
                                     "slide pushed",
-                                    "frame damaged in a device"};
+                                    "frame damaged in a device",
+                                    "device lost"};
 
 std::string row_name(const AxisTransition& row) {
     return std::string(name_of(row.from)) + " on " + std::string(name_of(row.event));
@@ -58,6 +59,9 @@ std::string_view injected_name(const VirtualFault& fault, const MachineConfig& m
         case VirtualFault::Kind::Stick: return kInjectedNames[!home ? 16 : (fault.closed ? 17 : 18)];
         case VirtualFault::Kind::Push: return kInjectedNames[19];
         case VirtualFault::Kind::DamageFrame: return kInjectedNames[20];
+        case VirtualFault::Kind::StopDevice:
+        case VirtualFault::Kind::KillDevice:
+        case VirtualFault::Kind::Overwrite: return kInjectedNames[21];
         case VirtualFault::Kind::Cut: break;
     }
     const std::size_t one_way = fault.outgoing && fault.incoming ? 0 : 1;

@@ -19,6 +19,7 @@ enum class Cause : std::uint8_t {
     Switch,
     Push,
     DamagedFrame,
+    Device,
     OwnClocks
 };
 
@@ -62,6 +63,7 @@ constexpr std::array kExplanations{
     Explanation{Cause::Push, FaultCode::LimitHit},
     Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
     Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
+    Explanation{Cause::Device, FaultCode::DeviceLost},
     // Whoever does not hear the coordinator's clock for long is no longer certain of it.
     Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
@@ -79,6 +81,9 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
         case VirtualFault::Kind::Stick: return Cause::Switch;
         case VirtualFault::Kind::Push: return Cause::Push;
         case VirtualFault::Kind::DamageFrame: return Cause::DamagedFrame;
+        case VirtualFault::Kind::StopDevice:
+        case VirtualFault::Kind::KillDevice:
+        case VirtualFault::Kind::Overwrite: return Cause::Device;
         case VirtualFault::Kind::Cut: break;
     }
     return Cause::Cut;

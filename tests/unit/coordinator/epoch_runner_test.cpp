@@ -80,5 +80,23 @@ TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
     EXPECT_EQ(end->ran, kRan);
 }
 
+TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
+    EpochRunner runner = on_a_long_move();
+    Slot slot = 100;
+    for (; runner.sent() < 20; ++slot) { (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {})); }
+    runner.stop(slot);
+    const Slot patience = 2 * 16 + 2;
+    slot += 100'000;  // a stall of its own proves nothing
+    for (Slot asked = 0; asked < patience; ++asked) {
+        ++slot;
+        (void)runner.send(slot, says(slot, 20, 21, 0, {}));
+        EXPECT_FALSE(runner.is_overdue()) << asked;
+    }
+    ++slot;
+    (void)runner.send(slot, says(slot, 20, 21, 0, {}));
+    EXPECT_TRUE(runner.is_overdue());
+    EXPECT_FALSE(runner.judge(slot, says(slot, 20, 21, 0, {})).has_value());
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -52,6 +52,44 @@ TEST(Driver, AWildRingEndIsAnErrorNotACrash) {
     EXPECT_NE(attach_error(bench.window).find("segment ring"), std::string::npos);
 }
 
+TEST(Driver, MemoryThatNoLongerShowsTheDeviceIsAnError) {
+    for (const std::size_t word :
+         {registers::kMagic, registers::kVersion, registers::kMapChecksum, registers::kTickNs}) {
+        DeviceBench bench;
+        ASSERT_TRUE(bench.driver.read());
+        bench.window.store(word, 7);
+        EXPECT_FALSE(bench.driver.read()) << word;
+        EXPECT_FALSE(bench.device.is_intact()) << word;
+    }
+}
+
+TEST(Driver, CapturedTicksThatCannotBeAreNotHandedOn) {
+    DeviceBench bench;
+    bench.order(device::BeginRun{1});
+    bench.order(last_frame(1));
+    bench.order(device::Arm{1});
+    bench.at(Tick{100'000});
+    const std::size_t third = registers::kCaptureRing + 2 * registers::kCaptureRingEntryBytes;
+    for (const std::uint64_t tick : {std::uint64_t{5}, std::uint64_t{100'001}, ~std::uint64_t{0} >> 1}) {
+        DeviceDriver driver = DeviceDriver::attach(bench.window, kTickNs).value();
+        bench.window.store(third, tick << 1);
+        int steps = 0;
+        EXPECT_FALSE(driver.drain_capture([&](StepEdge) { ++steps; })) << tick;
+        EXPECT_EQ(steps, 2) << tick;
+    }
+}
+
+TEST(Driver, AnOldStepIsNotHandedOnAgain) {
+    DeviceBench bench;
+    bench.order(device::BeginRun{1});
+    bench.order(last_frame(1));
+    bench.order(device::Arm{1});
+    bench.at(Tick{100'000});
+    EXPECT_EQ(bench.steps().size(), 10u);
+    bench.window.store(registers::kCaptureTail, 0);
+    EXPECT_FALSE(bench.driver.drain_capture([](StepEdge) { FAIL(); }));
+}
+
 TEST(Driver, ADeviceHeldUpInAnUpdateIsSeenAsItWasBefore) {
     DeviceBench bench;
     bench.at(Tick{5});

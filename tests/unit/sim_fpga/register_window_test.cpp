@@ -1,8 +1,12 @@
 // One register map over this process's memory, shared memory and files.
 #include "sim_fpga/register_window.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <unistd.h>
+
+#include <csignal>
 
 #include <fstream>
 #include <thread>
@@ -77,6 +81,45 @@ TEST(RegisterWindow, AMappedFileServesToo) {
     ASSERT_TRUE(window) << window.error();
     DeviceBench bench(bench_axis(), *window);
     EXPECT_EQ(bench.at(Tick{5}).now, Tick{5});
+}
+
+/// Accesses to memory that is no longer there: neither end crashes, and both see that this is no device.
+TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
+    for (const off_t left : {off_t{0}, off_t{4096}}) {  // with and without the page of the device's words
+        DeviceBench bench(endless_axis(), RegisterWindow::create_shared(own_name("cut")).value());
+        auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("cut")).value(), kTickNs).value();
+        ASSERT_TRUE(host.apply(device::BeginRun{1}));
+        ASSERT_TRUE(host.apply(frame(1)));
+        ASSERT_TRUE(host.apply(device::Arm{1}));
+        EXPECT_TRUE(bench.device.is_intact());
+        ASSERT_EQ(::truncate(("/dev/shm/" + own_name("cut")).c_str(), left), 0);
+        bench.device.advance(kStart + kBody);
+        (void)host.apply(frame(2));
+        const auto look = host.read();
+        ASSERT_FALSE(look);
+        EXPECT_TRUE(mentions(look.error(), "MAGIC reads 0x0000000000000000")) << look.error();
+        EXPECT_FALSE(bench.device.is_intact());
+    }
+}
+
+TEST(RegisterWindow, OnlyTheOneThatIsCutShortIsLost) {
+    DeviceBench cut(bench_axis(), RegisterWindow::create_shared(own_name("one")).value());
+    DeviceBench whole(bench_axis(), RegisterWindow::create_shared(own_name("other")).value());
+    ASSERT_EQ(::truncate(("/dev/shm/" + own_name("one")).c_str(), 0), 0);
+    cut.device.advance(Tick{5});
+    EXPECT_FALSE(cut.device.is_intact());
+    EXPECT_EQ(whole.at(Tick{5}).now, Tick{5});
+    EXPECT_TRUE(whole.device.is_intact());
+}
+
+TEST(RegisterWindowDeathTest, AMissingPageOfAnythingElseEndsTheProcess) {
+    const auto guarded = RegisterWindow::create_shared(own_name("guarded"));
+    const std::string path = ::testing::TempDir() + own_name("else");
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    ::unlink(path.c_str());
+    auto* const words = static_cast<volatile int*>(::mmap(nullptr, 4096, PROT_READ, MAP_SHARED, file, 0));
+    EXPECT_EXIT((void)*words, ::testing::KilledBySignal(SIGBUS), "");
+    ::close(file);
 }
 
 TEST(RegisterWindow, ABadNameIsRefused) {

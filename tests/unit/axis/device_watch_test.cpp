@@ -1,0 +1,121 @@
+// What cannot be a device: each contradiction, a clock that stands still, a run that does not end.
+#include "core/axis/device_watch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+/// Slots of 1 ms, ticks of 1 us: patience for 16 slots.
+class Watch : public testing::Test {
+protected:
+    static MachineConfig machine() {
+        MachineConfig machine;
+        machine.timing.slot_us = 1000;
+        machine.timing.freshness_slots = 2;
+        return machine;
+    }
+    /// A loop later, by both clocks.
+    std::string look() {
+        own_ += Ticks{500};
+        shown_.now += Ticks{500};
+        return look_at(shown_);
+    }
+    std::string look_at(const DeviceStatus& status) { return watch_.doubt_of(own_, status).value_or(""); }
+    /// Loops until there is doubt, with the device's clock standing still; in ms.
+    int patience(Ticks loop) {
+        const Tick begun = own_;
+        while (look_at(shown_).empty() && own_ - begun < Ticks{10'000'000}) { own_ += loop; }
+        return static_cast<int>((own_ - begun).value / 1000);
+    }
+    void order_run(std::uint64_t run, Ticks lasts) {
+        watch_.take(device::BeginRun{run});
+        watch_.take(device::LoadFrame{1, shown_.now, true, {{}, {{lasts, {}, {}}}, {}}});
+        shown_.run = shown_.run_asked = run;
+        shown_.frame = 1;
+    }
+
+    DeviceWatch watch_{machine()};
+    Tick own_{5'000'000};
+    DeviceStatus shown_{.now = Tick{1'000'000}, .power_up = 7, .run = 3, .run_asked = 3};
+};
+
+TEST_F(Watch, BelievesADeviceThatCounts) {
+    for (int loop = 0; loop < 100; ++loop) {
+        EXPECT_EQ(look(), "");
+        shown_.position = shown_.position + Displacement::steps(500);  // a pulse each tick
+    }
+}
+
+TEST_F(Watch, AClockThatStandsStillIsBorneForASilenceAndNoLonger) {
+    (void)look();
+    EXPECT_EQ(patience(Ticks{500}), 16);
+}
+
+TEST_F(Watch, TimeInWhichTheProcessStalledDoesNotCount) {
+    (void)look();
+    EXPECT_EQ(patience(Ticks{100'000}), 1700) << "a slot for each of its loops";
+}
+
+TEST_F(Watch, ARunThatDoesNotEndIsNoticed) {
+    (void)look();
+    order_run(4, Ticks{2000});
+    std::string doubt;
+    int loops = 0;
+    for (; doubt.empty() && loops < 1000; ++loops) { doubt = look(); }
+    EXPECT_NE(doubt.find("run 4 has not ended"), std::string::npos) << doubt;
+    EXPECT_EQ(loops, 2 * (2 + 16) + 1);
+}
+
+TEST_F(Watch, ARunThatEndsInTimeIsNot) {
+    (void)look();
+    order_run(4, Ticks{2000});
+    shown_.finished = true;
+    for (int loop = 0; loop < 1000; ++loop) { ASSERT_EQ(look(), ""); }
+}
+
+TEST_F(Watch, ARunThatIsNeverTakenIsNoticed) {
+    (void)look();
+    watch_.take(device::BeginRun{4});
+    shown_.run_asked = 4;
+    std::string doubt;
+    for (int loop = 0; doubt.empty() && loop < 1000; ++loop) { doubt = look(); }
+    EXPECT_NE(doubt.find("run 4 has not ended"), std::string::npos) << doubt;
+}
+
+TEST_F(Watch, AnotherPowerUpIsAnotherDevice) {
+    (void)look();
+    ++shown_.power_up;
+    EXPECT_NE(look().find("powered up anew"), std::string::npos);
+}
+
+TEST_F(Watch, AClockThatGoesBackIsNone) {
+    (void)look();
+    shown_.now = shown_.now - Ticks{501};
+    EXPECT_NE(look().find("its clock went back"), std::string::npos);
+}
+
+TEST_F(Watch, ACountThatIsFasterThanTheTicksIsNone) {
+    (void)look();
+    shown_.position = shown_.position - Displacement::steps(502);
+    EXPECT_NE(look().find("its count went from 0 to -502"), std::string::npos);
+}
+
+TEST_F(Watch, ARunThatNobodyOrderedIsNone) {
+    (void)look();
+    shown_.run_asked = 9;
+    EXPECT_NE(look().find("asked for run 9"), std::string::npos);
+    shown_.run_asked = 3;
+    shown_.run = 9;
+    EXPECT_NE(look().find("of run 9"), std::string::npos);
+}
+
+TEST_F(Watch, AFrameThatWasNotLoadedIsNone) {
+    (void)look();
+    order_run(4, Ticks{2000});
+    shown_.frame = 2;
+    EXPECT_NE(look().find("shows frame 2 of run 4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lockstep

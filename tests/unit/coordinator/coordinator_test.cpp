@@ -1,0 +1,74 @@
+// The coordinator alone, with axes that say what no axis of ours would.
+#include "core/coordinator/coordinator.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+/// One axis, which the test speaks for. Slots of 1 ms.
+class CoordinatorAlone : public testing::Test {
+protected:
+    static MachineConfig machine() {
+        MachineConfig machine{.name = "alone"};
+        machine.timing = {
+            .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+        machine.axes.push_back({.name = "X",
+                                .steps_per_mm = 100,
+                                .start_velocity_mm_s = 10,
+                                .max_velocity_mm_s = 50,
+                                .max_accel_mm_s2 = 500,
+                                .max_decel_mm_s2 = 500,
+                                .position_max_mm = 100});
+        return machine;
+    }
+    /// A slot: the axis says its state, the coordinator takes it, and its orders are done.
+    void slot(std::span<const Command> commands = {}) {
+        ++axis_.stamp;
+        const CoordinatorOutputs out =
+            coordinator_.step({Tick{axis_.stamp * 1000}, std::span(&axis_, 1), {}, commands});
+        if (coordinator_.owns_machine()) { axis_.term = coordinator_.term(); }
+        for (const AxisCommand& order : out.axis_commands) { axis_.command_done = order.sequence; }
+        for (const Frame& frame : out.frames) {
+            axis_.epoch = frame.epoch;
+            axis_.held = frame.number;
+            axis_.at_rest = false;
+        }
+        if (out.state) { state_ = *out.state; }
+    }
+    bool reaches(MachinePhase phase, int slots) {
+        for (int i = 0; i < slots && coordinator_.phase() != phase; ++i) { slot(); }
+        return coordinator_.phase() == phase;
+    }
+    void ask(CommandKind kind, std::uint64_t program = 0) {
+        const Command command{.client = 1, .sequence = ++sequence_, .kind = kind, .program = program};
+        slot(std::span(&command, 1));
+    }
+
+    Coordinator coordinator_{machine(), 1'000'000, 1};
+    AxisState axis_{.identity = 5, .stamp = 1000, .homed = true, .phase = AxisPhase::Standby, .config_hash = 1};
+    MachineState state_;
+    std::uint64_t sequence_ = 0;
+};
+
+TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
+    coordinator_.accept_program(
+        1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{90}, 20, false}}}});
+    ask(CommandKind::Run, 1);
+    for (int i = 0; i < 200; ++i) { slot(); }
+    ASSERT_EQ(coordinator_.phase(), MachinePhase::Running);
+    ask(CommandKind::Stop);
+    ASSERT_EQ(coordinator_.phase(), MachinePhase::Stopping);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 300)) << "frames, tail, and twice the silence";
+    EXPECT_EQ(static_cast<FaultCode>(state_.fault), FaultCode::NotAtRest);
+    EXPECT_EQ(state_.fault_axis, 0u);
+    EXPECT_EQ(state_.outcome, JobOutcome::Failed);
+    axis_.at_rest = true;
+    axis_.identity = 6;  // its process is started anew
+    ask(CommandKind::Reset);
+    EXPECT_TRUE(reaches(MachinePhase::Idle, 1000));
+}
+
+}  // namespace
+}  // namespace lockstep
