@@ -7,7 +7,7 @@ PHASES = ("clients", "jobs")
 
 def draw(samples):
     rows = [row for row in samples.rows if row.phase in PHASES]
-    ends = {phase: max(row.done for row in rows if row.phase == phase) for phase in PHASES}
+    ends = {phase: max((row.done for row in rows if row.phase == phase), default=0) for phase in PHASES}
     top_kb = 1024 * (max(row.rss_anon_kb for row in rows) // 1024 + 1)
     half = (WIDTH - LEFT - RIGHT) / 2
     x = lambda row: LEFT + half * (PHASES.index(row.phase) + row.done / max(1, ends[row.phase]))

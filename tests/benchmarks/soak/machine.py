@@ -82,10 +82,12 @@ class Machine:
             time.sleep(0.2)
 
     def short_job(self, number):
-        """There and back; a move and a program in turn."""
-        place = 10 + number % 2
-        if number % 4 < 2:
+        """There and back: of each four a move of all axes, a program, and two moves of one axis by itself."""
+        place = 10 + number // 4 % 2
+        if number % 4 == 0:
             return self.call("move", *(f"{axis}={place}" for axis in AXES))
+        if number % 4 > 1:
+            return self.call("move", "--own", f"X={place + number % 4}")
         job = self.folder / "job.gcode"
         job.write_text(f"G21 G90\nG1 X{place} Y{place} F3000\nG1 Z{place}\nG0 X{place + 1}\n")
         return self.call("run", str(job))

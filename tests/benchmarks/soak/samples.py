@@ -31,7 +31,7 @@ def kb_of(path, key):
 class Samples:
     def __init__(self, machine):
         self.machine = machine
-        self.processes = machine.processes()
+        self.processes = {}  # by name
         self.begun = time.monotonic()
         self.phase = ""
         self.failed_jobs = 0

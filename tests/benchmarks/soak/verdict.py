@@ -55,15 +55,14 @@ def differences(samples, process):
 
 def table(judged, samples, options, seconds):
     """Markdown."""
+    last = samples.rows[-1]
     lines = [f"{options.clients} clients and {options.jobs} jobs in {seconds / 60:.0f} minutes; "
              f"{samples.failed_jobs} jobs were cut short by the host and begun again.", "",
              "| process | before, KB | after, KB | growth over the last half of the clients, bytes each "
              "| of the jobs, bytes each | descriptors | threads |", "|---|---|---|---|---|---|---|"]
     for process in samples.processes:
-        before, after = samples.of(process, "before")[0], (samples.of(process, "after") or [None])[0]
-        if after is None:
-            continue
+        before, after = samples.of(process, "before")[0], samples.of(process, last.phase)[-1]
         each = [f"{judged.growth_each.get((process, phase), 0):.0f}" for phase in PHASES]
         lines.append(f"| {process} | {before.rss_anon_kb} | {after.rss_anon_kb} | {each[0]} | {each[1]} | "
                      f"{before.descriptors} → {after.descriptors} | {before.threads} → {after.threads} |")
-    return "\n".join(lines + ["", f"Files in /dev/shm: {before.shm_files} → {samples.rows[-1].shm_files}."])
+    return "\n".join(lines + ["", f"Files in /dev/shm: {samples.rows[0].shm_files} → {last.shm_files}."])
