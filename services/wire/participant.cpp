@@ -60,6 +60,7 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     made.subscriber_ = Entity(dds_create_subscriber(made.handle(), heard.get(), nullptr));
     if (!made.publisher_.good()) { return std::unexpected(cannot_open_domain(network, made.publisher_.why_not())); }
     if (!made.subscriber_.good()) { return std::unexpected(cannot_open_domain(network, made.subscriber_.why_not())); }
+    if (membership.credentials) { made.sent_keys_ = std::make_unique<SentKeys>(made.handle(), made.subscriber()); }
     return made;
 }
 

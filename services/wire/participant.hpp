@@ -11,6 +11,7 @@
 #include "core/machine.hpp"
 #include "services/wire/domain.hpp"
 #include "services/wire/entity.hpp"
+#include "services/wire/sent_keys.hpp"
 
 namespace lockstep {
 
@@ -61,6 +62,7 @@ private:
     Entity participant_;
     Entity publisher_;
     Entity subscriber_;
+    std::unique_ptr<SentKeys> sent_keys_;  // with security
     std::optional<std::string> failure_;
 };
 
