@@ -113,7 +113,11 @@ bool AxisCheck::begin_next_run() {
     runs_.pop_front();
     const Run& run = maker_->run();
     const bool follows = last_run_ && last_run_->incarnation == run.incarnation;
-    if (follows && last_run_->device_stop() != run.device_start()) {
+    const bool jumps = follows && last_run_->device_stop() != run.device_start();
+    if (jumps && std::exchange(device_lost_, false)) {
+        findings_.notes.push_back("axis " + name_ + ": its device was lost after " + name_of(*last_run_) + "; from " +
+                                  name_of(run) + " on another one counts, from " + std::to_string(run.device_start()));
+    } else if (jumps) {
         differ("axis " + name_ + ": " + name_of(run) + " starts at count " + std::to_string(run.device_start()) +
                    " of the device, the run before it ended at " + std::to_string(last_run_->device_stop()),
                {}, run.start);

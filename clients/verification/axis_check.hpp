@@ -57,6 +57,8 @@ public:
     /// In the order of their numbers.
     void take(Run run);
     void runs_missing(std::int64_t from, std::int64_t end);
+    /// The axis has said so: the next run may be on a device that counts anew.
+    void device_lost() { device_lost_ = true; }
     /// Call once, at the end of the log.
     void finish(const HasEnded& has_ended);
 
@@ -95,6 +97,7 @@ private:
     std::vector<std::int64_t> incarnations_;  // in the order of their first messages
     std::optional<StepMaker> maker_;          // of the run being compared
     std::optional<Run> last_run_;             // the one before it
+    bool device_lost_ = false;                // since the run before it
     std::int64_t unsaid_ = 0;                 // steps that a process which ended had not said
     std::int64_t steps_ = 0;                  // compared and equal
     std::optional<Tick> last_tick_;           // of these

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clients/analysis/log_step.hpp"
+#include "core/faults.hpp"
 
 namespace lockstep::verification {
 
@@ -46,7 +47,9 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace /*
     const auto of = machines_.find(message.machine);
     if (of == machines_.end()) { return; }
     const auto said = of->second.axes.find(message.axis);
-    if (said != of->second.axes.end()) { of->second.hear(*said->second, message.incarnation, message.utime); }
+    if (said == of->second.axes.end()) { return; }
+    of->second.hear(*said->second, message.incarnation, message.utime);
+    if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { said->second->check.device_lost(); }
 }
 
 void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
