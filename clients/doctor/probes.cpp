@@ -6,6 +6,7 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/statvfs.h>
 #include <sys/timex.h>
 #include <unistd.h>
 #include <lcm/lcm-cpp.hpp>
@@ -128,7 +129,11 @@ std::string why_not_writable(const std::string& directory) {
     std::filesystem::path path = directory;
     std::error_code error;
     while (!std::filesystem::exists(path, error) && path.has_relative_path()) { path = path.parent_path(); }
-    return access(path.c_str(), W_OK | X_OK) == 0 ? "" : path.string() + ": " + cause();
+    if (!std::filesystem::is_directory(path, error)) { return path.string() + ": is not a directory"; }
+    if (access(path.c_str(), W_OK | X_OK) != 0) { return path.string() + ": " + cause(); }
+    struct statvfs disk {};
+    const bool is_full = statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0;
+    return is_full ? path.string() + ": no space is left on its disk" : "";
 }
 
 }  // namespace lockstep::doctor

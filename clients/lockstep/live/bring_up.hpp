@@ -1,4 +1,4 @@
-// Starts a machine's processes on this host, and waits until it can be used.
+// Starts a machine's processes on this host, and waits until they can be used.
 #pragma once
 
 #include <expected>
@@ -10,13 +10,20 @@
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/state_directory.hpp"
 #include "clients/lockstep/live/voice.hpp"
+#include "services/documents/placement.hpp"
 
 namespace lockstep {
 
+/// What of a machine this host is to run.
+struct OwnParts {
+    Placement placed;
+    std::vector<ServiceLine> lines;
+};
+
 /// Routes multicast and claims the state directory, with a copy of the configuration in it; warns where the record
-/// cannot be published. Error: the machine is up already, or a program or the directory is missing.
-std::expected<std::vector<ServiceLine>, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
-                                                         const StateDirectory& state, Voice& voice);
+/// or positions cannot be kept. Error: the machine is up already, or a program or the directory is missing.
+std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
+                                         const StateDirectory& state, Voice& voice);
 
 /// Supervises in this process until SIGTERM or SIGINT.
 void supervise(const StateDirectory& state, const std::vector<ServiceLine>& lines);
@@ -26,9 +33,19 @@ void supervise(const StateDirectory& state, const std::vector<ServiceLine>& line
 std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state,
                                                               const std::vector<ServiceLine>& lines);
 
-/// Waits until the machine is Idle, or in Fault, with all axes heard. `since`: CLOCK_MONOTONIC before the start; who
-/// runs for longer was not started here. Error: who that is, or who is missing, with the end of its log.
-std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const StateDirectory& state,
-                                              std::chrono::nanoseconds since);
+/// Idle, or in Fault, with all axes heard.
+bool is_whole(const Session& session);
+
+/// Whether this host runs every part of the machine.
+bool is_alone(const MachineConfig& machine, const Placement& placed);
+
+/// Waits until this host's parts are on the network; where it runs all of them, until the machine is whole. What
+/// belongs on other hosts may be started at any time. Error: a part is run by others, was given up, or is missing, with
+/// the end of its log.
+std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const OwnParts& parts,
+                                              const StateDirectory& state, const ProcessRecord& supervisor);
+
+/// Waits for the parts on other hosts, at most so long. Whether the machine is whole.
+bool await_others(Session& session, std::chrono::nanoseconds patience);
 
 }  // namespace lockstep

@@ -20,6 +20,7 @@ std::string outcome_name(JobVerdict verdict) {
     switch (verdict) {
         case JobVerdict::Done: return "done";
         case JobVerdict::Stopped: return "stopped";
+        case JobVerdict::Held: return "held";
         case JobVerdict::Failed: return "failed";
         case JobVerdict::CutShort: return "cut-short";
         case JobVerdict::InProgress: return "begun";
@@ -59,9 +60,12 @@ std::string stopped_text(const Job& job, const Session& session) {
 
 void say_end(const Session& session, const Job& job, const proto::RunReport& report, Voice& voice) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
-    voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; at " + places_text(report), 80, "  "));
+    const std::string place = report.final_positions().empty() ? "where its axes stand is not known: none is heard"
+                                                               : "at " + places_text(report);
+    voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; " + place, 80, "  "));
     if (report.has_fault()) { voice.say(fault_text(report.fault())); }
     if (report.outcome() == "stopped") { voice.say(stopped_text(job, session)); }
+    if (report.outcome() == "held") { voice.say("go on with: lockstep resume; end the job with: lockstep stop"); }
     if (report.outcome() == "cut-short") { voice.say(wrapped(cut_short_text(report), 80, "  ")); }
     if (report.outcome() == "lost") {
         voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status");
@@ -124,6 +128,7 @@ ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunRep
 ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     if (session.config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     const StopSignal stop;
+    const HangUp hang_up;
     proto::RunReport report = new_report(job);
     const auto reply = begin(session, job, stop);
     if (!reply) { return voice.fail(reply.error()); }
@@ -133,7 +138,7 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     voice.say(title(job) + ": job " + std::to_string(reply->job) +
               (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
-    const auto verdict = JobWatch(session, reply->job, job.command, voice, stop).wait();
+    const auto verdict = JobWatch(session, reply->job, job.command, voice, stop, hang_up).wait();
     if (!verdict) { return voice.fail(verdict.error()); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     return end(session, job, *verdict, report, voice);

@@ -21,8 +21,8 @@ struct Job {
     bool detach = false;  // ends when the job has begun
 };
 
-/// Begins it, shows its progress, waits for its end, reports. SIGINT and SIGTERM stop the machine on its path first,
-/// and end this within some 15 s, whatever the machine does.
+/// Begins it, shows its progress, waits for its end, reports. SIGINT and SIGTERM stop the machine on its path first;
+/// SIGHUP, a closed terminal, holds it. Both end this within some 15 s, whatever the machine does.
 ExitCode run_job(Session& session, const Job& job, Voice& voice);
 
 /// Where every axis stands, in mm and to the step. Error: an axis is not heard.

@@ -9,6 +9,7 @@ enum class JobVerdict {
     InProgress,
     Done,
     Stopped,
+    Held,  // still open: the command left it at rest, to be resumed
     Failed,
     CutShort,  // the coordinator fell silent in the middle, and another has taken over: the axes rest
     Lost,      // the coordinator was started anew, or went on to another job: how this one ended is not known

@@ -14,12 +14,14 @@ constexpr std::chrono::seconds kRestPatience{10};
 
 }  // namespace
 
-JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop)
+JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop,
+                   const HangUp& hang_up)
     : session_(session),
       number_(number),
       command_(command),
       voice_(voice),
       stop_(stop),
+      hang_up_(hang_up),
       asked_(session.state()->state.term),
       runs_it_(asked_) {}
 
@@ -30,10 +32,10 @@ std::expected<JobVerdict, Failure> JobWatch::wait() {
         const MachineState& state = session_.state()->state;
         const JobVerdict verdict = judge(state, number_, asked_, runs_it_);
         if (verdict != JobVerdict::InProgress) { return verdict; }
-        if (stop_.requested() && !stop_sent_) {
-            if (auto sent = send_stop(); !sent) { return std::unexpected(sent.error()); }
-        }
-        if (stop_sent_ && monotonic_now() - *stop_sent_ > kRestPatience) { return std::unexpected(restless()); }
+        const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+        if (hang_up_.came() && rests && state.job == number_) { return JobVerdict::Held; }
+        if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
+        if (rest_asked_ && monotonic_now() - *rest_asked_ > kRestPatience) { return std::unexpected(restless()); }
         if (state.job == number_) { tell(state); }
     }
 }
@@ -50,8 +52,23 @@ Failure JobWatch::restless() const {
                   " s of the stop; the machine may be in motion: lockstep status; to cease all pulses: lockstep estop");
 }
 
+std::expected<void, Failure> JobWatch::follow_signals() {
+    if (hang_up_.came() && !hold_sent_) { return send_hold(); }
+    if (stop_.requested() && !stop_sent_) { return send_stop(); }
+    return {};
+}
+
+std::expected<void, Failure> JobWatch::send_hold() {
+    hold_sent_ = true;
+    rest_asked_ = monotonic_now();
+    const auto reply = session_.command({.kind = CommandKind::Hold});
+    if (!reply) { return std::unexpected(reply.error()); }
+    return reply->status == ReplyStatus::Accepted ? std::expected<void, Failure>{} : send_stop();
+}
+
 std::expected<void, Failure> JobWatch::send_stop() {
-    stop_sent_ = monotonic_now();
+    stop_sent_ = true;
+    rest_asked_ = monotonic_now();
     voice_.say(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
     const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }

@@ -6,6 +6,7 @@
 #include <expected>
 #include <optional>
 
+#include "clients/lockstep/live/hang_up.hpp"
 #include "clients/lockstep/live/job_verdict.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/voice.hpp"
@@ -16,15 +17,19 @@ namespace lockstep {
 class JobWatch {
 public:
     /// `number`: of the job, from the reply to `command`.
-    JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop);
+    JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop,
+             const HangUp& hang_up);
 
-    /// A stop signal stops the machine on its path; then the job's end is waited for, but not for ever. Error: the
-    /// coordinator fell silent, or refused the stop, or the job does not end.
+    /// A stop signal stops the machine on its path, a closed terminal holds it, or stops what cannot be held; then rest
+    /// is waited for, but not for ever. Error: the coordinator fell silent, or refused the stop, or the job goes on.
     std::expected<JobVerdict, Failure> wait();
 
 private:
     Failure silent() const;
     Failure restless() const;
+    /// What the signals that came ask for, once each.
+    std::expected<void, Failure> follow_signals();
+    std::expected<void, Failure> send_hold();
     std::expected<void, Failure> send_stop();
     void tell(const MachineState& state);
     void tell_progress();
@@ -34,9 +39,12 @@ private:
     CommandKind command_;
     Voice& voice_;
     const StopSignal& stop_;
+    const HangUp& hang_up_;
     Term asked_;
     Term runs_it_;  // who was last heard to
-    std::optional<std::chrono::nanoseconds> stop_sent_;
+    bool hold_sent_ = false;
+    bool stop_sent_ = false;
+    std::optional<std::chrono::nanoseconds> rest_asked_;  // when the last of them was sent
     std::int32_t line_ = 0;  // the last in motion
     std::optional<MachinePhase> told_;
 };

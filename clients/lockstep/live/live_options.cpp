@@ -7,8 +7,13 @@ namespace lockstep {
 void add_live_options(CLI::App& verb, LiveOptions& options) {
     verb.add_option(
         "--machine", options.machine_file,
-        "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host");
+        "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
+        "/etc/lockstep/machine.textproto");
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
+}
+
+void add_detach(CLI::App& verb, bool& detach) {
+    verb.add_flag("--detach", detach, "return with the job's number once it has begun; it goes on by itself");
 }
 
 std::string footer(const std::string& examples) {

@@ -17,6 +17,14 @@ struct LiveOptions {
 
 void add_live_options(CLI::App& verb, LiveOptions& options);
 
+/// --detach: for a verb that otherwise waits for its job's end.
+void add_detach(CLI::App& verb, bool& detach);
+
+/// What becomes of such a verb's job when the verb is interrupted.
+inline constexpr const char* kInterrupted =
+    "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: go on with\n"
+    "lockstep resume. With --detach, or under nohup, it goes on by itself.\n";
+
 /// Examples, one per line, then the exit codes.
 std::string footer(const std::string& examples);
 

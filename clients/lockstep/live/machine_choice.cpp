@@ -8,13 +8,16 @@
 namespace lockstep {
 
 std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
-                                                          const std::vector<std::filesystem::path>& up) {
+                                                          const std::vector<std::filesystem::path>& up,
+                                                          const std::filesystem::path& installed) {
     if (!option.empty()) { return option; }
     if (environment != nullptr && *environment != '\0') { return environment; }
     if (up.size() == 1) { return up.front(); }
+    if (up.empty() && !installed.empty()) { return installed; }
     constexpr const char* kHow = "say which: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
     if (up.empty()) {
-        return std::unexpected(bad_input("no machine is named and none is up on this host; " + std::string(kHow)));
+        return std::unexpected(bad_input("no machine is named, none is up on this host, and there is no " +
+                                         std::string(kInstalledMachine) + "; " + kHow));
     }
     std::string names;
     for (const auto& file : up) { names += (names.empty() ? "" : ", ") + file.parent_path().filename().string(); }
@@ -24,7 +27,9 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
 std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) {
     std::vector<std::filesystem::path> up;
     for (const std::string& name : machines_up()) { up.push_back(StateDirectory(name).machine_file()); }
-    auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up);
+    std::error_code error;
+    const bool is_installed = std::filesystem::exists(kInstalledMachine, error);
+    auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up, is_installed ? kInstalledMachine : "");
     if (!file) { return std::unexpected(file.error()); }
     auto config = load_machine_file(*file);
     if (!config) { return std::unexpected(bad_file(file->string(), config.error())); }

@@ -45,6 +45,13 @@ private:
     int file_ = -1;
 };
 
+std::optional<ProcessRecord> record_in(const std::string& line) {
+    std::istringstream words(line);
+    ProcessRecord record;
+    if (!(words >> record.name >> record.pid >> record.start) || record.pid < 0) { return std::nullopt; }
+    return record;
+}
+
 }  // namespace
 
 std::string to_text(const std::vector<ProcessRecord>& records) {
@@ -59,11 +66,14 @@ std::vector<ProcessRecord> records_from_text(std::string_view text) {
     std::vector<ProcessRecord> records;
     std::istringstream lines{std::string(text)};
     for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        ProcessRecord record;
-        if (words >> record.name >> record.pid >> record.start && record.pid >= 0) { records.push_back(record); }
+        if (auto record = record_in(line)) { records.push_back(*std::move(record)); }
     }
     return records;
+}
+
+bool is_damaged(std::string_view text) {
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    return lines == 0 || !text.ends_with('\n') || records_from_text(text).size() != lines;
 }
 
 std::optional<std::uint64_t> start_of(pid_t pid) {
@@ -83,6 +93,13 @@ std::optional<std::uint64_t> start_of(pid_t pid) {
 }
 
 bool is_running(const ProcessRecord& record) { return record.pid > 0 && start_of(record.pid) == record.start; }
+
+std::vector<std::string> command_line_of(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
+    std::vector<std::string> words;
+    for (std::string word; std::getline(file, word, '\0');) { words.push_back(word); }
+    return words;
+}
 
 void signal_process(const ProcessRecord& record, int signal) { ProcessHandle(record).signal(signal); }
 

@@ -23,10 +23,14 @@ struct ProcessRecord {
 /// One line each; what is no record is left out on the way in.
 std::string to_text(const std::vector<ProcessRecord>& records);
 std::vector<ProcessRecord> records_from_text(std::string_view text);
+/// It has no record, or a line that is none.
+bool is_damaged(std::string_view text);
 
 /// When a process started. Nothing where it is gone or only waits to be reaped.
 std::optional<std::uint64_t> start_of(pid_t pid);
 bool is_running(const ProcessRecord& record);
+/// Its program and arguments; empty where it is gone.
+std::vector<std::string> command_line_of(pid_t pid);
 
 /// Nothing happens where it has ended: a signal reaches the process of the record or none.
 void signal_process(const ProcessRecord& record, int signal);

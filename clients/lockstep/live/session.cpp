@@ -6,8 +6,10 @@
 
 #include "clients/lockstep/live/chunked_program.hpp"
 #include "core/protocol/rules.hpp"
+#include "services/documents/placement.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/host_name.hpp"
 #include "services/security/admission.hpp"
 #include "services/wire/dds_log.hpp"
 
@@ -156,19 +158,42 @@ bool Session::has_standby() const {
 
 bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
 
+std::vector<PresentProcess> Session::present() const {
+    return std::visit([](const ViewerBus& bus) { return present_processes(bus.participant); }, bus_);
+}
+
 std::string Session::whereabouts() const {
     return "machine '" + config().name + "' answers on interface " + config().network.interface + ", domain " +
            std::to_string(config().network.domain);
 }
 
-Failure Session::silent() const {
-    const std::string start = "lockstep up --machine " + machine_.file.string();
-    std::string heard;
+std::string Session::axes_heard() const {
+    std::string names;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (axis_present(i)) { heard += (heard.empty() ? "" : ", ") + config().axes[i].name; }
+        if (axis_present(i)) { names += (names.empty() ? "" : ", ") + config().axes[i].name; }
     }
+    return names;
+}
+
+std::string Session::axes_there() const {
+    std::string names;
+    for (const PresentProcess& process : present()) {
+        if (!process.axis || *process.axis >= axes_.size()) { continue; }
+        names += (names.empty() ? "" : ", ") + config().axes[*process.axis].name + " on " + process.host;
+    }
+    return names;
+}
+
+Failure Session::silent() const {
     const std::string refused = dds_said_last().empty() ? "" : " (DDS says: " + dds_said_last() + ")";
     const std::string none = "no coordinator of " + whereabouts() + refused;
+    if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
+        const std::string waiting = axes_there();
+        return unreachable(none + "; it belongs on " + host + ", there: lockstep up" +
+                           (waiting.empty() ? "" : "; axes that wait for it: " + waiting));
+    }
+    const std::string start = "lockstep up --machine " + machine_.file.string();
+    const std::string heard = axes_heard();
     if (heard.empty()) { return unreachable(none + ": is it up? " + start); }
     return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " +
                        start);

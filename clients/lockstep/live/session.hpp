@@ -16,6 +16,7 @@
 #include "core/protocol/messages.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus.hpp"
+#include "services/wire/present_processes.hpp"
 
 namespace lockstep {
 
@@ -64,6 +65,8 @@ public:
     /// No state of the coordinator for longer than any stall that the machine's timing allows.
     bool is_silent() const;
     Failure silent() const;
+    /// The machine's processes on the network, also those that say nothing yet.
+    std::vector<PresentProcess> present() const;
 
     /// Asks until the answer comes; who asks is filled in. Error: none comes, or not soon after a signal to `stop`.
     std::expected<Reply, Failure> command(Command command, const StopSignal* stop = nullptr);
@@ -85,6 +88,8 @@ private:
     void take();
     std::chrono::nanoseconds longest_silence() const;
     std::string whereabouts() const;
+    std::string axes_heard() const;
+    std::string axes_there() const;
 
     ChosenMachine machine_;
     Bus bus_;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "clients/lockstep/live/found_processes.hpp"
 #include "services/documents/text_file.hpp"
 #include "services/runtime/directories.hpp"
 
@@ -48,7 +49,7 @@ void StateDirectory::remove_logs() const {
 
 bool StateDirectory::lock() const {
     const int file =
-        open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
+        open(lock_file().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
     return file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 
@@ -65,9 +66,18 @@ void StateDirectory::record(const std::vector<ProcessRecord>& processes) const {
 std::vector<ProcessRecord> StateDirectory::recorded() const { return records_from_text(text_of(processes_file())); }
 
 std::vector<ProcessRecord> StateDirectory::running() const {
-    std::vector<ProcessRecord> records = recorded();
+    std::vector<ProcessRecord> records =
+        record_trouble() ? found_processes(machine_file(), lock_file()) : recorded();
     std::erase_if(records, [](const ProcessRecord& record) { return !is_running(record); });
     return records;
+}
+
+std::optional<std::string> StateDirectory::record_trouble() const {
+    std::error_code error;
+    if (!fs::exists(lock_file(), error)) { return std::nullopt; }
+    if (!fs::exists(processes_file(), error)) { return processes_file().string() + " is not there"; }
+    if (is_damaged(text_of(processes_file()))) { return processes_file().string() + " is damaged"; }
+    return std::nullopt;
 }
 
 void StateDirectory::forget_processes() const {

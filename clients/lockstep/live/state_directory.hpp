@@ -5,6 +5,7 @@
 
 #include <expected>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,15 @@ public:
     /// Readers see the old records or the new, never a part.
     void record(const std::vector<ProcessRecord>& processes) const;
     std::vector<ProcessRecord> recorded() const;
-    /// Those of them that run now.
+    /// Those of them that run now. Where the record cannot be read, those that the host's process table shows.
     std::vector<ProcessRecord> running() const;
+    /// Why the record cannot be relied on; nothing: it can, or the machine was never up.
+    std::optional<std::string> record_trouble() const;
     void forget_processes() const;
 
 private:
     std::filesystem::path processes_file() const { return path_ / "processes"; }
+    std::filesystem::path lock_file() const { return path_ / "lock"; }
     std::filesystem::path path_;
 };
 

@@ -1,8 +1,11 @@
 // lockstep down
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live/live_options.hpp"
 #include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/other_hosts.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/state_directory.hpp"
 #include "clients/lockstep/live/take_down.hpp"
@@ -16,7 +19,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
+struct DownOptions : LiveOptions {
+    AllHosts all;
+};
+
 constexpr auto kRestPatience = 10s;
+constexpr auto kLastStates = 300ms;  // who waits for the job's end is to hear where its axes came to rest
 
 /// A machine in motion or homing comes to rest first, on its path. One that does not answer is taken down as it is.
 void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
@@ -31,6 +39,8 @@ void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
     if (!session->command({.kind = CommandKind::Stop})) { return; }
     const auto deadline = monotonic_now() + kRestPatience;
     while (moves() && monotonic_now() < deadline) { session->listen(50ms); }
+    const auto heard = monotonic_now() + kLastStates;
+    while (monotonic_now() < heard) { session->listen(heard - monotonic_now()); }
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -48,14 +58,15 @@ ExitCode say_done(const std::string& text, Voice& voice) {
     return kExitDone;
 }
 
-ExitCode down(const LiveOptions& options) {
-    Voice voice(options.json);
+ExitCode down_here(const LiveOptions& options, Voice& voice) {
     const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
     if (!is_named && machines_up().empty()) { return say_done("nothing is up", voice); }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
+    const auto trouble = state.record_trouble();
     if (state.running().empty()) { return say_done("nothing of machine '" + machine->config.name + "' is up", voice); }
+    if (trouble) { voice.warn(*trouble + ": ends the processes that the host's process table shows"); }
     bring_to_rest(*machine, voice);
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {
@@ -65,15 +76,26 @@ ExitCode down(const LiveOptions& options) {
                              "'; see " + state.path().string() + "/processes"));
 }
 
+ExitCode down(const DownOptions& options) {
+    Voice voice(options.json);
+    if (!options.all.asked) { return down_here(options, voice); }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    OtherHosts others(options.all, machine->config, options, {"down"});
+    const ExitCode here = down_here(options, voice);
+    return others.finish(voice) ? here : std::max(here, kExitFailed);
+}
+
 }  // namespace
 
 void add_down(CLI::App& app, Action& action) {
     CLI::App* verb =
         app.add_subcommand("down", "stop the machine on its path if it moves, then end its processes on this host");
-    const auto options = std::make_shared<LiveOptions>();
+    const auto options = std::make_shared<DownOptions>();
+    add_all_hosts(*verb, options->all);
     add_live_options(*verb, *options);
     verb->footer("Where nothing is up there is nothing to do: it says so, and that is done.\n" +
-                 footer("  lockstep down\n"));
+                 footer("  lockstep down\n  lockstep down --all\n"));
     verb->callback([&action, options] { action = [options] { return down(*options); }; });
 }
 

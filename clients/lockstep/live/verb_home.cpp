@@ -11,6 +11,7 @@ namespace {
 
 struct HomeOptions : LiveOptions {
     std::vector<std::string> axes;
+    bool detach = false;
 };
 
 std::expected<AxisSet, Failure> axes_of(const MachineConfig& machine, const std::vector<std::string>& names) {
@@ -31,7 +32,9 @@ ExitCode home(const HomeOptions& options) {
     if (!axes) { return voice.fail(axes.error()); }
     auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
-    return run_job(*session, {.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes}, voice);
+    const Job job{
+        .command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes, .detach = options.detach};
+    return run_job(*session, job, voice);
 }
 
 }  // namespace
@@ -40,6 +43,7 @@ void add_home(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("home", "find the zero of all axes, or of those named, by their home switches");
     const auto options = std::make_shared<HomeOptions>();
     verb->add_option("axes", options->axes, "the axes' names; all where none is named");
+    add_detach(*verb, options->detach);
     add_live_options(*verb, *options);
     verb->footer("Ctrl-C, lockstep stop and lockstep hold end homing at rest: axes without their zero stay unhomed.\n" +
                  footer("  lockstep home\n  lockstep home X Y\n"));

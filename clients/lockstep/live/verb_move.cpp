@@ -11,26 +11,30 @@ namespace {
 
 struct MoveVerbOptions : LiveOptions {
     MoveOptions move;
+    bool detach = false;
 };
 
-ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, Voice& voice) {
+ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, bool detach,
+                       Voice& voice) {
     const auto planned_s = planned_seconds(session, program, start_mm);
     if (!planned_s) { return voice.fail(planned_s.error()); }
     const Job job{.command = CommandKind::Move,
                   .kind = "move",
                   .name = program.name,
                   .program = program,
-                  .planned_s = *planned_s};
+                  .planned_s = *planned_s,
+                  .detach = detach};
     return run_job(session, job, voice);
 }
 
-ExitCode move_own(Session& session, const MoveOptions& options, const Program& program, Voice& voice) {
+ExitCode move_own(Session& session, const MoveVerbOptions& options, const Program& program, Voice& voice) {
     const Job job{.command = CommandKind::MoveOwn,
                   .kind = "own-move",
                   .name = "own-move",
                   .program = program,
-                  .ticks = ticks_of(session.config(), options),
-                  .planned_s = options.in_s};
+                  .ticks = ticks_of(session.config(), options.move),
+                  .planned_s = options.move.in_s,
+                  .detach = options.detach};
     return run_job(session, job, voice);
 }
 
@@ -49,8 +53,8 @@ ExitCode move(const MoveVerbOptions& options) {
     if (!start_mm) { return voice.fail(start_mm.error()); }
     auto program = move_program(machine->config, *start_mm, options.move);
     if (!program) { return voice.fail(bad_input(program.error())); }
-    return options.move.own ? move_own(*session, options.move, *program, voice)
-                            : move_together(*session, *program, *start_mm, voice);
+    return options.move.own ? move_own(*session, options, *program, voice)
+                            : move_together(*session, *program, *start_mm, options.detach, voice);
 }
 
 }  // namespace
@@ -66,8 +70,10 @@ void add_move(CLI::App& app, Action& action) {
     verb->add_flag("--own", options->move.own,
                    "each axis on its own, by the method its configuration names; they arrive when they arrive");
     verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
+    add_detach(*verb, options->detach);
     add_live_options(*verb, *options);
     verb->footer(
+        kInterrupted +
         footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
                "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
                "  lockstep move --own X=20 --in 0.5\n"));

@@ -99,13 +99,13 @@ void add_run(CLI::App& app, Action& action) {
     verb->add_option("--started-at", options->started_at,
                      "with --from-line: where the program's first run started, in mm, X=10,Y=5; those not named were "
                      "parked");
-    verb->add_flag("--detach", options->detach, "return once it has begun");
+    add_detach(*verb, options->detach);
     verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
     add_live_options(*verb, *options);
-    verb->footer("Ctrl-C stops the machine on its path and drops the rest of the program.\n" +
+    verb->footer(kInterrupted +
                  footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
                         "  lockstep run plate.gcode --from-line 120 --dry-run\n"
-                        "  lockstep run plate.gcode --json > report.json\n"));
+                        "  lockstep run plate.gcode --detach\n  lockstep run plate.gcode --json > report.json\n"));
     verb->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 

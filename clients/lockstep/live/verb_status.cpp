@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live/live_options.hpp"
+#include "clients/lockstep/live/parts.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/session.hpp"
 #include "clients/lockstep/live/status_text.hpp"
@@ -26,8 +27,9 @@ ExitCode status(const LiveOptions& options) {
     if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
     proto::StatusReport report = status_report(*session);
     add_incidents(session->config(), report);
+    add_awaited(*session, report);
     voice.report(report);
-    if (!voice.json()) { std::cout << status_text(report) << std::flush; }
+    if (!voice.json()) { std::cout << status_text(report) << awaited_text(report) << std::flush; }
     return kExitDone;
 }
 

@@ -1,15 +1,20 @@
 // lockstep up
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live/bring_up.hpp"
 #include "clients/lockstep/live/live_options.hpp"
+#include "clients/lockstep/live/other_hosts.hpp"
+#include "clients/lockstep/live/parts.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/status_text.hpp"
 #include "clients/lockstep/live/take_down.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "services/runtime/clock.hpp"
+#include "services/runtime/host_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -19,7 +24,18 @@ struct UpOptions : LiveOptions {
     bool standby = false;
     std::string on_takeover = "stop";
     bool foreground = false;
+    std::optional<double> wait_s;  // for what other hosts run
+    AllHosts all;
 };
+
+constexpr double kGlance_s = 2;       // at what other hosts run: the last one of them says that all is ready
+constexpr double kWaitForAll_s = 60;  // where all of them are started
+
+std::string names_here(const MachineConfig& machine, const Placement& placed) {
+    std::string names = placed.coordinator ? "the coordinator" : "";
+    for (const std::size_t i : placed.axes) { names += (names.empty() ? "" : ", ") + machine.axes[i].name; }
+    return names;
+}
 
 ExitCode say_up(const Session& session, const StateDirectory& state, Voice& voice) {
     const proto::StatusReport report = status_report(session);
@@ -29,39 +45,88 @@ ExitCode say_up(const Session& session, const StateDirectory& state, Voice& voic
     return report.has_fault() ? kExitFailed : kExitDone;
 }
 
-ExitCode up(const UpOptions& options) {
-    Voice voice(options.json);
-    const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
-    const StateDirectory state(machine->config.name);
+/// This host's parts run; what the others are to run may come later.
+ExitCode say_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Voice& voice) {
+    proto::StatusReport report = status_report(session);
+    add_awaited(session, report);
+    voice.report(report);
+    if (!placed.empty()) {
+        voice.say("machine '" + report.machine() + "': " + names_here(session.config(), placed) +
+                  " up on this host, " + host_name() + "; logs in " + state.path().string());
+    }
+    voice.say(awaited_text(report).empty() ? status_text(report) : awaited_text(report) + "see: lockstep status");
+    return kExitDone;
+}
+
+/// Of a machine on several hosts.
+ExitCode await_and_say(Session& session, const UpOptions& options, const Placement& placed,
+                       const StateDirectory& state, Voice& voice) {
+    const double asked_s = options.wait_s.value_or(options.all.asked ? kWaitForAll_s : 0);
+    const bool whole = await_others(session, std::chrono::milliseconds(std::llround(std::max(asked_s, kGlance_s) * 1e3)));
+    if (whole && asked_s > 0) { return say_up(session, state, voice); }
+    const ExitCode said = say_part_up(session, placed, state, voice);
+    return whole || asked_s == 0 ? said : kExitUnreachable;
+}
+
+ExitCode give_up(const ChosenMachine& machine, const StateDirectory& state, const ProcessRecord& supervisor,
+                 Failure failure, Voice& voice) {
+    (void)take_down(state, supervisor);
+    std::string& message = failure.errors.front().message;
+    message += std::string(message.ends_with('\n') ? "" : "\n") + "machine '" + machine.config.name +
+               "' is not up; what was started is ended again";
+    return voice.fail(failure);
+}
+
+ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Voice& voice) {
+    const StateDirectory state(machine.config.name);
     const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
     const auto kind = kinds.find(options.fpga);
     const Layout layout{kind == kinds.end() ? FpgaKind::AsConfigured : kind->second, options.standby,
                         options.on_takeover == "continue"};
-    const auto lines = prepare(*machine, layout, state, voice);
-    if (!lines) { return voice.fail(lines.error()); }
+    const auto parts = prepare(machine, layout, state, voice);
+    if (!parts) { return voice.fail(parts.error()); }
     if (options.foreground) {
-        supervise(state, *lines);
+        supervise(state, parts->lines);
         return kExitDone;
     }
-    const auto since = monotonic_now();
-    const auto supervisor = supervise_in_background(state, *lines);
+    const auto supervisor = supervise_in_background(state, parts->lines);
     if (!supervisor) { return voice.fail(supervisor.error()); }
-    const auto session = wait_until_up(*machine, state, since);
-    if (session) { return say_up(*session, state, voice); }
-    (void)take_down(state, *supervisor);
-    Failure failure = session.error();
-    failure.errors.front().message += failure.errors.front().message.ends_with('\n') ? "" : "\n";
-    failure.errors.front().message +=
-        "machine '" + machine->config.name + "' is not up; what was started is ended again";
-    return voice.fail(failure);
+    auto session = wait_until_up(machine, *parts, state, *supervisor);
+    if (!session) { return give_up(machine, state, *supervisor, session.error(), voice); }
+    return is_alone(machine.config, parts->placed) ? say_up(*session, state, voice)
+                                                   : await_and_say(*session, options, parts->placed, state, voice);
+}
+
+/// Where every part belongs on another host.
+ExitCode up_elsewhere(const UpOptions& options, const ChosenMachine& machine, Voice& voice) {
+    auto session = Session::join(machine, Purpose::Look);
+    if (!session) { return voice.fail(session.error()); }
+    return await_and_say(*session, options, {}, StateDirectory(machine.config.name), voice);
+}
+
+/// What the other hosts are to be told.
+std::vector<std::string> words_of(const UpOptions& options) {
+    std::vector<std::string> words{"up"};
+    if (!options.fpga.empty()) { words.insert(words.end(), {"--fpga", options.fpga}); }
+    if (options.standby) { words.insert(words.end(), {"--standby", "--on-takeover", options.on_takeover}); }
+    return words;
+}
+
+ExitCode up(const UpOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    OtherHosts others(options.all, machine->config, options, words_of(options));
+    const bool is_here = !options.all.asked || !placed_on(machine->config, host_name()).empty();
+    const ExitCode here = is_here ? up_here(options, *machine, voice) : up_elsewhere(options, *machine, voice);
+    return others.finish(voice) ? here : std::max(here, kExitFailed);
 }
 
 }  // namespace
 
 void add_up(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "up", "start those of a machine's processes that belong on this host, and wait until it is ready");
+        "up", "start those of a machine's processes that belong on this host, and wait until they are ready");
     const auto options = std::make_shared<UpOptions>();
     verb->add_option("--fpga", options->fpga,
                      "the devices, instead of the configuration's: sim, simulated in the axes' processes; shm, in "
@@ -75,14 +140,22 @@ void add_up(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"stop", "continue"}))
         ->needs(standby)
         ->capture_default_str();
-    verb->add_flag("--foreground", options->foreground,
-                   "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
+    CLI::Option* foreground = verb->add_flag("--foreground", options->foreground,
+                                             "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
+    add_all_hosts(*verb, options->all)->excludes(foreground);
+    verb->add_option("--wait", options->wait_s,
+                     "where the machine is on several hosts, also wait until all of it is ready, at most so many "
+                     "seconds; this host's part stays up in any case")
+        ->check(CLI::Range(0.0, 86'400.0));
     add_live_options(*verb, *options);
     verb->footer(
+        "Where the machine is on several hosts, give it on each, in any order and at any time: it starts what belongs\n"
+        "there, says what the machine still waits for, and is done when this host's part is up.\n"
         "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; where that is not set, in\n"
         "/run/lockstep/MACHINE (root) or $XDG_RUNTIME_DIR/lockstep/MACHINE.\n" +
         footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"
-               "  lockstep up --machine mill.textproto --standby --on-takeover continue\n"));
+               "  lockstep up --machine mill.textproto --standby --on-takeover continue\n"
+               "  lockstep up --wait 60\n  lockstep up --all --ssh 'ssh -i key'\n"));
     verb->callback([&action, options] { action = [options] { return up(*options); }; });
 }
 

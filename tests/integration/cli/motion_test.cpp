@@ -8,6 +8,7 @@
 namespace lockstep {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 constexpr const char* kSquare = "G21 G90\nG0 X20 Y0\nG1 X60 F9000\nG1 Y40\nG1 X20\nG1 Y0\nM2\n";
@@ -105,6 +106,45 @@ TEST_F(Motion, StopsOnItsPathWhenItsCommandIsInterrupted) {
     EXPECT_EQ(ran.code, 1);
     EXPECT_THAT(ran.out, HasSubstr("stopped on the path"));
     EXPECT_EQ(status().phase(), "Idle");
+}
+
+TEST_F(Motion, IsHeldWhenItsTerminalIsClosed) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ASSERT_TRUE(becomes("Running"));
+    run.signal(SIGHUP);
+    const Ran ran = run.wait();
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_THAT(ran.out, HasSubstr("run long.gcode: held"));
+    EXPECT_EQ(status().phase(), "Holding");
+    EXPECT_EQ(run_lockstep({"resume"}).code, 0);
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"stop"}).code, 0);
+}
+
+TEST_F(Motion, OfAnAxisOnItsOwnIsStoppedWhenItsTerminalIsClosed) {  // it cannot be held
+    Command move(LOCKSTEP_COMMAND, {"move", "--own", "X=199", "--json"});
+    ASSERT_TRUE(becomes("Running"));
+    move.signal(SIGHUP);
+    EXPECT_EQ(move.wait().json<proto::RunReport>().outcome(), "stopped");
+    EXPECT_TRUE(status().axes(0).at_rest());
+}
+
+TEST_F(Motion, GoesOnUnattendedWhereThatWasAsked) {
+    const Ran begun = run_lockstep({"move", "X=40", "--feed", "600", "--detach"});
+    EXPECT_EQ(begun.code, 0);
+    EXPECT_THAT(begun.out, HasSubstr("move: begun as job 2"));
+    ASSERT_TRUE(becomes("Idle"));
+    EXPECT_EQ(status().axes(0).position_mm(), 40);
+    Command home(LOCKSTEP_COMMAND, {"home", "--detach", "--json"});
+    EXPECT_EQ(home.wait().json<proto::RunReport>().outcome(), "begun");
+    EXPECT_TRUE(eventually([&] { return status().phase() == "Idle" && status().axes(0).position_mm() == 1; }));
+}
+
+TEST_F(Motion, ThatIsTakenDownSaysWhereItCameToRest) {
+    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"down"}).code, 0);
+    EXPECT_THAT(run.wait().out, ContainsRegex("stopped after .*; at X [0-9.]+  Y [0-9.]+"));
 }
 
 TEST_F(Motion, OfAxesOnTheirOwnEndsWhereItSays) {

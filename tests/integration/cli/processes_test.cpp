@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
@@ -10,6 +11,7 @@
 namespace lockstep {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class Processes : public OwnMachine {};
@@ -58,6 +60,32 @@ TEST_F(Processes, AreTakenDownAlsoWithoutTheirSupervisor) {
     EXPECT_EQ(down.code, 0) << down.out << down.err;
     EXPECT_TRUE(wait_until_gone(processes, std::chrono::milliseconds{0}));
     bring_up();
+}
+
+TEST_F(Processes, AreTakenDownThoughTheirRecordIsDamagedOrGone) {
+    const std::filesystem::path record = state().path() / "processes";
+    for (const bool is_gone : {false, true}) {
+        bring_up();
+        const auto processes = state().running();
+        is_gone ? (void)std::filesystem::remove(record) : (void)(std::ofstream(record) << "\x01garbage\n\xff 12\n");
+        const std::string wrong = record.string() + (is_gone ? " is not there" : " is damaged");
+        const Ran up = run_lockstep({"up"});
+        EXPECT_EQ(up.code, 1);
+        EXPECT_THAT(up.err, AllOf(HasSubstr("is up already"), HasSubstr(wrong + "; end it: lockstep down")));
+        const Ran down = run_lockstep({"down"});
+        EXPECT_EQ(down.code, 0) << down.out << down.err;
+        EXPECT_THAT(down.err, HasSubstr(wrong));
+        EXPECT_TRUE(wait_until_gone(processes, std::chrono::milliseconds{0}));
+        EXPECT_EQ(run_lockstep({"down"}).code, 0);
+    }
+}
+
+TEST_F(Processes, ThatCannotKeepTheRecordAreSaidNotTo) {
+    std::ofstream(folder() / "state" / state().path().filename() / "record") << "no directory";
+    const Ran up = run_lockstep({"up"});
+    EXPECT_EQ(up.code, 0) << up.out << up.err;
+    EXPECT_THAT(up.err, AllOf(HasSubstr("no log of its own is kept"), HasSubstr((state().path() / "record").string()),
+                              HasSubstr("install -d"), HasSubstr("record { directory }")));
 }
 
 TEST_F(Processes, RunTheirDevicesApartWhereAsked) {

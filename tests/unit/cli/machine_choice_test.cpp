@@ -15,6 +15,12 @@ TEST(MachineChoice, IsTheOptionThenTheEnvironmentThenTheOneThatIsUp) {
     EXPECT_EQ(choose_file("", "", {"/run/lockstep/c/machine.textproto"}), "/run/lockstep/c/machine.textproto");
 }
 
+TEST(MachineChoice, IsTheInstalledOneWhereNoneIsUp) {
+    EXPECT_EQ(choose_file("", nullptr, {}, kInstalledMachine), kInstalledMachine);
+    EXPECT_EQ(choose_file("", nullptr, {"/run/lockstep/c/machine.textproto"}, kInstalledMachine),
+              "/run/lockstep/c/machine.textproto");
+}
+
 TEST(MachineChoice, IsNotGuessed) {
     const auto none = choose_file("", nullptr, {});
     ASSERT_FALSE(none);

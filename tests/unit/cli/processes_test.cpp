@@ -27,6 +27,13 @@ TEST(ProcessRecord, ThatIsDamagedIsLeftOut) {
                 ElementsAre(ProcessRecord{"axis-Z", 7, 9}));
 }
 
+TEST(ProcessRecord, IsKnownToBeDamaged) {
+    EXPECT_FALSE(is_damaged(to_text({{"supervisor", 12, 3456}, {"axis-X", 0, 0}})));
+    for (const char* text : {"", "\n", "supervisor 12 3456", "supervisor 12 3456\naxis-X\n", "\x01\xff\n"}) {
+        EXPECT_TRUE(is_damaged(text)) << text;
+    }
+}
+
 TEST(ProcessRecord, IsOfOneProcessNotOfItsNumber) {
     EXPECT_TRUE(is_running(this_process()));
     ProcessRecord earlier = this_process();
