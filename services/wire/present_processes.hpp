@@ -1,5 +1,5 @@
-// Which processes of a machine are on the network, by DDS's discovery alone: also one that publishes nothing yet, such as
-// an axis that waits for the coordinator's clock.
+// Which processes of a machine are on the network, by DDS's discovery alone: also one that publishes nothing yet, such
+// as an axis that waits for the coordinator's clock.
 #pragma once
 
 #include <cstdint>

@@ -73,9 +73,9 @@ std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDire
     const std::string name = "machine '" + machine.config.name + "'";
     if (const auto running = state.running(); !running.empty()) {
         const auto trouble = state.record_trouble();
-        return std::unexpected(failed(name + " is up already (" + names_of(running) + ")" +
-                                      (trouble ? ", but " + *trouble + "; end it: lockstep down"
-                                               : "; see: lockstep status, lockstep down")));
+        return std::unexpected(failed(
+            name + " is up already (" + names_of(running) + ")" +
+            (trouble ? ", but " + *trouble + "; end it: lockstep down" : "; see: lockstep status, lockstep down")));
     }
     if (auto made = state.make(); !made) { return std::unexpected(failed(made.error())); }
     if (!state.lock()) {
@@ -163,7 +163,8 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
                                          "; start the machine's parts on their hosts, or change `host`"));
     }
     if (const std::string part = part_without_host(machine.config); !part.empty()) {
-        return std::unexpected(bad_input(machine.file.string() + ": " + part + " has no host, but other parts have; up " +
+        return std::unexpected(bad_input(machine.file.string() + ": " + part +
+                                         " has no host, but other parts have; up " +
                                          "would start it on each of them: name its host"));
     }
     const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);

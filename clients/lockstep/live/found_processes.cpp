@@ -44,7 +44,8 @@ bool has_open(pid_t pid, const fs::path& file) {
 std::string service_name(const std::vector<std::string>& words, const fs::path& machine_file) {
     if (value_of(words, "--machine") != machine_file) { return ""; }
     const auto is_run = [&](const std::string& program) {
-        return std::ranges::any_of(words, [&](const std::string& word) { return fs::path(word).filename() == program; });
+        return std::ranges::any_of(words,
+                                   [&](const std::string& word) { return fs::path(word).filename() == program; });
     };
     if (is_run("lockstep-axis")) { return "axis-" + value_of(words, "--axis"); }
     if (is_run("lockstep-fpga")) { return "fpga-" + value_of(words, "--axis"); }

@@ -8,7 +8,8 @@
 
 namespace lockstep {
 
-/// The services that were started with this machine file, and the supervisors that keep this lock open; not this process.
+/// The services that were started with this machine file, and the supervisors that keep this lock open; not this
+/// process.
 std::vector<ProcessRecord> found_processes(const std::filesystem::path& machine_file,
                                            const std::filesystem::path& lock);
 

@@ -1,5 +1,5 @@
-// The parts of a machine that this host is to run, while they are brought up. They are known by process numbers and this
-// host's process table: clocks of other hosts and their processes do not matter.
+// The parts of a machine that this host is to run, while they are brought up. They are known by process numbers and
+// this host's process table: clocks of other hosts and their processes do not matter.
 #pragma once
 
 #include <optional>

@@ -48,8 +48,8 @@ std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, cons
     std::vector<proto::AwaitedPart> parts;
     if (!seen.coordinator_heard) {
         const bool is_there = is_present(seen.present, std::nullopt);
-        parts.push_back(awaited(part_name(machine, {}), machine.coordinator_host,
-                                is_there ? "started, not heard" : kAbsent));
+        parts.push_back(
+            awaited(part_name(machine, {}), machine.coordinator_host, is_there ? "started, not heard" : kAbsent));
     }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const bool is_known = !seen.coordinator_heard || has_axis(seen.axes_heard_by_coordinator, i);

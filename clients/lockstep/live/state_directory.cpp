@@ -48,8 +48,7 @@ void StateDirectory::remove_logs() const {
 }
 
 bool StateDirectory::lock() const {
-    const int file =
-        open(lock_file().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
+    const int file = open(lock_file().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
     return file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 
@@ -66,8 +65,7 @@ void StateDirectory::record(const std::vector<ProcessRecord>& processes) const {
 std::vector<ProcessRecord> StateDirectory::recorded() const { return records_from_text(text_of(processes_file())); }
 
 std::vector<ProcessRecord> StateDirectory::running() const {
-    std::vector<ProcessRecord> records =
-        record_trouble() ? found_processes(machine_file(), lock_file()) : recorded();
+    std::vector<ProcessRecord> records = record_trouble() ? found_processes(machine_file(), lock_file()) : recorded();
     std::erase_if(records, [](const ProcessRecord& record) { return !is_running(record); });
     return records;
 }

@@ -12,7 +12,9 @@
 #include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "idl/proto/report.pb.h"
+#include "services/documents/placement.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/host_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -82,7 +84,8 @@ ExitCode down(const DownOptions& options) {
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
     OtherHosts others(options.all, machine->config, options, {"down"});
-    const ExitCode here = down_here(options, voice);
+    const bool is_here = !placed_on(machine->config, host_name()).empty();
+    const ExitCode here = is_here ? down_here(options, voice) : kExitDone;
     return others.finish(voice) ? here : std::max(here, kExitFailed);
 }
 

@@ -32,8 +32,7 @@ ExitCode home(const HomeOptions& options) {
     if (!axes) { return voice.fail(axes.error()); }
     auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return voice.fail(session.error()); }
-    const Job job{
-        .command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes, .detach = options.detach};
+    const Job job{.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes, .detach = options.detach};
     return run_job(*session, job, voice);
 }
 
@@ -45,8 +44,10 @@ void add_home(CLI::App& app, Action& action) {
     verb->add_option("axes", options->axes, "the axes' names; all where none is named");
     add_detach(*verb, options->detach);
     add_live_options(*verb, *options);
-    verb->footer("Ctrl-C, lockstep stop and lockstep hold end homing at rest: axes without their zero stay unhomed.\n" +
-                 footer("  lockstep home\n  lockstep home X Y\n"));
+    verb->footer(
+        "Ctrl-C, a closed terminal (SIGHUP), lockstep stop and lockstep hold end homing at rest: axes without\n"
+        "their zero stay unhomed. With --detach, or under nohup, homing goes on by itself.\n" +
+        footer("  lockstep home\n  lockstep home X Y\n"));
     verb->callback([&action, options] { action = [options] { return home(*options); }; });
 }
 

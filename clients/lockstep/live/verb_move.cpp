@@ -72,11 +72,9 @@ void add_move(CLI::App& app, Action& action) {
     verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
     add_detach(*verb, options->detach);
     add_live_options(*verb, *options);
-    verb->footer(
-        kInterrupted +
-        footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
-               "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
-               "  lockstep move --own X=20 --in 0.5\n"));
+    verb->footer(kInterrupted + footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
+                                       "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
+                                       "  lockstep move --own X=20 --in 0.5\n"));
     verb->callback([&action, options] { action = [options] { return move(*options); }; });
 }
 

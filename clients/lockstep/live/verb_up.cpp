@@ -40,7 +40,9 @@ std::string names_here(const MachineConfig& machine, const Placement& placed) {
 ExitCode say_up(const Session& session, const StateDirectory& state, Voice& voice) {
     const proto::StatusReport report = status_report(session);
     voice.report(report);
-    voice.say("machine '" + report.machine() + "' is up; logs in " + state.path().string());
+    const bool is_spread = hosts_of(session.config()).size() > 1;
+    voice.say("machine '" + report.machine() + "' is up; logs in " + state.path().string() +
+              (is_spread ? ", on each host" : ""));
     voice.say(status_text(report) + (report.has_fault() ? "" : "next: lockstep home"));
     return report.has_fault() ? kExitFailed : kExitDone;
 }
@@ -51,18 +53,19 @@ ExitCode say_part_up(const Session& session, const Placement& placed, const Stat
     add_awaited(session, report);
     voice.report(report);
     if (!placed.empty()) {
-        voice.say("machine '" + report.machine() + "': " + names_here(session.config(), placed) +
-                  " up on this host, " + host_name() + "; logs in " + state.path().string());
+        voice.say("machine '" + report.machine() + "': " + names_here(session.config(), placed) + " up on this host, " +
+                  host_name() + "; logs in " + state.path().string());
     }
     voice.say(awaited_text(report).empty() ? status_text(report) : awaited_text(report) + "see: lockstep status");
     return kExitDone;
 }
 
 /// Of a machine on several hosts.
-ExitCode await_and_say(Session& session, const UpOptions& options, const Placement& placed,
-                       const StateDirectory& state, Voice& voice) {
+ExitCode await_and_say(Session& session, const UpOptions& options, const Placement& placed, const StateDirectory& state,
+                       Voice& voice) {
     const double asked_s = options.wait_s.value_or(options.all.asked ? kWaitForAll_s : 0);
-    const bool whole = await_others(session, std::chrono::milliseconds(std::llround(std::max(asked_s, kGlance_s) * 1e3)));
+    const bool whole =
+        await_others(session, std::chrono::milliseconds(std::llround(std::max(asked_s, kGlance_s) * 1e3)));
     if (whole && asked_s > 0) { return say_up(session, state, voice); }
     const ExitCode said = say_part_up(session, placed, state, voice);
     return whole || asked_s == 0 ? said : kExitUnreachable;
@@ -140,8 +143,9 @@ void add_up(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"stop", "continue"}))
         ->needs(standby)
         ->capture_default_str();
-    CLI::Option* foreground = verb->add_flag("--foreground", options->foreground,
-                                             "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
+    CLI::Option* foreground =
+        verb->add_flag("--foreground", options->foreground,
+                       "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_all_hosts(*verb, options->all)->excludes(foreground);
     verb->add_option("--wait", options->wait_s,
                      "where the machine is on several hosts, also wait until all of it is ready, at most so many "

@@ -1,7 +1,6 @@
 # Boards for a test: hosts in namespaces, each with a network, host name, uptime, process table and files of its own,
-# joined by a bridge. Source it, call own_world "$@" first, then: board NAME NUMBER UPTIME_S, on NAME COMMAND...,
-# unplug NAME.
-declare -A init
+# joined by a bridge, and reached from outside. Source it, call own_world "$@" first, then: board NAME NUMBER UPTIME_S,
+# on NAME COMMAND..., unplug NAME. $work/ssh NAME COMMAND... does what ssh would.
 
 # Starts the script anew in namespaces that end with it, and take all boards along.
 own_world() {
@@ -12,11 +11,14 @@ own_world() {
     fi
     work=$(mktemp -d)
     mount -t tmpfs tmpfs "$work"
+    mount -t tmpfs tmpfs /run
+    printf '#!/bin/bash\nname=$1\nshift\nexec nsenter --target "$(<"%s/$name.init")" --all -- "$@"\n' "$work" >"$work/ssh"
+    chmod +x "$work/ssh"
     cp -a /etc "$work/etc" && mkdir -p "$work/etc/lockstep" && mount --bind "$work/etc" /etc
     ip link set lo up
-    ip link add bridge type bridge mcast_snooping 0
-    ip addr add 10.9.0.1/24 dev bridge
-    ip link set bridge up
+    ip link add eth0 type bridge mcast_snooping 0  # by the name that the boards' end has: the machine's file has one
+    ip addr add 10.9.0.1/24 dev eth0
+    ip link set eth0 up
     clocks=yes
     unshare --time --fork --monotonic 5 --boottime 5 true 2>/dev/null ||
         { clocks=; echo "the kernel permits no uptime of a board's own: all have the host's"; }
@@ -35,24 +37,22 @@ board() {  # NAME NUMBER UPTIME_S, beyond the host's own
         while :; do sleep 3600 & wait; done' board "$name" "$work/$name.pid" </dev/null &
     local outside=$!
     read -r _ <"$work/$name.pid"
-    init[$name]=$(pgrep -P "$outside")
-    ip link add "to-$name" type veth peer name eth0 netns "${init[$name]}"
-    ip link set "to-$name" master bridge up
+    pgrep -P "$outside" >"$work/$name.init"
+    ip link add "to-$name" type veth peer name eth0 netns "$(<"$work/$name.init")"
+    ip link set "to-$name" master eth0 up
     on "$name" ip link set lo up
     on "$name" ip link set eth0 up
     on "$name" ip addr add "10.9.0.$number/24" dev eth0
     on "$name" ip route add default via 10.9.0.1
 }
 
-on() {  # NAME COMMAND...
-    local name=$1
-    shift
-    nsenter --target "${init[$name]}" --all -- "$@"
-}
+on() { "$work/ssh" "$@"; }  # NAME COMMAND...
 
 # As by a power cut: nothing on it ends as it would like to.
 unplug() {  # NAME
-    kill -KILL "${init[$1]}"
-    while [ -e "/proc/${init[$1]}" ]; do sleep 0.05; done
+    local first
+    first=$(<"$work/$1.init")
+    kill -KILL "$first"
+    while [ -e "/proc/$first" ]; do sleep 0.05; done
     ip link del "to-$1" 2>/dev/null || true
 }

@@ -89,7 +89,8 @@ TEST(OwnParts, ThatRanBeforeTheSupervisorAreForeign) {
 
 TEST(OwnParts, ThatAKilledProcessLeftOnTheNetworkAreNotForeign) {
     const std::vector<PresentProcess> present{{0, host_name(), getpid()}};  // its number is another program's now
-    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, ~std::uint64_t{0}}, present), std::nullopt);
+    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, ~std::uint64_t{0}}, present),
+              std::nullopt);
 }
 
 TEST(OwnParts, ThatAnotherHostRunsAreForeign) {
