@@ -80,7 +80,7 @@ public:
     AxisService(const AxisService&) = delete;  // the node measures itself by this object
     AxisService& operator=(const AxisService&) = delete;
 
-    /// `begun`: when the loop was to begin, on CLOCK_MONOTONIC. False: another process runs this axis.
+    /// `begun`: when the loop was to begin, on CLOCK_MONOTONIC. False: this process is to end, see end_reason().
     bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
         hear();
         const Tick now = clock_.now();
@@ -96,8 +96,10 @@ public:
         log_strangers(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
         say_health(skipped_loops);
-        return !doubled_;
+        return end_reason_.empty();
     }
+
+    const std::string& end_reason() const { return end_reason_; }
 
     void finish() { recorder_.finish(); }
 
@@ -114,9 +116,10 @@ private:
         bus_.machine.take([&](MachineState&& m) { machine_.push_back(m); });
         bus_.commands.take([&](AxisCommand&& m) { commands_.push_back(m); });
         bus_.requests.take([&](Command&& m) { requests_.push_back(m); });
-        doubled_ = std::any_of(states_.begin(), states_.end(), [&](const AxisState& s) {
+        const bool is_doubled = std::any_of(states_.begin(), states_.end(), [&](const AxisState& s) {
             return s.axis == setup_.axis && s.identity < setup_.identity;  // who came first stays
         });
+        if (is_doubled) { end_reason_ = "axis " + own_name() + " is already run by another process"; }
         const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
         if (std::ranges::any_of(machine_, owns)) { machine_heard_ = clock_.now(); }
     }
@@ -161,11 +164,29 @@ private:
         }
         if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
+        compare_time(now - machine_heard_ <= period);
         if (node_.trouble() != trouble_) {
             trouble_ = node_.trouble();
             log_event(spdlog::level::err, FaultCode::DeviceFault, trouble_);
         }
     }
+
+    /// A coordinator whose host has started anew has a clock that begins anew. Machine time never goes backwards in a
+    /// process: the one that is started after this takes it as it is.
+    void compare_time(bool coordinator_heard) {
+        const Ticks beyond_slewing{10'000'000'000 / setup_.machine.tick_ns};
+        const bool differs = coordinator_heard && node_.knows_time() && node_.controller().at_rest() &&
+                             node_.clock_error() > beyond_slewing;
+        if (differs && time_differed_) {
+            end_reason_ = "the coordinator's clock went back by " +
+                          std::to_string(node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000) +
+                          " s, was its host started anew? axis " + own_name() +
+                          " is to be started again, to take its time";
+        }
+        time_differed_ = differs;
+    }
+
+    const std::string& own_name() const { return setup_.machine.axes[setup_.axis].name; }
 
     AxisNode::Setup setup_;
     std::string fpga_;
@@ -191,7 +212,8 @@ private:
     std::uint64_t refused_ = 0;
     std::string trouble_;
     bool has_device_ = true;  // as reported
-    bool doubled_ = false;
+    bool time_differed_ = false;
+    std::string end_reason_;
 };
 
 int fail(const std::string& why) {
@@ -217,17 +239,15 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     ServiceManager manager;
     manager.ready("axis " + machine.axes[axis].name + " of machine " + machine.name);
     PeriodicLoop periodic(loop_period(machine));
-    bool alone = true;
     periodic.run(stop, [&](nanoseconds begun) {
         manager.alive(begun);
-        alone = alone && service.loop(begun, periodic.skipped_periods());
-        if (!alone) { stop.request(); }
+        if (!service.loop(begun, periodic.skipped_periods())) { stop.request(); }
     });
     manager.stopping();
     service.finish();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
              std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
-    return alone ? kServiceDone : fail("axis " + machine.axes[axis].name + " is already run by another process");
+    return service.end_reason().empty() ? kServiceDone : fail(service.end_reason());
 }
 
 }  // namespace

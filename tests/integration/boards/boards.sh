@@ -34,7 +34,7 @@ board() {  # NAME NUMBER UPTIME_S, beyond the host's own
         hostname "$1"
         for folder in /run /dev/shm /var/lib /etc/lockstep; do mount -t tmpfs tmpfs "$folder"; done
         echo up >"$2"
-        while :; do sleep 3600 & wait; done' board "$name" "$work/$name.pid" </dev/null &
+        while :; do sleep 3600 & wait; done' board "$name" "$work/$name.pid" </dev/null 2>/dev/null &
     local outside=$!
     read -r _ <"$work/$name.pid"
     pgrep -P "$outside" >"$work/$name.init"
