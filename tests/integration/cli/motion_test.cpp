@@ -144,7 +144,7 @@ TEST_F(Motion, ThatIsTakenDownSaysWhereItCameToRest) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"down"}).code, 0);
-    EXPECT_THAT(run.wait().out, ContainsRegex("stopped after .*; at X [0-9.]+  Y [0-9.]+"));
+    EXPECT_THAT(run.wait().out, ContainsRegex("stopped after .*; at X [-0-9.]+  Y [-0-9.]+"));
 }
 
 TEST_F(Motion, OfAxesOnTheirOwnEndsWhereItSays) {

@@ -81,7 +81,8 @@ TEST_F(Processes, AreTakenDownThoughTheirRecordIsDamagedOrGone) {
 }
 
 TEST_F(Processes, ThatCannotKeepTheRecordAreSaidNotTo) {
-    std::ofstream(folder() / "state" / state().path().filename() / "record") << "no directory";
+    std::filesystem::create_directories(state().path());
+    std::ofstream(state().path() / "record") << "no directory";
     const Ran up = run_lockstep({"up"});
     EXPECT_EQ(up.code, 0) << up.out << up.err;
     EXPECT_THAT(up.err, AllOf(HasSubstr("no log of its own is kept"), HasSubstr((state().path() / "record").string()),
