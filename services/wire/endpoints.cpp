@@ -1,5 +1,7 @@
 #include "services/wire/endpoints.hpp"
 
+#include "services/wire/present_processes.hpp"
+
 namespace lockstep::detail {
 namespace {
 
@@ -48,7 +50,9 @@ Listener listener_for(Arrival& arrival) {
 Entity make_writer(Participant& participant, const TopicSpec& spec) {
     const dds_entity_t topic = make_topic(participant, spec);
     if (topic < 0) { return checked(participant, spec, topic); }
-    return checked(participant, spec, dds_create_writer(participant.publisher(), topic, qos_for(spec).get(), nullptr));
+    const Qos qos = qos_for(spec);
+    announce_process(*qos);
+    return checked(participant, spec, dds_create_writer(participant.publisher(), topic, qos.get(), nullptr));
 }
 
 Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival) {

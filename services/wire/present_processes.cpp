@@ -1,52 +1,36 @@
 #include "services/wire/present_processes.hpp"
 
-#include <algorithm>
+#include <unistd.h>
+
 #include <array>
 #include <charconv>
-#include <memory>
+#include <sstream>
 
+#include "services/runtime/host_name.hpp"
 #include "services/wire/partitions.hpp"
 #include "services/wire/topics.hpp"
 
 namespace lockstep {
 namespace {
 
-/// Calls use(sample) for each living instance of one of DDS's own topics.
-template <typename Sample, typename Use>
-void look_at(const Participant& participant, dds_entity_t topic, Use use) {
-    constexpr std::size_t kBatch = 64;
-    const Entity reader(dds_create_reader(participant.handle(), topic, nullptr, nullptr));
-    if (!reader.good()) { return; }
-    for (;;) {
-        std::array<void*, kBatch> samples{};
-        std::array<dds_sample_info_t, kBatch> infos{};
-        const int count = dds_take(reader.handle(), samples.data(), infos.data(), kBatch, kBatch);
-        for (int i = 0; i < count; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            if (infos[at].valid_data && infos[at].instance_state == DDS_IST_ALIVE) {
-                use(*static_cast<const Sample*>(samples[at]));
-            }
-        }
-        if (count > 0) { dds_return_loan(reader.handle(), samples.data(), count); }
-        if (count < static_cast<int>(kBatch)) { return; }
-    }
+std::string user_data(const dds_qos_t* qos) {
+    void* data = nullptr;
+    std::size_t size = 0;
+    if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) { return ""; }
+    std::string text(static_cast<const char*>(data), size);
+    dds_free(data);
+    return text;
 }
 
-std::string property(const dds_qos_t* qos, const char* name) {
-    char* value = nullptr;
-    if (!dds_qget_prop(qos, name, &value) || value == nullptr) { return ""; }
-    const std::unique_ptr<char, decltype(&dds_free)> owned(value, &dds_free);
-    return owned.get();
-}
-
-std::vector<std::string> partitions_of(const dds_qos_t* qos) {
+/// Empty: it is in none or in several.
+std::string only_partition(const dds_qos_t* qos) {
     std::uint32_t count = 0;
     char** names = nullptr;
-    if (!dds_qget_partition(qos, &count, &names)) { return {}; }
-    std::vector<std::string> partitions(names, names + count);
+    if (!dds_qget_partition(qos, &count, &names)) { return ""; }
+    std::string name = count == 1 ? names[0] : "";
     for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
     dds_free(names);
-    return partitions;
+    return name;
 }
 
 /// Partitions of axes are PREFIX/NUMBER.
@@ -59,43 +43,41 @@ std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_vie
     return error == std::errc{} && rest == end ? std::optional(axis) : std::nullopt;
 }
 
-struct Writing {
-    std::optional<std::uint32_t> axis;
-    dds_guid_t participant;
-};
-
-/// Who writes the states of the machine or of one of its axes.
-std::vector<Writing> writings(const Participant& participant) {
-    const std::string ours = partition_of(participant.machine());
-    std::vector<Writing> found;
-    look_at<dds_builtintopic_endpoint_t>(
-        participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, [&](const dds_builtintopic_endpoint_t& writer) {
-            const auto partitions = partitions_of(writer.qos);
-            if (partitions.size() != 1) { return; }
-            const auto axis = axis_in(partitions[0], ours);
-            const bool is_axis = axis && writer.topic_name == std::string_view(Topic<AxisState>::kSpec.name);
-            const bool is_coordinator =
-                partitions[0] == ours && writer.topic_name == std::string_view(Topic<MachineState>::kSpec.name);
-            if (is_axis || is_coordinator) { found.push_back({axis, writer.participant_key}); }
-        });
-    return found;
+/// The process behind a writer; nothing: it writes neither the machine's state nor one of its axes'.
+std::optional<PresentProcess> process_of(const dds_builtintopic_endpoint_t& writer, const std::string& machine) {
+    const std::string topic = writer.topic_name;
+    const std::string partition = only_partition(writer.qos);
+    PresentProcess process{.axis = axis_in(partition, machine)};
+    const bool is_coordinator = partition == machine && topic == Topic<MachineState>::kSpec.name;
+    if (!is_coordinator && !(process.axis && topic == Topic<AxisState>::kSpec.name)) { return std::nullopt; }
+    std::istringstream(user_data(writer.qos)) >> process.host >> process.pid;
+    return process;
 }
 
 }  // namespace
 
+void announce_process(dds_qos_t& writer) {
+    const std::string process = host_name() + " " + std::to_string(getpid());
+    dds_qset_userdata(&writer, process.data(), process.size());
+}
+
 std::vector<PresentProcess> present_processes(const Participant& participant) {
-    const auto found = writings(participant);
+    constexpr std::size_t kBatch = 64;
+    const std::string machine = partition_of(participant.machine());
+    const Entity reader(dds_create_reader(participant.handle(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
     std::vector<PresentProcess> present;
-    look_at<dds_builtintopic_participant_t>(
-        participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, [&](const dds_builtintopic_participant_t& process) {
-            for (const Writing& writing : found) {
-                if (!std::ranges::equal(writing.participant.v, process.key.v)) { continue; }
-                const std::string number = property(process.qos, "__Pid");
-                PresentProcess one{writing.axis, property(process.qos, "__Hostname")};
-                std::from_chars(number.data(), number.data() + number.size(), one.pid);
-                present.push_back(std::move(one));
-            }
-        });
+    for (std::size_t count = reader.good() ? kBatch : 0; count == kBatch;) {
+        std::array<void*, kBatch> samples{};
+        std::array<dds_sample_info_t, kBatch> infos{};
+        const dds_return_t taken = dds_take(reader.handle(), samples.data(), infos.data(), kBatch, kBatch);
+        count = taken > 0 ? static_cast<std::size_t>(taken) : 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!infos[i].valid_data || infos[i].instance_state != DDS_IST_ALIVE) { continue; }
+            auto process = process_of(*static_cast<const dds_builtintopic_endpoint_t*>(samples[i]), machine);
+            if (process) { present.push_back(*std::move(process)); }
+        }
+        if (count > 0) { dds_return_loan(reader.handle(), samples.data(), taken); }
+    }
     return present;
 }
 

@@ -17,6 +17,9 @@ struct PresentProcess {
     std::int64_t pid = 0;               // on that host
 };
 
+/// Writers say of which process they are, to those alone who may read them.
+void announce_process(dds_qos_t& writer);
+
 /// The coordinators and axes that write for the participant's machine, its protocol, and its domain.
 std::vector<PresentProcess> present_processes(const Participant& participant);
 
