@@ -45,7 +45,7 @@ private:
     bool hold_sent_ = false;
     bool stop_sent_ = false;
     std::optional<std::chrono::nanoseconds> rest_asked_;  // when the last of them was sent
-    std::int32_t line_ = 0;  // the last in motion
+    std::int32_t line_ = 0;                               // the last in motion
     std::optional<MachinePhase> told_;
 };
 
