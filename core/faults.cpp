@@ -7,12 +7,36 @@ namespace lockstep {
 namespace {
 
 constexpr std::array kFaults{
-#define X(name, number, text, cause, remedy) FaultText{FaultCode::name, text, cause, remedy},
+#define X(name, number, text, cause, by_hand, remedies) FaultText{FaultCode::name, text, cause, by_hand, remedies},
     LOCKSTEP_FAULTS(X)
 #undef X
 };
 
+std::string_view text_of(Remedy remedy) {
+    switch (remedy) {
+        case Remedy::Wait: return "wait until it has ended";
+        case Remedy::Home: return "lockstep home";
+        case Remedy::Resume: return "lockstep resume";
+        case Remedy::Stop: return "lockstep stop";
+        case Remedy::Reset: return "lockstep reset";
+        case Remedy::Status: return "lockstep status";
+        case Remedy::Again: break;
+    }
+    return "ask again";
+}
+
 }  // namespace
+
+std::string remedy_text(const FaultText& fault) {
+    std::string text(fault.by_hand);
+    if (!text.empty() && fault.remedies.count > 0) { text += "; then: "; }
+    for (const Remedy& remedy : fault.remedies.list()) {
+        const bool is_first = &remedy == fault.remedies.list().data();
+        if (!is_first) { text += fault.remedies.is_choice ? ", or: " : ", "; }
+        text += text_of(remedy);
+    }
+    return text;
+}
 
 const FaultText* find_fault(FaultCode code) {
     const auto* found =

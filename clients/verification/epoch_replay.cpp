@@ -20,7 +20,7 @@ bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
 /// The runner makes what is due slot by slot, as in a coordinator that never stalls and to which nobody answers.
 void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
-        if (const auto turn = turns_.find(made_); turn != turns_.end()) { runner_.turn(turn->second); }
+        if (const auto turn = turns_.extract(made_)) { runner_.turn(turn.mapped()); }
         for (Frame& frame : runner_.send(slot_++, {})) {
             frame.start += shift_;
             made_ = frame.number;

@@ -152,6 +152,7 @@ private:
     Reply accepted(const Command& command) const;
     static Reply refused(const Command& command, FaultCode why, std::string text);
     std::optional<Reply> refuse_unless_ready(const Command& command) const;
+    Reply refuse_in_fault(const Command& command) const;
 
     void watch_axes(CoordinatorOutputs& out);
     void advance(CoordinatorOutputs& out);
@@ -162,6 +163,7 @@ private:
     void halt_own();
     bool in_own_move() const { return job_ && job_->kind == JobKind::MoveOwn; }
     bool axes_move_alone() const { return in_own_move() || (job_ && job_->kind == JobKind::Home); }
+    bool is_held() const { return phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused; }
     bool in_motion() const { return moving_ || axes_move_alone(); }
     double planned_seconds(std::size_t axis, std::int64_t steps, Ticks asked) const;
     void say_progress_of_own(MachineState& state) const;
@@ -171,6 +173,7 @@ private:
     void say_progress(MachineState& state) const;
     void say_rests(MachineState& state) const;
     void time_legs();
+    void estimate_legs(double slower);
     void begin_epoch(std::vector<PathMove> moves, Displacement along, std::vector<Position> at, PathPlace place,
                      CoordinatorOutputs& out);
     Epoch next_epoch();

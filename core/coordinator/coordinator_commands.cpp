@@ -1,7 +1,10 @@
 // What clients ask for: done, or refused with the reason and the remedy.
 #include "core/coordinator/coordinator.hpp"
 
+#include <cmath>
 #include <limits>
+
+#include "core/protocol/names.hpp"
 
 namespace lockstep {
 
@@ -56,11 +59,17 @@ std::optional<Reply> Coordinator::refuse_unless_ready(const Command& command) co
         return refused(command, FaultCode::DeviceMissing,
                        "axis " + machine_.axes[*lacking].name + " waits for its device; its log says for which");
     }
-    if (phase_ == MachinePhase::Fault) {
-        return refused(command, FaultCode::InFault, "the machine is in Fault: " + std::string(name_of(fault_)));
-    }
-    if (phase_ != MachinePhase::Idle) { return refused(command, FaultCode::Busy, "the machine is not idle"); }
-    return std::nullopt;
+    if (phase_ == MachinePhase::Fault) { return refuse_in_fault(command); }
+    if (is_held()) { return refused(command, FaultCode::Held, "a job is held or paused"); }
+    if (in_motion()) { return refused(command, FaultCode::Busy, "the machine is " + std::string(name_of(phase_))); }
+    if (phase_ == MachinePhase::Idle) { return std::nullopt; }
+    return refused(command, FaultCode::NotReady, "not every axis follows the coordinator and rests yet");
+}
+
+Reply Coordinator::refuse_in_fault(const Command& command) const {
+    const FaultText* fault = find_fault(fault_);
+    const std::string what = "the machine is in Fault: " + std::string(name_of(fault_));
+    return refused(command, FaultCode::InFault, fault == nullptr ? what : what + ": " + remedy_text(*fault));
 }
 
 /// Coordinated moves are for axes that agree on the time.
@@ -138,6 +147,14 @@ void Coordinator::time_legs() {
     }
 }
 
+/// Of the legs behind the one in progress, in proportion: to plan them anew takes long, and frames are due.
+void Coordinator::estimate_legs(double slower) {
+    for (std::size_t i = job_->leg + (moving_ ? 1 : 0); i < job_->legs.size(); ++i) {
+        Subticks& duration = job_->legs[i].duration;
+        duration.value = std::llround(static_cast<double>(duration.value) * slower);
+    }
+}
+
 /// At any time: they hold until they are turned again.
 Reply Coordinator::turn_overrides(const Command& command) {
     if (machine_.coordination == StepMethod::Lai) {
@@ -151,17 +168,18 @@ Reply Coordinator::turn_overrides(const Command& command) {
                        "an override of " + std::to_string(percent) + " % is not within " +
                            std::to_string(Overrides::kLeast) + " to " + std::to_string(Overrides::kMost) + " %");
     }
+    const int feed_before = overrides_.feed_percent;
     if (command.feed_percent != 0) { overrides_.feed_percent = command.feed_percent; }
     if (command.rapid_percent != 0) { overrides_.rapid_percent = command.rapid_percent; }
     if (moving_) { runner_.turn(overrides_); }
-    if (job_) { time_legs(); }
+    if (job_) { estimate_legs(static_cast<double>(feed_before) / overrides_.feed_percent); }
     return accepted(command);
 }
 
 Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorOutputs& out) {
     if (axes_move_alone()) { return interrupt_own(command, intent, out); }
-    const bool resting = phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused;
-    if (intent == Intent::Stop && resting && !moving_) {
+    if (is_held()) {
+        if (intent == Intent::Hold) { return refused(command, FaultCode::Held, "it is held or paused already"); }
         const Reply reply = accepted(command);
         end_job(JobOutcome::Stopped, out);
         return reply;
@@ -171,6 +189,9 @@ Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorO
         return accepted(command);
     }
     if (!moving_) { return refused(command, FaultCode::NothingToDo, "nothing is in motion that could be interrupted"); }
+    if (intent == Intent::Hold && intent_ > Intent::Hold) {
+        return refused(command, FaultCode::Busy, "the machine is stopping, and drops the job");
+    }
     intent_ = std::max(intent_, intent);
     runner_.stop(now_slot_);
     enter(MachinePhase::Stopping, out);
@@ -178,8 +199,8 @@ Reply Coordinator::interrupt(const Command& command, Intent intent, CoordinatorO
 }
 
 Reply Coordinator::resume(const Command& command, CoordinatorOutputs& out) {
-    const bool resting = phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused;
-    if (!resting || moving_) { return refused(command, FaultCode::NothingToDo, "nothing is held or paused"); }
+    if (phase_ == MachinePhase::Fault) { return refuse_in_fault(command); }
+    if (!is_held()) { return refused(command, FaultCode::NothingToDo, "nothing is held or paused"); }
     if (const auto missing = missing_axis()) {
         return refused(command, FaultCode::AxisMissing, "axis " + machine_.axes[*missing].name + " is not heard");
     }

@@ -74,7 +74,7 @@ void Coordinator::begin_own(Job job, Ticks ticks, CoordinatorOutputs& out) {
 /// Homing cannot go on from where it was held: a hold ends it as a stop does.
 Reply Coordinator::interrupt_own(const Command& command, Intent intent, CoordinatorOutputs& out) {
     if (intent == Intent::Hold && in_own_move()) {
-        return refused(command, FaultCode::NothingToDo,
+        return refused(command, FaultCode::Busy,
                        "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
     }
     intent_ = std::max(intent_, Intent::Stop);

@@ -31,7 +31,7 @@ void Coordinator::stand_by(CoordinatorOutputs& out) {
         if (is_interrupt(command.kind)) { interrupt_heard_ = now_slot_; }
         const FaultText* why = find_fault(FaultCode::CoordinatorChanged);
         if (is_old(command) || command.kind == CommandKind::EmergencyStop) { continue; }
-        note_command(command, refused(command, why->code, std::string(why->cause) + "; " + std::string(why->remedy)));
+        note_command(command, refused(command, why->code, std::string(why->cause) + "; " + remedy_text(*why)));
     }
     for (std::size_t i = 0; i < views_.size(); ++i) {
         if (!present(i)) { views_[i].state.reset(); }

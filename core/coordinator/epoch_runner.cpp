@@ -24,6 +24,7 @@ void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot n
     veto_.reset();
     heard_veto_.reset();
     turned_.reset();
+    tried_behind_.reset();
     taken_.reset();
     in_flight_.clear();
     endings_.assign(1, Ending{0, path_.moves.front().profile.phases[0].from, at_, false});
@@ -38,6 +39,7 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
         if (follows) { heard_veto_ = rules::merge(heard_veto_, axis.state->veto); }
     }
     if (heard_veto_) { ended_ = true; }  // what would come behind it nobody may run
+    try_turn(now);
     std::vector<Frame> frames;
     std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });
     for (const Frame& frame : in_flight_) {
@@ -51,20 +53,28 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
             ended_ = late_ = true;
             break;
         }
+        try_turn(now);
         frames.push_back(make_frame());
         in_flight_.push_back(frames.back());
     }
     return frames;
 }
 
-void EpochRunner::try_turn() {
-    if (!turned_ || !replan_from(path_, made_, limits_, bounds_of(machine_), *turned_)) { return; }
+/// Once behind each frame. A short rest of the path is planned anew just before the next frame is made; a long one
+/// takes long, and is planned when half a frame's time or more is left until then.
+void EpochRunner::try_turn(Slot now) {
+    if (!turned_ || ended_ || tried_behind_ == sent_) { return; }
+    const Slot due = rules::first_send_slot(rules::slot_of(start_ + made_, slot_), machine_.timing);
+    const std::size_t moves_left = path_.moves.size() - path_.move_at(subticks(made_));
+    const bool is_time = moves_left <= kPlannedAtOnce ? now >= due : 2 * (due - now) >= machine_.timing.frame_slots;
+    if (!is_time) { return; }
+    tried_behind_ = sent_;
+    if (!replan_from(path_, made_, limits_, bounds_of(machine_), *turned_)) { return; }
     taken_ = Turn{sent_, *turned_};
     turned_.reset();
 }
 
 Frame EpochRunner::make_frame() {
-    try_turn();
     const Ticks whole = path_.duration().ceil();
     const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
     Frame frame{.term = {}, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};

@@ -43,9 +43,10 @@ public:
     /// lacks. Their term is the sender's to fill in.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
-    /// From the next frame that is not made yet, or as soon after it as the path leaves a way.
+    /// From the next frame that is not made yet, or as soon after it as the path leaves a way and planning has time.
+    /// Of several asked for between two frames the last one counts.
     void turn(const Overrides& overrides) { turned_ = overrides; }
-    /// Set by `send` where it has made frames: the overrides that hold behind frame `behind`.
+    /// Set by `send` where it has planned anew: the overrides that hold behind frame `behind`.
     struct Turn {
         FrameNumber behind = 0;
         Overrides overrides;
@@ -81,11 +82,12 @@ private:
         std::vector<Position> positions;
         bool complete = false;
     };
-    static constexpr std::size_t kEndingsKept = 64;  // far more frames than can be in flight
+    static constexpr std::size_t kPlannedAtOnce = 500;  // moves: a few milliseconds
+    static constexpr std::size_t kEndingsKept = 64;     // far more frames than can be in flight
 
     Frame make_frame();
     Ending fill_tail(Frame& frame, Ticks end) const;
-    void try_turn();
+    void try_turn(Slot now);
 
     MachineConfig machine_;
     std::vector<AxisLimits> limits_;
@@ -98,7 +100,8 @@ private:
     Slot slots_over_ = 0;  // in which frames were asked for since
     std::vector<Position> at_;
     FrameNumber sent_ = 0;
-    std::optional<Overrides> turned_;  // to be planned with yet
+    std::optional<Overrides> turned_;          // to be planned with yet
+    std::optional<FrameNumber> tried_behind_;  // the last frame behind which that was tried
     std::optional<Turn> taken_;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;

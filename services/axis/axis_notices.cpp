@@ -10,7 +10,7 @@ namespace {
 
 std::string remedy(FaultCode fault) {
     const FaultText* text = find_fault(fault);
-    return text == nullptr ? std::string() : std::string(text->cause) + "; " + std::string(text->remedy);
+    return text == nullptr ? std::string() : std::string(text->cause) + "; " + remedy_text(*text);
 }
 
 std::string_view stage_name(std::uint64_t stage) {

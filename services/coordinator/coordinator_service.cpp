@@ -126,10 +126,9 @@ private:
                                      ", on the path; goes on from there");
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
-                return log_event(
-                    spdlog::level::err, notice.fault,
-                    "axis " + axis_name(notice.number) + ": " +
-                        (text == nullptr ? "" : std::string(text->cause) + "; " + std::string(text->remedy)));
+                return log_event(spdlog::level::err, notice.fault,
+                                 "axis " + axis_name(notice.number) + ": " +
+                                     (text == nullptr ? "" : std::string(text->cause) + "; " + remedy_text(*text)));
             }
         }
     }

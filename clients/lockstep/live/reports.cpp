@@ -36,7 +36,7 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
     report.set_name(std::string(name_of(fault)));
     if (const FaultText* text = find_fault(fault)) {
         report.set_cause(std::string(text->cause));
-        report.set_remedy(std::string(text->remedy));
+        report.set_remedy(remedy_text(*text));
     }
     if (!axis.empty()) { report.set_axis(axis); }
     return report;

@@ -89,6 +89,24 @@ TEST_F(Motion, GoesAsFastAsItsFeedIsTurned) {
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
 }
 
+TEST_F(Motion, OfTwentyThousandLinesBearsSixOverridesInARow) {
+    std::string text = "G21 G90 F1200\nG0 X20 Y0\n";
+    for (int line = 0; line < 20'000; ++line) {
+        text += "G1 X" + std::to_string(20 + 0.1 * (line % 1000)) + " Y" + std::to_string(line % 2 == 0 ? 0.1 : -0.1) +
+                "\n";
+    }
+    ASSERT_EQ(run_lockstep({"run", write("many.gcode", text), "--detach"}).code, 0);
+    ASSERT_TRUE(becomes("Running"));
+    for (const char* percent : {"50", "60", "80", "120", "150", "90"}) {
+        EXPECT_EQ(run_lockstep({"override", "--feed", percent}).code, 0);
+    }
+    const auto line = status().line();
+    EXPECT_TRUE(eventually([&] { return status().line() > line + 30; })) << status().ShortDebugString();
+    EXPECT_FALSE(status().has_fault());
+    EXPECT_EQ(status().feed_override_percent(), 90);
+    EXPECT_EQ(run_lockstep({"stop"}).code, 0);
+}
+
 TEST_F(Motion, ThatAnotherStopsIsNotDone) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/coordinator/program_plan.hpp"
 
 namespace lockstep {
@@ -96,6 +98,41 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     (void)runner.send(slot, says(slot, 20, 21, 0, {}));
     EXPECT_TRUE(runner.is_overdue());
     EXPECT_FALSE(runner.judge(slot, says(slot, 20, 21, 0, {})).has_value());
+}
+
+/// 20,000 moves of 0.05 mm, begun in slot 100.
+EpochRunner on_a_path_of_20000_moves() {
+    const MachineConfig machine = one_slow_axis();
+    const ProgramPlanner planner(machine);
+    Program program{.name = "many", .axes = {"X"}, .start_mm = {0}};
+    for (int line = 1; line <= 20'000; ++line) {
+        program.blocks.push_back({line, LinearMove{{0.05 * line}, 5, false}});
+    }
+    const auto legs = planner.plan(program, {0}).value();
+    EpochRunner runner(machine);
+    runner.begin(1, planner.path(legs[0].moves, {}), {Position::steps(0)}, 100);
+    return runner;
+}
+
+/// Planning so many moves anew takes tens of milliseconds: the next frame must not wait for it.
+TEST(EpochRunner, PlansALongRestAnewOnceAFrameAndNeverWhenAFrameIsDue) {
+    EpochRunner runner = on_a_path_of_20000_moves();
+    const Slot half_a_frame = one_slow_axis().timing.frame_slots / 2;
+    Slot planned = 0;
+    std::vector<FrameNumber> behind;
+    for (Slot slot = 100; slot < 150; ++slot) {
+        runner.turn({50 + static_cast<int>(slot - 100), 100});  // each slot another
+        const bool sends = !runner.send(slot, says(slot, runner.sent(), {}, 0, {})).empty();
+        if (sends) { EXPECT_GT(slot - planned, half_a_frame) << "slot " << slot; }
+        if (const auto turn = runner.take_turn()) {
+            EXPECT_FALSE(sends) << "slot " << slot;
+            EXPECT_EQ(turn->overrides.feed_percent, 50 + slot - 100) << "the newest counts";
+            behind.push_back(turn->behind);
+            planned = slot;
+        }
+    }
+    EXPECT_GE(behind.size(), 6u);
+    EXPECT_EQ(std::ranges::adjacent_find(behind), behind.end()) << "once behind each frame";
 }
 
 }  // namespace

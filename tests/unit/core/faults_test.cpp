@@ -12,7 +12,7 @@ TEST(Faults, EveryFaultHasANameACauseAndARemedy) {
         EXPECT_EQ(static_cast<int>(text->code), number);
         EXPECT_FALSE(text->name.empty());
         EXPECT_FALSE(text->cause.empty());
-        EXPECT_FALSE(text->remedy.empty());
+        EXPECT_FALSE(remedy_text(*text).empty());
     }
 }
 

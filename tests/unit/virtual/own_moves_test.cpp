@@ -222,7 +222,7 @@ TEST_F(OwnMoves, WhatCannotBeIsRefusedBeforeAnythingMoves) {
     EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::Busy);
     EXPECT_EQ(why(ask(CommandKind::Reset)), FaultCode::Busy);
     const Reply hold = ask(CommandKind::Hold);
-    EXPECT_EQ(why(hold), FaultCode::NothingToDo);
+    EXPECT_EQ(why(hold), FaultCode::Busy);
     EXPECT_NE(hold.text.find("lockstep stop"), std::string::npos) << hold.text;
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     EXPECT_EQ(counts()[0], 9'500);

@@ -1,0 +1,119 @@
+// In every state of the machine every command is answered, what is accepted has its effect, and the remedies offered
+// lead back to a machine that runs jobs. docs/states.md is what this walk finds; to write it anew:
+//   LOCKSTEP_WRITE_STATES=1 build/bin/unit_states
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tests/unit/states/machine_states.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr const char* kFile = "docs/states.md";
+
+const std::vector<Question>& questions() {
+    using Program = Question::Program;
+    static const std::vector<Question> all{
+        {"home", CommandKind::Home},
+        {"run", CommandKind::Run, Program::Known},
+        {"run, program not sent", CommandKind::Run, Program::Unknown},
+        {"move", CommandKind::Move, Program::Known},
+        {"move --own", CommandKind::MoveOwn, Program::Known},
+        {"hold", CommandKind::Hold},
+        {"resume", CommandKind::Resume},
+        {"stop", CommandKind::Stop},
+        {"estop", CommandKind::EmergencyStop},
+        {"reset", CommandKind::Reset},
+        {"override", CommandKind::Override, Program::None, 50},
+        {"override 300 %", CommandKind::Override, Program::None, 300},
+    };
+    return all;
+}
+
+std::string head() {
+    std::string text =
+        "# What the machine does, in every state, at every command\n\n"
+        "Each cell is the state in which the machine then settles, with how the job in progress or begun has ended, "
+        "or\n"
+        "the refusal. Every refusal and fault names its remedies (`core/faults.hpp`); from every cell they lead back "
+        "to\n"
+        "a machine that runs jobs. `tests/unit/states` walks all of it in virtual time, follows the remedies, and "
+        "fails\n"
+        "where this table is not what it found. To write it anew: `LOCKSTEP_WRITE_STATES=1 build/bin/unit_states`, in\n"
+        "the repository's folder.\n\n| state |";
+    std::string rule = "|---|";
+    for (const Question& question : questions()) {
+        text += " " + question.name + " |";
+        rule += "---|";
+    }
+    return text + "\n" + rule + "\n";
+}
+
+bool is_to_write() { return std::getenv("LOCKSTEP_WRITE_STATES") != nullptr; }
+
+std::string text_of_file() {
+    std::ifstream file(kFile);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+class States : public testing::TestWithParam<MachineSituation> {
+protected:
+    static void TearDownTestSuite() {
+        if (!is_to_write()) { return; }
+        std::ofstream file(kFile);
+        file << head();
+        for (const MachineSituation& situation : situations()) { file << rows()[situation.name]; }
+    }
+    static std::map<std::string, std::string>& rows() {
+        static std::map<std::string, std::string> rows;
+        return rows;
+    }
+    /// Brings a machine into the state, asks, follows the remedies. The cell.
+    static std::string walk(const MachineSituation& situation, const Question& question, std::size_t choice = 0) {
+        Walker machine(situation.options());
+        situation.enter(machine);
+        if (HasFatalFailure()) { return "not reached"; }
+        const Answer answer = machine.answer_to(question);
+        if (answer.refusal) { machine.follow(*answer.refusal, choice); }
+        EXPECT_TRUE(machine.recovers()) << "in vain: " << machine.state_text();
+        const std::size_t choices = answer.refusal ? Walker::choices(*answer.refusal) : 1;
+        if (choice + 1 < choices) { (void)walk(situation, question, choice + 1); }
+        return answer.text;
+    }
+};
+
+TEST_P(States, AnswerEveryCommandAndTheRemediesLeadBackToIdle) {
+    std::string row = "| " + GetParam().name + " |";
+    for (const Question& question : questions()) {
+        SCOPED_TRACE(GetParam().name + ": " + question.name);
+        row += " " + walk(GetParam(), question) + " |";
+    }
+    row += "\n";
+    rows()[GetParam().name] = row;
+    if (!is_to_write()) { EXPECT_NE(text_of_file().find(row), std::string::npos) << "in " << kFile << ": " << row; }
+}
+
+std::string test_name(const testing::TestParamInfo<MachineSituation>& info) {
+    std::string name;
+    for (const char c : info.param.name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) { name += c; }
+    }
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, States, testing::ValuesIn(situations()), test_name);
+
+TEST(StatesDocument, HasTheseStatesAndNoOthers) {
+    if (is_to_write()) { GTEST_SKIP() << "it is being written"; }
+    const std::string text = text_of_file();
+    EXPECT_EQ(text.find(head()), 0u);
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    EXPECT_EQ(lines, static_cast<std::size_t>(std::ranges::count(head(), '\n')) + situations().size());
+}
+
+}  // namespace
+}  // namespace lockstep
