@@ -139,17 +139,17 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
     return reply;
 }
 
-/// By how long the legs to come are planned to last.
+/// By how long the legs behind the next one are planned to last: that one is planned when it begins.
 void Coordinator::time_legs() {
-    for (std::size_t i = job_->leg; i < job_->legs.size(); ++i) {
+    for (std::size_t i = job_->leg + 1; i < job_->legs.size(); ++i) {
         Leg& leg = job_->legs[i];
         if (!leg.moves.empty()) { leg.duration = planner_.path(leg.moves, {}, overrides_).duration(); }
     }
 }
 
-/// Of the legs behind the one in progress, in proportion: to plan them anew takes long, and frames are due.
+/// The same in proportion, when the feed is turned: to plan them anew takes long, and frames are due.
 void Coordinator::estimate_legs(double slower) {
-    for (std::size_t i = job_->leg + (moving_ ? 1 : 0); i < job_->legs.size(); ++i) {
+    for (std::size_t i = job_->leg + 1; i < job_->legs.size(); ++i) {
         Subticks& duration = job_->legs[i].duration;
         duration.value = std::llround(static_cast<double>(duration.value) * slower);
     }
