@@ -13,7 +13,7 @@ Event fault_event(const axis_position_t& message) {
     event.what = "fault " + std::to_string(message.fault);
     if (known == nullptr) { return event; }
     event.what += ", " + std::string(known->name) + ": " + std::string(known->cause);
-    event.remedy = known->remedy;
+    event.remedy = remedy_text(*known);
     return event;
 }
 
