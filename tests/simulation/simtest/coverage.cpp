@@ -79,7 +79,7 @@ Coverage::Coverage() {
     for (const std::string_view name : kOwnershipNames) { hit(kOwnership, name, 0); }
     for (const std::string_view name : kInjectedNames) { hit(kInjected, name, 0); }
     for (std::size_t way = 1; way < kAlterations; ++way) { hit(kAltered, name_of(static_cast<Alteration>(way)), 0); }
-#define LOCKSTEP_DECLARE(name, number, text, cause, remedy) hit(kFaults, text, 0);
+#define LOCKSTEP_DECLARE(name, number, text, cause, by_hand, remedies) hit(kFaults, text, 0);
     LOCKSTEP_FAULTS(LOCKSTEP_DECLARE)
 #undef LOCKSTEP_DECLARE
 }

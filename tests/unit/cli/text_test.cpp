@@ -56,7 +56,7 @@ TEST(StatusText, SaysAFaultWithItsCauseAndRemedyOnce) {
 
 TEST(StatusText, FitsInEightyColumnsWhateverTheFault) {
     std::vector<FaultCode> codes;
-#define X(name, number, text, cause, remedy) codes.push_back(FaultCode::name);
+#define X(name, number, text, cause, by_hand, remedies) codes.push_back(FaultCode::name);
     LOCKSTEP_FAULTS(X)
 #undef X
     for (const FaultCode code : codes) {
