@@ -43,6 +43,16 @@ std::optional<double> Analysis::steps_per_mm(const AxisLog& axis) const {
     return configured ? std::optional(configured->steps_per_mm) : axis.steps_per_mm();
 }
 
+std::vector<std::string> Analysis::absent_axes() const {
+    std::vector<std::string> absent;
+    if (!config) { return absent; }
+    for (const AxisConfig& axis : config->axes) {
+        const auto is_it = [&](const auto& recorded) { return recorded->name() == axis.name; };
+        if (std::ranges::none_of(axes, is_it)) { absent.push_back(axis.name); }
+    }
+    return absent;
+}
+
 std::optional<Tick> Analysis::first_tick() const {
     std::optional<Tick> first;
     for (const auto& axis : axes) {

@@ -47,9 +47,11 @@ struct JobLog {
     std::int64_t unasked_steps = 0;  // that no move asked for
     std::int64_t moves_not_whole = 0;
     std::optional<double> largest_distance_mm;  // from the line asked, where that is known
-    std::int64_t moves_without_distance = 0;    // for steps that came too late in the log
+    std::int64_t moves_without_distance = 0;    // for steps that are not in the log, or come too late in it
+    std::vector<std::string> axes_not_known;    // they lack steps, and the log does not have all that they did
     TickHistogram late;                         // of its steps
 
+    bool is_on_a_line() const { return kind != "own-move"; }  // its axes move together
     std::int64_t interruptions() const { return std::max<std::int64_t>(0, epochs - legs); }
     bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };
@@ -70,6 +72,7 @@ struct Analysis {
     std::int64_t missing_job_events = 0;           // between the first and the last of each coordinator
     std::uint64_t events = 0;                      // read, of every kind
     std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
+    std::int64_t steps_of_no_job = 0;              // made before any job begins in the log
     std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification
     std::vector<Damage> damages;                   // by reason; the last of kDamagesKept is of all further reasons
     std::vector<Event> happened;                   // in the order of time
@@ -84,6 +87,8 @@ struct Analysis {
     const AxisConfig* axis_config(const std::string& name) const;
     /// From the configuration, or else from the axis's own messages; none where neither tells.
     std::optional<double> steps_per_mm(const AxisLog& axis) const;
+    /// Axes of the configuration without any message in the log.
+    std::vector<std::string> absent_axes() const;
     /// The first and the last step of any axis; none without steps.
     std::optional<Tick> first_tick() const;
     std::optional<Tick> last_tick() const;

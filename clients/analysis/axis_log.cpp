@@ -16,9 +16,17 @@ std::expected<void, std::string> AxisLog::write_csv(const std::filesystem::path&
     return {};
 }
 
+void AxisLog::take(StepBatch batch) {
+    farthest_position_.reset();
+    stream_.take(std::move(batch));
+}
+
 void AxisLog::take(const PositionSample& sample) {
-    ++positions_;
+    if (positions_++ == 0) { first_position_steps_ = sample.position_steps; }
     last_position_ = sample;
+    if (!farthest_position_ || std::abs(unrecorded_at(sample)) > std::abs(unrecorded_at(*farthest_position_))) {
+        farthest_position_ = sample;
+    }
     if (!steps_per_mm_ && sample.position_steps != 0 && sample.position_mm != 0) {
         steps_per_mm_ = std::abs(static_cast<double>(sample.position_steps) / sample.position_mm);
     }
@@ -36,11 +44,15 @@ std::expected<void, std::string> AxisLog::finish() {
     return steps ? position_csv_->close() : steps;
 }
 
+/// The steps between the last one recorded and a later position.
+std::int64_t AxisLog::unrecorded_at(const PositionSample& sample) const {
+    const bool is_later = !stream_.last_tick() || sample.tick >= *stream_.last_tick();
+    return is_later ? sample.position_steps - stream_.position_steps().value_or(first_position_steps_) : 0;
+}
+
 std::int64_t AxisLog::unrecorded_steps() const {
-    const auto recorded = stream_.position_steps();
-    if (!recorded || !last_position_) { return 0; }
-    const bool is_later = !stream_.last_tick() || last_position_->tick >= *stream_.last_tick();
-    return is_later ? last_position_->position_steps - *recorded : 0;
+    const std::int64_t at_end = last_position_ ? unrecorded_at(*last_position_) : 0;
+    return at_end == 0 && farthest_position_ ? unrecorded_at(*farthest_position_) : at_end;
 }
 
 }  // namespace lockstep::analysis

@@ -55,7 +55,7 @@ public:
 
     /// The steps to come are told to this object too, which must outlive the log's end.
     void tell(MeasuredListener& listener, std::size_t lane) { statistics_.tell(listener, lane); }
-    void take(StepBatch batch) { stream_.take(std::move(batch)); }
+    void take(StepBatch batch);
     void take(const PositionSample& sample);
     void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
@@ -79,11 +79,13 @@ public:
     std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
     /// As the axis's own messages have it; none where they do not tell.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
-    /// How far the last position message is from the last step recorded before it: what the log ends too early for,
-    /// or what its end has lost. 0 where they agree.
+    /// How far the last position message is from the last step recorded before it, or a message between them where the
+    /// axis came back: what the log ends too early for, or what its end has lost. 0 where they agree.
     std::int64_t unrecorded_steps() const;
 
 private:
+    std::int64_t unrecorded_at(const PositionSample& sample) const;
+
     std::string name_;
     AxisStatistics statistics_;
     Trace trace_;
@@ -94,7 +96,9 @@ private:
     MessageNumbers position_numbers_;
     MessageNumbers figure_numbers_;  // of health messages
     std::int64_t positions_ = 0;
+    std::int64_t first_position_steps_ = 0;
     std::optional<PositionSample> last_position_;
+    std::optional<PositionSample> farthest_position_;  // since the last message of steps
     std::optional<double> steps_per_mm_;
     StepStream stream_{{&statistics_, &trace_}};
 };

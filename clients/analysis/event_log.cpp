@@ -17,6 +17,14 @@ Event fault_event(const axis_position_t& message) {
     return event;
 }
 
+/// Of a run that was cut: its last step, since which it stands; its start where it made none.
+Tick ceased(const Run& run) {
+    StepMaker steps(run);
+    Tick last = run.commanded_start();
+    for (; steps.count() != run.stop_count && steps.next() != nullptr; steps.pass()) { last = steps.commanded(); }
+    return last;
+}
+
 }  // namespace
 
 void EventLog::take(const axis_position_t& message) {
@@ -29,10 +37,7 @@ void EventLog::take(const axis_position_t& message) {
 void EventLog::take(const std::string& axis, const Run& run) {
     if (run.epoch == 0) { return; }
     if (run.cut) {
-        note({.at = run.commanded_start(),
-              .what = "pulses ceased at once, in " + name_of(run),
-              .axis = axis,
-              .remedy = {}});
+        note({.at = ceased(run), .what = "pulses ceased at once, in " + name_of(run), .axis = axis, .remedy = {}});
     }
     if (!run.tail || std::exchange(latest_tail_, std::pair{run.epoch, run.frame}) == std::pair{run.epoch, run.frame}) {
         return;

@@ -56,7 +56,8 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
       line_(asked_.axes()) {
     if (asked_.size() == 0) { return; }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        line_[axis].at_mm = static_cast<double>(asked_.from(0, axis)) * asked_.mm_per_step(axis);
+        line_[axis].count = asked_.from(0, axis);
+        line_[axis].at_mm = static_cast<double>(line_[axis].count) * asked_.mm_per_step(axis);
     }
     begin(0);
 }
@@ -99,15 +100,18 @@ double JobMoves::square_of_distance_mm2() const {
 void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = made_cursor_[axis];
+    const std::size_t move_before = cursor.move();
     if (cursor.find(asked_, axis, step.count - step.direction, step.direction)) {
         take_in(cursor.move(), axis, step);
     } else {
         ++unasked_steps_;
     }
+    const bool is_next = std::exchange(line_[axis].count, step.count) == step.count - step.direction;
     stand(line_[axis], static_cast<double>(step.count) * asked_.mm_per_step(axis));
     if (!on_a_line_) { return; }
+    if (!is_next) { forget_distances(move_before); }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
-    newest_ = step.tick;
+    newest_ = made_[current_].newest = step.tick;
     double& largest = made_[current_].largest_square_mm2;
     largest = std::max(largest, square_of_distance_mm2());
 }
@@ -115,6 +119,21 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
 /// The other axes' steps since then were held against a place where this axis was no more.
 void JobMoves::forget_distances(std::size_t from_move) {
     for (std::size_t move = from_move; move <= current_; ++move) { made_[move].is_distance_known = false; }
+}
+
+std::size_t JobMoves::first_move_that_lacks(std::size_t axis) const {
+    std::size_t move = 0;
+    const auto has_all = [&] { return made_by_axis_[move * asked_.axes() + axis].steps == asked_.steps(move, axis); };
+    while (move < asked_.size() && has_all()) { ++move; }
+    return move;
+}
+
+bool JobMoves::lacks_steps_of(std::size_t axis) const { return first_move_that_lacks(axis) < asked_.size(); }
+
+void JobMoves::know_until(std::size_t axis, Tick until) {
+    for (std::size_t move = first_move_that_lacks(axis); move < asked_.size(); ++move) {
+        if (made_[move].newest > until) { made_[move].is_distance_known = false; }
+    }
 }
 
 std::int64_t JobMoves::moves_without_distance() const {

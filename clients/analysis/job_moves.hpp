@@ -82,6 +82,10 @@ public:
 
     /// Steps that no move asked for.
     std::int64_t unasked_steps() const { return unasked_steps_; }
+    /// The axis made fewer steps than asked: the log lacks some, or the job ended before they were made.
+    bool lacks_steps_of(std::size_t axis) const;
+    /// The log has what the axis did until then and no further: where it lacks steps, distances since are unknown.
+    void know_until(std::size_t axis, Tick until);
     /// Moves whose distance from the line cannot be told.
     std::int64_t moves_without_distance() const;
     /// The program's line in motion; none before the first.
@@ -92,6 +96,7 @@ private:
     struct Made {
         std::optional<Tick> first;  // of the lead axis's steps
         Tick last;
+        Tick newest;                    // of all axes' steps
         double largest_square_mm2 = 0;  // of the distance from its line...
         bool is_distance_known = true;  // ...but for steps that came late
         TickHistogram late;
@@ -106,6 +111,7 @@ private:
     };
     /// One axis's part in the current move's line, and where the axis is.
     struct Part {
+        std::int64_t count = 0;
         double from_mm = 0;
         double direction = 0;  // of all axes together of length 1
         double at_mm = 0;
@@ -118,6 +124,7 @@ private:
     void stand(Part& part, double at_mm);
     double square_of_distance_mm2() const;
     void forget_distances(std::size_t from_move);
+    std::size_t first_move_that_lacks(std::size_t axis) const;
 
     AskedPath asked_;
     bool on_a_line_;

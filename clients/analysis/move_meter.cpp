@@ -33,7 +33,10 @@ void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machin
 void MoveMeter::take(std::size_t lane, const MeasuredStep& step) {
     Job* job = job_at(step.tick);
     trace(job, lane, step);
-    if (job == nullptr) { return; }
+    if (job == nullptr) {
+        ++steps_of_no_job_;
+        return;
+    }
     if (const auto axis = job->axis_of_lane[lane]) { job->moves.take(*axis, step); }
 }
 
@@ -58,7 +61,8 @@ void MoveMeter::on_late(const std::string& axis, LateSteps late) {
 }
 
 void MoveMeter::end_first() {
-    on_job_(jobs_.front().number, jobs_.front().moves);
+    Job& job = jobs_.front();
+    on_job_(job.number, job.axes, job.moves);
     jobs_.erase(jobs_.begin());
 }
 

@@ -21,8 +21,8 @@ public:
     /// So many jobs may still be told of: messages of the next come before the last steps of one.
     static constexpr std::size_t kJobsOpen = 4;
 
-    /// `on_job` hears each job's moves when it is over, by the number that begin() was given.
-    using OnJob = std::function<void(std::size_t number, const JobMoves&)>;
+    /// Called with each job's moves when it is over, by the number that begin() was given, and its machine's axes.
+    using OnJob = std::function<void(std::size_t number, const std::vector<std::string>& axes, JobMoves&)>;
     explicit MoveMeter(OnJob on_job) : on_job_(std::move(on_job)) {}
 
     /// The name of the axis whose steps the lane of that number has.
@@ -34,6 +34,8 @@ public:
     /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
     const PlaneTrace& plane() const { return plane_; }
     void on_late(const std::string& axis, LateSteps late);
+    /// Made before the first job began.
+    std::int64_t steps_of_no_job() const { return steps_of_no_job_; }
     /// Call once, at the end.
     void finish();
 
@@ -66,6 +68,7 @@ private:
     std::vector<Job> jobs_;  // as they began
     PlaneTrace plane_;
     bool plane_is_of_jobs_ = false;
+    std::int64_t steps_of_no_job_ = 0;
 };
 
 }  // namespace lockstep::analysis

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "clients/analysis/axis_log.hpp"
 
@@ -12,6 +13,8 @@ namespace lockstep::analysis {
 std::string grouped(std::int64_t number);
 /// "1 step", "12 345 steps"
 std::string plural(std::int64_t count, const std::string& one);
+/// "X", "X and Y", "X, Y and Z"
+std::string in_words(const std::vector<std::string>& names);
 /// At least so many of an axis's steps were made and are not in the log.
 std::int64_t missing_steps_of(const AxisLog& axis);
 

@@ -11,6 +11,12 @@
 #include "services/documents/program_document.hpp"
 
 namespace lockstep::analysis {
+namespace {
+
+/// An axis tells where it is in every slot: one that is silent for so long has ended, or is not in the log.
+constexpr std::int64_t kSilence_us = 500'000;
+
+}  // namespace
 
 void Recorder::on_axis(const std::string& name) {
     lanes_.push_back({.axis = name});
@@ -91,13 +97,12 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
         }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
-    const bool on_a_line = message.kind != "own-move";  // axes on their own are asked for no line
-    if (program && on_a_line && message.program != latest_program_) {
+    if (program && record.is_on_a_line() && message.program != latest_program_) {
         keep_asked_way(*program);
         latest_program_ = message.program;
     }
     moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), analysis_.tick_at(message.utime),
-                 *analysis_.config, JobMoves(std::move(asked), on_a_line));
+                 *analysis_.config, JobMoves(std::move(asked), record.is_on_a_line()));
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
@@ -133,6 +138,19 @@ std::optional<Program> Recorder::read_documents(const job_t& message, LogPlace p
     if (program) { return std::move(*program); }
     on_damage(place, "the program recorded with the job: " + program.error());
     return std::nullopt;
+}
+
+/// Of which axes the log does not have all that they did in the job.
+void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const {
+    const Tick begun = analysis_.tick_at(*job.begun_us + kSilence_us);
+    for (std::size_t axis = 0; axis < moves.asked().axes(); ++axis) {
+        const auto lane = static_cast<std::size_t>(std::ranges::find(lanes_, axes[axis], &Lane::axis) - lanes_.begin());
+        const bool begins_late = lane == lanes_.size() || merge_.known_from(lane) > begun;
+        const Tick until = begins_late ? Tick{} : merge_.known_until(lane);
+        moves.know_until(axis, until);
+        const bool ends_early = job.ended_us && until < analysis_.tick_at(*job.ended_us - kSilence_us);
+        if (moves.lacks_steps_of(axis) && (begins_late || ends_early)) { job.axes_not_known.push_back(axes[axis]); }
+    }
 }
 
 void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
@@ -171,6 +189,7 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.happened = std::move(events_.events());
     analysis_.events_not_kept = events_.not_kept();
     std::ranges::stable_sort(analysis_.happened, {}, &Event::at);
+    analysis_.steps_of_no_job = moves_.steps_of_no_job();
     analysis_.stepped_ways = moves_.plane().ways();
     std::ranges::sort(analysis_.damages, {}, &Damage::first_byte);
     sorter.give(analysis_);

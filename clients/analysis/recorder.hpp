@@ -42,11 +42,16 @@ private:
     std::optional<Program> read_documents(const job_t& message, LogPlace place);
     bool is_during(Tick tick, const JobLog& job) const;
     void keep_asked_way(const Program& program);
+    void note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const;
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
 
     EventLog events_;
-    MoveMeter moves_{[this](std::size_t job, const JobMoves& moves) { note_moves(analysis_.jobs[job], moves); }};
+    using Names = std::vector<std::string>;
+    MoveMeter moves_{[this](std::size_t job, const Names& axes, JobMoves& moves) {
+        note_unknown(analysis_.jobs[job], axes, moves);
+        note_moves(analysis_.jobs[job], moves);
+    }};
     StepMerge merge_;
     std::vector<Lane> lanes_;  // by number
     Analysis analysis_;

@@ -1,5 +1,7 @@
 #include "clients/analysis/step_merge.hpp"
 
+#include <utility>
+
 namespace lockstep::analysis {
 
 std::size_t StepMerge::add_lane() {
@@ -12,15 +14,25 @@ void StepMerge::take(std::size_t number, SharedSteps steps) {
     Lane& lane = lanes_[number];
     const MeasuredStep& newest = steps->steps.back();
     lane.told_until = std::max(lane.told_until, newest.tick);
+    const MeasuredStep& oldest = steps->steps.front();
+    const bool joins = lane.has_steps || !lane.has_count || lane.count == oldest.count - oldest.direction;
+    lane.known_from = joins ? std::min(lane.known_from, oldest.tick) : oldest.tick;
+    lane.has_steps = true;
+    lane.known_until = std::max(lane.known_until, newest.tick);
     lane.count = newest.count;
-    lane.is_heard = lane.is_awaited = true;
+    lane.has_count = lane.is_awaited = true;
+    lane.lacks_steps = false;
     waiting_ += steps->steps.size();
     lane.steps.add(std::move(steps));
 }
 
 void StepMerge::stands(std::size_t number, Tick tick, std::int64_t count) {
     Lane& lane = lanes_[number];
-    if (lane.is_heard && lane.count != count) { return; }
+    lane.known_from = std::min(lane.known_from, tick);
+    if (!std::exchange(lane.has_count, true)) { lane.count = count; }
+    lane.lacks_steps = lane.lacks_steps || lane.count != count;
+    if (lane.count != count) { return; }
+    if (!lane.lacks_steps) { lane.known_until = std::max(lane.known_until, tick); }
     lane.told_until = std::max(lane.told_until, tick - kPatience);
     lane.is_awaited = true;
 }

@@ -30,6 +30,9 @@ public:
     void take(std::size_t lane, SharedSteps steps);
     /// The axis says where it was at a tick.
     void stands(std::size_t lane, Tick tick, std::int64_t count);
+    /// From when on, and until when, the log has all that the axis did, but for what is missing between.
+    Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
+    Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
     /// Calls on_step(lane, step) for what need not wait any longer. Call now and then.
     template <typename OnStep>
     void settle(OnStep&& on_step) {
@@ -47,9 +50,13 @@ private:
 
     struct Lane {
         StepQueue steps;
-        Tick told_until;         // the axis has told of all its steps before
-        std::int64_t count = 0;  // after its newest step
-        bool is_heard = false;   // it has told of a step
+        Tick told_until;  // the axis has told of all its steps before
+        Tick known_from = kNever;
+        Tick known_until;        // its newest step, or a later instant at which it stood where that step left it
+        std::int64_t count = 0;  // after its newest step; before its first, where it stood first
+        bool has_count = false;
+        bool has_steps = false;
+        bool lacks_steps = false;  // it has stood elsewhere since its newest step
         bool is_awaited = true;
     };
     struct Turn {

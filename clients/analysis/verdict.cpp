@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "clients/analysis/numbers.hpp"
 #include "clients/analysis/words.hpp"
+#include "core/axis_unit.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -20,10 +22,50 @@ std::string name_of(const JobLog& job) {
     return fmt::format("job {} ({})", job.job, job.name.empty() ? job.kind : job.name);
 }
 
+std::int64_t total(const Analysis& analysis, std::int64_t JobLog::*of) {
+    std::int64_t sum = 0;
+    for (const JobLog& job : analysis.jobs) { sum += job.*of; }
+    return sum;
+}
+
+/// Messages of steps that lie between others in the log. A log may begin after the machine did.
+std::int64_t missing_between(const AxisLog& axis) {
+    std::int64_t missing = 0;
+    for (const Break& what : axis.statistics().breaks()) { missing += what.from ? what.missing_batches : 0; }
+    return missing;
+}
+
 /// Or may lack them, where something cannot be read.
 bool lacks_steps(const Analysis& analysis) {
-    return !analysis.damages.empty() ||
-           std::ranges::any_of(analysis.axes, [](const auto& axis) { return missing_steps_of(*axis) != 0; });
+    const auto lacks = [](const auto& axis) { return missing_steps_of(*axis) != 0 || missing_between(*axis) != 0; };
+    return !analysis.damages.empty() || std::ranges::any_of(analysis.axes, lacks);
+}
+
+/// Nor does it lack an axis, nor end in a job.
+bool has_all_steps(const Analysis& analysis) {
+    const auto is_cut = [](const JobLog& job) { return job.outcome.empty() || !job.axes_not_known.empty(); };
+    return !lacks_steps(analysis) && analysis.absent_axes().empty() && std::ranges::none_of(analysis.jobs, is_cut);
+}
+
+Finding unknown(const std::string& what, const std::string& why) {
+    return {Grade::Unknown, fmt::format("{} cannot be told: {}; lockstep log merge puts the logs of all processes "
+                                        "together",
+                                        what, why)};
+}
+
+/// What the log as a whole lacks, and what follows from that.
+void judge_presence(const Analysis& analysis, Findings& found) {
+    const auto absent = analysis.absent_axes();
+    if (!absent.empty()) {
+        found.push_back(unknown("what " + in_words(absent) + " did",
+                                (absent.size() == 1 ? "its" : "their") + std::string(" steps are not in this log")));
+    }
+    for (const JobLog& job : analysis.jobs) {
+        if (job.begun_us) { continue; }
+        found.push_back(unknown("what " + name_of(job) + " asked for", "its beginning is not in this log"));
+    }
+    if (analysis.steps_of_no_job == 0 || !analysis.jobs.empty()) { return; }
+    found.push_back(unknown("what was asked for", "the coordinator's record of it is not in this log"));
 }
 
 void judge_outcome(const JobLog& job, Findings& found) {
@@ -38,10 +80,15 @@ void judge_outcome(const JobLog& job, Findings& found) {
 /// Of a job that was not done, the rest is not missed. Where the record lacks steps, nobody knows what was made.
 void judge_steps(const JobLog& job, bool record_lacks_steps, Findings& found) {
     if (job.is_whole() || job.outcome != "done") { return; }
+    const std::string moves = grouped(job.moves_not_whole) + " of " + plural(job.move_count, "move");
+    if (!record_lacks_steps && !job.axes_not_known.empty()) {
+        found.push_back(unknown(fmt::format("whether {} of {} have the steps asked", moves, name_of(job)),
+                                "not all steps of " + in_words(job.axes_not_known) + " are in this log"));
+        return;
+    }
     const Grade grade = record_lacks_steps ? Grade::Doubtful : Grade::Bad;
-    found.push_back({grade, fmt::format("{}: {} of {} do not have the steps asked, {} were not asked for", name_of(job),
-                                        grouped(job.moves_not_whole), plural(job.move_count, "move"),
-                                        plural(job.unasked_steps, "step"))});
+    found.push_back({grade, fmt::format("{}: {} do not have the steps asked, {} were not asked for", name_of(job),
+                                        moves, plural(job.unasked_steps, "step"))});
 }
 
 void judge_jobs(const Analysis& analysis, Findings& found) {
@@ -64,12 +111,16 @@ void judge_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) 
     if (const std::int64_t missing = missing_steps_of(axis); missing != 0) {
         found.push_back({Grade::Doubtful, fmt::format("{}: at least {} are not in the log; {}", axis.name(),
                                                       plural(missing, "step"), kWhereTheRestIs)});
+    } else if (const std::int64_t messages = missing_between(axis); messages != 0) {
+        found.push_back({Grade::Doubtful, fmt::format("{}: {} of steps are not in the log; {}", axis.name(),
+                                                      plural(messages, "message"), kWhereTheRestIs)});
     }
     const AxisConfig* config = analysis.axis_config(axis.name());
     const double peak = axis.statistics().peak_steps_per_tick() * 1e9 / static_cast<double>(analysis.tick_ns());
     if (config == nullptr || peak <= config->max_velocity_mm_s * config->steps_per_mm * kOverLimit) { return; }
-    found.push_back({Grade::Bad, fmt::format("{}: {:.2f} mm/s is above its limit of {:.2f} mm/s", axis.name(),
-                                             peak / config->steps_per_mm, config->max_velocity_mm_s)});
+    found.push_back({Grade::Bad, fmt::format("{}: {:.2f} {unit}/s is above its limit of {:.2f} {unit}/s", axis.name(),
+                                             peak / config->steps_per_mm, config->max_velocity_mm_s,
+                                             fmt::arg("unit", unit_of(axis.name())))});
 }
 
 void judge_events(const Analysis& analysis, Findings& found) {
@@ -91,14 +142,6 @@ void judge_record(const Analysis& analysis, Findings& found) {
         found.push_back({Grade::Doubtful, fmt::format("{} of jobs not in the log: what was asked may not all be known",
                                                       plural(analysis.missing_job_events, "event"))});
     }
-    std::int64_t untold = 0;
-    for (const JobLog& job : analysis.jobs) { untold += job.moves_without_distance; }
-    if (untold > 0) {
-        found.push_back(
-            {Grade::Doubtful, fmt::format("how far {} went from the path is not known: steps of an axis come "
-                                          "too late in the log; `lockstep log merge` puts them in order",
-                                          plural(untold, "move"))});
-    }
     std::uint64_t places = 0;
     std::uint64_t bytes = 0;
     for (const Damage& damage : analysis.damages) {
@@ -113,34 +156,85 @@ void judge_record(const Analysis& analysis, Findings& found) {
 
 void judge_times(const Analysis& analysis, Findings& found) {
     TickHistogram late;
-    for (const JobLog& job : analysis.jobs) { late.add(job.late); }
+    std::int64_t not_compared = 0;
+    for (const JobLog& job : analysis.jobs) {
+        late.add(job.late);
+        if (job.is_on_a_line()) { not_compared += std::max<std::int64_t>(0, job.made_steps - job.late.total()); }
+    }
     if (late.empty()) { return; }
     Ticks bound = kRounding;
     for (const auto& axis : analysis.axes) { bound = std::max(bound, kRounding + axis->statistics().clock_error()); }
     const Grade grade = late.largest() <= bound ? Grade::Good : Grade::Doubtful;
-    found.push_back({grade, fmt::format("no step is more than {:.0f} us from the time commanded",
-                                        analysis.microseconds(late.largest()))});
+    found.push_back(
+        {grade, fmt::format("no step {}is more than {:.0f} us from the time commanded",
+                            not_compared > 0 ? "whose time is known " : "", analysis.microseconds(late.largest()))});
+    if (not_compared == 0) { return; }
+    found.push_back(unknown("whether " + plural(not_compared, "step") + " came in time",
+                            "the times commanded are not in this log"));
+}
+
+/// How far exact steps of all axes together may be from the line: a step of each, and how far each goes while its clock
+/// is not known better.
+double exact_distance_mm(const Analysis& analysis) {
+    double squares = 0;
+    double by_clocks = 0;
+    for (const auto& axis : analysis.axes) {
+        const double mm_per_step = 1 / analysis.steps_per_mm(*axis).value_or(1);
+        const auto error = static_cast<double>((kRounding + axis->statistics().clock_error()).value);
+        squares += mm_per_step * mm_per_step;
+        by_clocks += axis->statistics().peak_steps_per_tick() * mm_per_step * error;
+    }
+    return std::sqrt(squares) + by_clocks;
+}
+
+void judge_distance(const Analysis& analysis, Findings& found) {
+    const std::int64_t untold = total(analysis, &JobLog::moves_without_distance);
+    if (analysis.largest_distance_mm) {
+        const double exact_mm = exact_distance_mm(analysis);
+        const bool is_good = *analysis.largest_distance_mm <= exact_mm;
+        std::string text =
+            fmt::format("the path stepped is at most {:.4f} mm from the path asked", *analysis.largest_distance_mm);
+        if (untold > 0) { text += ", where it can be told"; }
+        if (!is_good) { text += fmt::format("; exact steps are within {:.4f} mm", exact_mm); }
+        found.push_back({is_good ? Grade::Good : Grade::Bad, text});
+    }
+    if (untold == 0) { return; }
+    found.push_back(unknown("how far " + plural(untold, "move") + " went from the path",
+                            "steps of an axis are not in this log, or come too late in it"));
+}
+
+/// What lies before the log is not claimed.
+void judge_missing(const Analysis& analysis, Findings& found) {
+    if (!has_all_steps(analysis)) { return; }
+    const auto lacks = [](const auto& axis) { return axis->statistics().missing_batches() != 0; };
+    const std::string since = std::ranges::any_of(analysis.axes, lacks) ? " since the log began" : "";
+    if (analysis.config || analysis.axes.empty()) {
+        found.push_back({Grade::Good, "no step is missing" + since});
+        return;
+    }
+    std::vector<std::string> names;  // whether there are more axes, the log does not tell
+    for (const auto& axis : analysis.axes) { names.push_back(axis->name()); }
+    found.push_back({Grade::Good, "no step of " + in_words(names) + " is missing" + since});
 }
 
 }  // namespace
 
 std::string_view name_of(Grade grade) {
-    constexpr std::array<std::string_view, 3> kNames{"good", "doubtful", "bad"};
+    constexpr std::array<std::string_view, 4> kNames{"good", "doubtful", "unknown", "bad"};
     return kNames[static_cast<std::size_t>(grade)];
 }
 
 std::vector<Finding> findings(const Analysis& analysis) {
     Findings found;
+    judge_presence(analysis, found);
     judge_events(analysis, found);
     judge_jobs(analysis, found);
     for (const auto& axis : analysis.axes) { judge_axis(analysis, *axis, found); }
     judge_record(analysis, found);
     judge_times(analysis, found);
-    if (analysis.largest_distance_mm) {
-        found.push_back({Grade::Good, fmt::format("the path stepped is at most {:.4f} mm from the path asked",
-                                                  *analysis.largest_distance_mm)});
-    }
-    if (!lacks_steps(analysis)) { found.push_back({Grade::Good, "no step is missing"}); }
+    judge_distance(analysis, found);
+    judge_missing(analysis, found);
+    if (found.empty()) { found.push_back({Grade::Unknown, "nothing can be told: the log lacks steps"}); }
     std::ranges::stable_sort(found, std::ranges::greater{}, &Finding::grade);
     return found;
 }

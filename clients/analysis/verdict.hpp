@@ -12,7 +12,8 @@ namespace lockstep::analysis {
 
 enum class Grade : std::uint8_t {
     Good,      // as asked
-    Doubtful,  // the record does not tell, or it is not all that was asked
+    Doubtful,  // the record lacks something, or it is not all that was asked
+    Unknown,   // cannot be told: the log lacks what the answer rests on
     Bad,       // not what was asked
 };
 

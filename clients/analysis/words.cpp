@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "clients/analysis/numbers.hpp"
 #include "clients/analysis/verdict.hpp"
+#include "core/axis_unit.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -22,10 +24,24 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
 
+/// The log lacks all that they did, or some of it.
+std::vector<std::string> axes_not_known(const Analysis& analysis) {
+    std::vector<std::string> names = analysis.absent_axes();
+    for (const JobLog& job : analysis.jobs) {
+        for (const std::string& name : job.axes_not_known) {
+            if (std::ranges::find(names, name) == names.end()) { names.push_back(name); }
+        }
+    }
+    return names;
+}
+
 std::string missing_in_short(const Analysis& analysis) {
     const std::int64_t steps = total(analysis, missing_steps_of);
     const std::int64_t batches = total(analysis, missing_batches_of);
+    const auto names = axes_not_known(analysis);
+    if (!names.empty()) { return "not all of " + in_words(names); }
     if (steps == 0 && batches == 0) { return "nothing missing"; }
+    if (steps == 0) { return plural(batches, "message") + " of steps missing"; }
     return "at least " + plural(steps, "step") + " missing";
 }
 
@@ -51,7 +67,7 @@ std::string axis_row(const Analysis& analysis, const AxisLog& axis) {
         return at ? fmt::format("{:.3f}", in.position(at->position_steps)) : std::string("-");
     };
     return fmt::format("{:<16} {:>5} {:>15} {:>12} {:>12} {:>12.2f} {:>12.0f} {:>9}\n", axis.name(),
-                       steps_per_mm ? "mm" : "steps", grouped(found.steps()),
+                       steps_per_mm ? unit_of(axis.name()) : "steps", grouped(found.steps()),
                        found.first() ? fmt::format("{:.3f}", in.position(found.start_steps())) : "-",
                        place(found.last()), in.speed(found.peak_steps_per_tick()),
                        in.acceleration(found.peak_steps_per_tick2()), grouped(missing_steps_of(axis)));

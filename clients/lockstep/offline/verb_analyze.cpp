@@ -143,7 +143,7 @@ void add_analyze(CLI::App& app, Action& action) {
     verb->footer(
         footer("  lockstep analyze plate.lcm                 # and plate.html\n"
                "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
-               "  lockstep analyze plate.lcm --json          # verdict: good, doubtful or bad\n"
+               "  lockstep analyze plate.lcm --json          # verdict: good, doubtful, unknown or bad\n"
                "  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents plate.lcm\n\n"
                "A log that is damaged, cut short or partly of another version is read as far as it can be and\n"
                "exits 0: what could not be read is listed by its bytes. 2: nothing in it could be read.\n"));

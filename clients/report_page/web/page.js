@@ -84,7 +84,7 @@ function moves() {
 
 function axes() {
   const columns = [
-    { head: "axis", of: (axis) => axis.name, text: true },
+    { head: "axis", of: (axis) => axis.name + (/^[ABC]$/i.test(axis.name) ? " (deg)" : ""), text: true },
     { head: "steps", of: (axis) => Number(axis.steps), show: count },
     { head: "from, mm", of: (axis) => axis.position_start_mm, show: fixed(3) },
     { head: "to, mm", of: (axis) => axis.position_end_mm, show: fixed(3) },

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <lockstep/step_batch_t.hpp>
 #include <string>
@@ -69,7 +70,7 @@ public:
         state.tick = Tick{tick};
         state.position = Position::steps(steps);
         writer_.write_message(channels_of("mill", machine.axes[axis].name).position, tick,
-                              to_lcm(machine, state, {7, positions_++}));
+                              to_lcm(machine, state, {7, positions_[axis]++}));
     }
 
     void job(const std::string& event, std::int64_t tick, const Program& program, std::string outcome = "",
@@ -88,7 +89,7 @@ public:
 
     /// The next `count` of each are not in the log.
     void lose(std::uint64_t count) {
-        positions_ += count;
+        for (std::uint64_t& positions : positions_) { positions += count; }
         job_events_ += count;
     }
 
@@ -96,7 +97,7 @@ public:
 
 private:
     LogWriter writer_;
-    std::uint64_t positions_ = 0;  // numbered so far
+    std::array<std::uint64_t, 2> positions_{};  // of each axis, numbered so far
     std::uint64_t job_events_ = 0;
 };
 

@@ -24,10 +24,12 @@ struct Moves : testing::Test {
         const Program program = path_through({{0, 0}, {10, 0}, {0, 0}});
         {
             LogMaker maker(log);
+            maker.position(1, 0, 0);
             maker.job("begun", 0, program);
             maker.job("epoch", 500, program);
             maker.steps("X", 0, 0, even_steps(1000, 200, steps_there));
             maker.steps("X", 1, steps_there, even_steps(1'000'000, 200, 1000, -1));
+            maker.position(0, 1'990'000, steps_there - 1000);
             if (!outcome.empty()) { maker.job("ended", 2'000'000, program, outcome); }
         }
         return to_report(analyze_log(log).value());
@@ -112,6 +114,7 @@ TEST_F(Moves, OfWhichEventsWereLostAreDoubtful) {
     {
         test::LogMaker maker(log);
         maker.position(0, 1000, 0);
+        maker.position(1, 1000, 0);
         maker.job("begun", 1000, {});
         maker.lose(3);
         maker.position(0, 90'000, 0);
