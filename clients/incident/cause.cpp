@@ -29,8 +29,33 @@ bool is_symptom(const FlightEvent& event) {
     }
 }
 
+/// That a process was gone: it may come back, and all is well.
+bool may_heal(const FlightEvent& event) {
+    if (event.kind == FlightKind::PeerRestarted) { return true; }
+    const auto reason = static_cast<IncidentReason>(event.detail);
+    return event.kind == FlightKind::Incident &&
+           (reason == IncidentReason::AxisLost || reason == IncidentReason::OwnerLost);
+}
+
+/// Whether whoever was gone was there again before `by`.
+bool has_healed(const Incident& incident, const Entry& symptom, Tick by) {
+    if (symptom.event.kind == FlightKind::PeerRestarted) { return symptom.tick < by; }
+    return std::ranges::any_of(incident.timeline, [&](const Entry& entry) {
+        const bool is_back = entry.event.kind == FlightKind::PeerHeard || entry.event.kind == FlightKind::AxisSeen;
+        return is_back && entry.event.about == symptom.event.about && entry.tick > symptom.tick && entry.tick < by;
+    });
+}
+
+/// The first of what went wrong. Somebody who was gone and came back before that, frames earlier, did no harm.
 const Entry* first_symptom(const Incident& incident) {
-    const auto found = std::ranges::find_if(incident.timeline, [](const Entry& e) { return is_symptom(e.event); });
+    const auto grave = std::ranges::find_if(incident.timeline,
+                                            [](const Entry& e) { return is_symptom(e.event) && !may_heal(e.event); });
+    const bool has_grave = grave != incident.timeline.end();
+    const auto counts = [&](const Entry& entry) {
+        if (!is_symptom(entry.event)) { return false; }
+        return !has_grave || !may_heal(entry.event) || !has_healed(incident, entry, grave->tick - reach(incident));
+    };
+    const auto found = std::ranges::find_if(incident.timeline, counts);
     return found == incident.timeline.end() ? nullptr : &*found;
 }
 

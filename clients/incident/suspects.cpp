@@ -11,12 +11,6 @@
 namespace lockstep::incident {
 namespace {
 
-/// From when a frame is sent until it is decided, and a frame more.
-Ticks reach(const Incident& incident) {
-    const ProtocolTiming& timing = incident.machine.timing;
-    return incident.slots(timing.send_ahead_slots + timing.frame_slots);
-}
-
 Ticks hop(const Incident& incident) { return incident.slots(rules::kHopSlots); }
 
 /// The longest that a process stood still around `at`, of what the machine does not bear.
@@ -39,9 +33,17 @@ Ticks overlap(const Entry& a, const Entry& b) {
     return std::max(Ticks{}, std::min(a.tick, b.tick) - from);
 }
 
+/// Another process had taken its place long before.
+bool has_successor_since(const Incident& incident, FlightPeer who, Tick ended, Tick by) {
+    return std::ranges::any_of(incident.processes, [&](const Process& process) {
+        return process.who == who && process.first > ended && process.first < by;
+    });
+}
+
 std::optional<Cause> explain_by_end(const Incident& incident, FlightPeer suspect, Tick at) {
     for (const Process& process : incident.processes) {
         if (process.who != suspect || !process.ended || process.last > at + hop(incident)) { continue; }
+        if (has_successor_since(incident, suspect, process.last, at - reach(incident))) { continue; }
         return Cause{CauseKind::Ended,
                      suspect,
                      fmt::format("the process of {} ended without a word: killed, or crashed",
@@ -50,7 +52,8 @@ std::optional<Cause> explain_by_end(const Incident& incident, FlightPeer suspect
                      {}};
     }
     for (const Entry& entry : incident.timeline) {
-        if (entry.event.kind != FlightKind::PeerRestarted || entry.event.about != suspect) { continue; }
+        const bool is_then = entry.tick >= at - reach(incident);
+        if (!is_then || entry.event.kind != FlightKind::PeerRestarted || entry.event.about != suspect) { continue; }
         return Cause{
             CauseKind::Ended,
             suspect,
@@ -118,6 +121,11 @@ std::optional<Cause> explain_by_refusal(const Incident& incident, FlightPeer sus
 }
 
 }  // namespace
+
+Ticks reach(const Incident& incident) {
+    const ProtocolTiming& timing = incident.machine.timing;
+    return incident.slots(timing.send_ahead_slots + timing.frame_slots);
+}
 
 std::optional<Cause> explain(const Incident& incident, FlightPeer suspect, Tick at) {
     for (const auto by : {explain_by_end, explain_by_standstill, explain_by_hanging, explain_by_refusal}) {

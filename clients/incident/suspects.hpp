@@ -7,6 +7,9 @@
 
 namespace lockstep::incident {
 
+/// From when a frame is sent until it is decided, and a frame more: what is earlier has no part in a frame's fate.
+Ticks reach(const Incident& incident);
+
 /// `at`: when another process missed its word. Nothing: nothing was wrong with it, as far as the files tell.
 std::optional<Cause> explain(const Incident& incident, FlightPeer suspect, Tick at);
 

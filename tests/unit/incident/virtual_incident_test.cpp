@@ -135,6 +135,34 @@ TEST_F(Flown, AnEmergencyStopIsFound) {
     expect(verdict(), CauseKind::EmergencyStop, std::nullopt);
 }
 
+/// What healed before the fault did not begin it, though it is noted as an incident of its own.
+TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
+    home();
+    befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(1)});
+    wait(2);
+    ASSERT_TRUE(any_incident());
+    (void)ask(CommandKind::Reset);
+    wait(0.5);
+    start_job();
+    vm.device(kX).plant().push(9'000);
+    wait(1);
+    const Verdict found = verdict();
+    expect(found, CauseKind::Fault, flight_axis(kX));
+    EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
+}
+
+TEST_F(Flown, AProcessThatWasReplacedBeforeTheFaultIsNotItsCause) {
+    home();
+    befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
+    wait(2);
+    (void)ask(CommandKind::Reset);
+    wait(0.5);
+    start_job();
+    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
+    wait(1);
+    expect(verdict(), CauseKind::Stalled, flight_axis(kY));
+}
+
 TEST_F(Flown, EveryProcessKeepsAnIncidentOfMotion) {
     start_job();
     befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
