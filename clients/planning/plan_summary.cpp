@@ -19,6 +19,14 @@ AxisCounts start_counts(const MachineConfig& machine, const Program& program) {
     return counts;
 }
 
+/// Steps per tick^2, at least. A phase lasts a whole number of subticks: what of its bend that rounding may account
+/// for, which is most of it in a phase of a few subticks between two corners, is no acceleration.
+double least_acceleration(const Phase& phase) {
+    const double ticks = static_cast<double>(phase.duration.value) / kSubticksPerTick;
+    const double by_rounding = 2 * phase.velocity_at({}) / static_cast<double>(kSubticksPerTick) / (ticks * ticks);
+    return std::max(0.0, std::abs(phase.acceleration()) - by_rounding);
+}
+
 void add_peaks(const MachineConfig& machine, const PathMove& move, std::size_t i, AxisPlan& axis) {
     const double share = std::abs(move.share(i));
     const double per_s = machine.ticks_per_second();
@@ -27,7 +35,27 @@ void add_peaks(const MachineConfig& machine, const PathMove& move, std::size_t i
         const double speed = std::max(phase.velocity_at({}), phase.velocity_at(phase.duration));
         axis.peak_velocity_mm_s = std::max(axis.peak_velocity_mm_s, speed * mm * per_s);
         axis.peak_acceleration_mm_s2 =
-            std::max(axis.peak_acceleration_mm_s2, std::abs(phase.acceleration()) * mm * per_s * per_s);
+            std::max(axis.peak_acceleration_mm_s2, least_acceleration(phase) * mm * per_s * per_s);
+    }
+}
+
+/// mm of an axis for one of the path, with its sign; none at rest and in a dwell.
+double direction(const MachineConfig& machine, const PathMove* move, std::size_t i) {
+    return move == nullptr ? 0 : move->slope(i) / machine.axes[i].steps_per_mm;
+}
+
+/// Where one move meets the next, either of them null at rest: the path keeps its speed, each axis's changes at once.
+void add_jump(const MachineConfig& machine, const PathMove* before, const PathMove* after, ProgramPlan& plan) {
+    const bool goes_on = after != nullptr && after->lead != 0;
+    if (!goes_on && (before == nullptr || before->lead == 0)) { return; }
+    const PathMove& timed = goes_on ? *after : *before;
+    const Subticks end = goes_on ? Subticks{} : timed.profile.duration();
+    const double speed =
+        std::min(timed.profile.velocity_at(end), goes_on ? timed.own.max_velocity : timed.limits.start_velocity);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const double turn = std::abs(direction(machine, after, i) - direction(machine, before, i));
+        double& peak = plan.axes[i].peak_jump_mm_s;
+        peak = std::max(peak, turn * speed * timed.mm_per_lead() * machine.ticks_per_second());
     }
 }
 
@@ -90,9 +118,14 @@ std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine,
         const PathMove* before = nullptr;
         for (const PathMove& move : plan.paths.back().moves) {
             add_move(machine, move, plan);
-            if (move.part > 0) { add_change(machine, *before, move, plan); }
+            if (move.part > 0) {
+                add_change(machine, *before, move, plan);
+            } else {
+                add_jump(machine, before, &move, plan);
+            }
             before = &move;
         }
+        add_jump(machine, before, nullptr, plan);
     }
     plan.duration_s = static_cast<double>(plan.duration.value) / machine.ticks_per_second();
     return plan;
@@ -111,6 +144,7 @@ proto::PlanReport to_report(const ProgramPlan& plan, int lines) {
         out.set_steps(axis.steps);
         out.set_peak_velocity_mm_s(axis.peak_velocity_mm_s);
         out.set_peak_acceleration_mm_s2(axis.peak_acceleration_mm_s2);
+        out.set_peak_jump_mm_s(axis.peak_jump_mm_s);
         out.set_min_mm(axis.min_mm);
         out.set_max_mm(axis.max_mm);
     }

@@ -20,7 +20,8 @@ struct AxisPlan {
     std::string name;
     std::int64_t steps = 0;  // both ways together
     double peak_velocity_mm_s = 0;
-    double peak_acceleration_mm_s2 = 0;  // rising or falling; jumps within the start velocity are none
+    double peak_acceleration_mm_s2 = 0;  // of its phases, rising or falling
+    double peak_jump_mm_s = 0;           // the most its speed changes by at once: in a corner, from and to rest
     double min_mm = 0;                   // where it goes, its start included
     double max_mm = 0;
 };

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "clients/lockstep/live/words.hpp"
+#include "core/axis_unit.hpp"
 
 namespace lockstep {
 namespace {
@@ -18,9 +19,9 @@ std::string places(const ProgramInput& input) {
 
 std::string row(const AxisPlan& axis) {
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "\n%-16s %12lld %12.2f %14.0f %12.3f %12.3f", axis.name.c_str(),
-                  static_cast<long long>(axis.steps), axis.peak_velocity_mm_s, axis.peak_acceleration_mm_s2,
-                  axis.min_mm, axis.max_mm);
+    std::snprintf(text.data(), text.size(), "\n%-16s %4s %12lld %10.2f %10.0f %10.2f %11.3f %11.3f", axis.name.c_str(),
+                  std::string(unit_of(axis.name)).c_str(), static_cast<long long>(axis.steps), axis.peak_velocity_mm_s,
+                  axis.peak_acceleration_mm_s2, axis.peak_jump_mm_s, axis.min_mm, axis.max_mm);
     return text.data();
 }
 
@@ -34,8 +35,8 @@ std::string plan_text(const ProgramInput& input) {
     text += "\n  length    " + fixed(plan.length_mm, 3) + " mm along the path\n";
     text += "  moves     " + std::to_string(plan.moves) + ", of " + std::to_string(input.lines) + " lines\n\n";
     std::array<char, 160> head{};
-    std::snprintf(head.data(), head.size(), "%-16s %12s %12s %14s %12s %12s", "axis", "steps", "peak mm/s",
-                  "peak mm/s2", "from mm", "to mm");
+    std::snprintf(head.data(), head.size(), "%-16s %4s %12s %10s %10s %10s %11s %11s", "axis", "unit", "steps",
+                  "peak /s", "peak /s²", "jump /s", "from", "to");
     text += head.data();
     for (const AxisPlan& axis : plan.axes) { text += row(axis); }
     return text;
