@@ -7,6 +7,8 @@
 namespace lockstep {
 namespace {
 
+constexpr int kNoEnd = 0;  // lines are numbered from 1
+
 /// Cuts the next line off the text, without its LF or CR LF.
 std::string_view take_line(std::string_view& text) {
     const std::size_t end = text.find('\n');
@@ -20,10 +22,16 @@ class GcodeReader {
 public:
     explicit GcodeReader(const GcodeSetup& setup) : setup_(setup), letters_(axis_letters(setup)), interpreter_(setup) {}
 
-    std::expected<Program, std::vector<GcodeError>> read(std::string_view text) {
-        for (int number = 1; !text.empty() && !ended_ && interpreter_.errors().size() < kMaxGcodeErrors; ++number) {
+    void read_lines(std::string_view text, int end) {
+        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+        if (text.starts_with(kByteOrderMark)) { text.remove_prefix(kByteOrderMark.size()); }
+        for (int number = 1; number != end && !text.empty() && !ended_; ++number) {
+            if (interpreter_.errors().size() >= kMaxGcodeErrors) { return; }
             read_line(take_line(text), number);
         }
+    }
+    ModalState modal_state() const { return interpreter_.modal_state(); }
+    std::expected<Program, std::vector<GcodeError>> program() const {
         if (!interpreter_.errors().empty()) { return std::unexpected(interpreter_.errors()); }
         return interpreter_.program();
     }
@@ -54,7 +62,15 @@ private:
 }  // namespace
 
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup) {
-    return GcodeReader(setup).read(text);
+    GcodeReader reader(setup);
+    reader.read_lines(text, kNoEnd);
+    return reader.program();
+}
+
+ModalState modal_state_at(std::string_view text, const GcodeSetup& setup, int line) {
+    GcodeReader reader(setup);
+    reader.read_lines(text, line);
+    return reader.modal_state();
 }
 
 }  // namespace lockstep

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/axis_unit.hpp"
 #include "core/gcode/number_text.hpp"
 
 namespace lockstep {
@@ -11,7 +12,6 @@ namespace {
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kSecondsPerMinute = 60;
 constexpr std::string_view kWordLetters = "GMFPN";
-constexpr std::string_view kRotaryLetters = "ABC";
 
 /// ' ' for an axis that no letter calls.
 char letter_of(const GcodeAxis& axis) {
@@ -50,6 +50,15 @@ void GcodeInterpreter::execute(const GcodeBlock& block, int line) {
         block.immediate == gcode::Immediate::Park || block.immediate == gcode::Immediate::SetOffset;
     if (!block.axes.empty() && !axes_are_taken) { motion(block, line); }
     if (block.stop) { stop(*block.stop, line); }
+}
+
+ModalState GcodeInterpreter::modal_state() const {
+    ModalState state{.inches = units_ == gcode::Units::Inches,
+                     .relative = distance_ == gcode::Distance::Relative,
+                     .feed_mm_min = {},
+                     .offset_mm = offset_};
+    if (feed_) { state.feed_mm_min = feed_->linear_mm_s * kSecondsPerMinute; }
+    return state;
 }
 
 void GcodeInterpreter::set_feed(const GcodeWord& word, int line) {
@@ -113,9 +122,7 @@ std::size_t GcodeInterpreter::axis_of(const GcodeWord& word) const {
     return static_cast<std::size_t>(found - setup_.axes.begin());
 }
 
-bool GcodeInterpreter::is_rotary(std::size_t axis) const {
-    return kRotaryLetters.find(letter_of(setup_.axes[axis])) != std::string_view::npos;
-}
+bool GcodeInterpreter::is_rotary(std::size_t axis) const { return lockstep::is_rotary(setup_.axes[axis].name); }
 
 double GcodeInterpreter::to_mm(const GcodeWord& word) const {
     const bool inches = units_ == gcode::Units::Inches && !is_rotary(axis_of(word));
@@ -137,10 +144,11 @@ double GcodeInterpreter::within_travel(const GcodeWord& word, double mm, int lin
     const GcodeAxis& axis = setup_.axes[axis_of(word)];
     const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);
     if (std::abs(mm - nearest) <= kTravelTolerance_mm) { return nearest; }
+    const std::string unit(unit_of(axis.name));
     report({line, word.column,
-            word.text + " takes " + axis.name + " to " + number_text(mm) + " mm, outside its travel of " +
-                number_text(axis.min_mm) + " to " + number_text(axis.max_mm) +
-                " mm (machine coordinates); change the program, or the axis's " +
+            word.text + " takes " + axis.name + " to " + number_text(mm) + " " + unit + ", outside its travel of " +
+                number_text(axis.min_mm) + " to " + number_text(axis.max_mm) + " " + unit +
+                " (machine coordinates); change the program, or the axis's " +
                 (mm < nearest ? "position_min_mm" : "position_max_mm")});
     return mm;
 }

@@ -7,6 +7,7 @@
 
 #include "core/gcode/block.hpp"
 #include "core/gcode/gcode.hpp"
+#include "core/gcode/modal_state.hpp"
 
 namespace lockstep {
 
@@ -21,6 +22,7 @@ public:
     void execute(const GcodeBlock& block, int line);
     void report(GcodeError error) { errors_.push_back(std::move(error)); }
 
+    ModalState modal_state() const;
     const Program& program() const { return program_; }
     const std::vector<GcodeError>& errors() const { return errors_; }
 

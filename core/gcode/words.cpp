@@ -1,5 +1,6 @@
 #include "core/gcode/words.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -18,6 +19,8 @@ struct Character {
 constexpr bool is_letter(char c) { return c >= 'A' && c <= 'Z'; }
 constexpr bool is_of_number(char c) { return (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-'; }
 constexpr bool is_printable(char c) { return c >= ' ' && c <= '~'; }
+/// Of ASCII; a tab is a space.
+constexpr bool is_control(char c) { return (c >= 0 && c < ' ' && c != '\t') || c == 0x7F; }
 constexpr char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 std::string shown(char c) {
@@ -37,6 +40,7 @@ public:
                          "the line has " + std::to_string(line_.size()) + " characters, more than " +
                              std::to_string(kMaxGcodeLineLength) + "; split it");
         }
+        if (auto fault = find_control_byte()) { return std::unexpected(*fault); }
         if (auto fault = drop_spaces_and_comments()) { return std::unexpected(*fault); }
         return take_line();
     }
@@ -44,6 +48,14 @@ public:
 private:
     std::unexpected<GcodeError> error(int column, std::string message) const {
         return std::unexpected(GcodeError{number_, column, std::move(message)});
+    }
+
+    /// Also in a comment: a file with them is damaged, or no text.
+    std::optional<GcodeError> find_control_byte() const {
+        const auto found = std::ranges::find_if(line_, is_control);
+        if (found == line_.end()) { return std::nullopt; }
+        return GcodeError{number_, static_cast<int>(found - line_.begin()) + 1,
+                          shown(*found) + " is a control byte, not text; take it out"};
     }
 
     std::optional<GcodeError> drop_spaces_and_comments() {

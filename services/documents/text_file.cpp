@@ -17,6 +17,14 @@ std::unexpected<Diagnostic> refusal(std::string message) {
     return std::unexpected(Diagnostic{.message = std::move(message)});
 }
 
+Diagnostic zero_byte(std::string_view text, std::size_t at) {
+    const std::string_view before = text.substr(0, at);
+    const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+    return {.line = static_cast<int>(std::ranges::count(before, '\n')) + 1,
+            .column = static_cast<int>(at - line_begin) + 1,
+            .message = "the byte 0x00: this is not text, or the file is damaged"};
+}
+
 /// A file descriptor that closes itself.
 class File {
 public:
@@ -64,7 +72,7 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (stream.bad()) { return refusal(std::string("cannot be read: ") + std::strerror(errno)); }
     if (text.empty()) { return refusal("the file is empty"); }
-    if (text.find('\0') != std::string::npos) { return refusal("the file holds 0 bytes; it is not text"); }
+    if (const std::size_t zero = text.find('\0'); zero != text.npos) { return std::unexpected(zero_byte(text, zero)); }
     return text;
 }
 

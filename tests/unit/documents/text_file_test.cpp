@@ -41,6 +41,14 @@ TEST_F(TextFile, ThatIsNotThereEmptyBinaryOrNoFileIsRefused) {
     EXPECT_THAT(refusal(write(std::string_view("a\0b", 3))), HasSubstr("not text"));
 }
 
+TEST_F(TextFile, WithAZeroByteIsRefusedWithItsPlace) {
+    const auto text = read_text_file(write(std::string_view("one\ntwo\0three", 13)));
+    ASSERT_FALSE(text);
+    EXPECT_EQ(text.error().line, 2);
+    EXPECT_EQ(text.error().column, 4);
+    EXPECT_THAT(text.error().message, HasSubstr("0x00"));
+}
+
 TEST_F(TextFile, ItsRefusalIsOfTheFileAsAWhole) {
     const auto machine = load_machine_file(folder_);
     ASSERT_FALSE(machine.has_value());

@@ -37,7 +37,8 @@ TEST_P(GcodeRefused, WithPlaceValueAndRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Characters, GcodeRefused,
     testing::Values(Refusal{"G0 X1\nG0 X\xc3\xa9", 2, 5, "0xC3"}, Refusal{std::string("G0\0X1", 5), 1, 3, "0x00"},
-                    Refusal{"\xef\xbb\xbfG0 X1", 1, 1, "0xEF"}, Refusal{"G0 X1\rG0 X2", 1, 6, "0x0D"},
+                    Refusal{"G0 X1\n\xef\xbb\xbfG0 X1", 2, 1, "0xEF"}, Refusal{"G0 X1\rG0 X2", 1, 6, "0x0D"},
+                    Refusal{"G0 X1\nG0 X2 ; a\x1b[31m", 2, 10, "0x1B is a control byte"},
                     Refusal{"G0 (across X1", 1, 4, "not closed"}, Refusal{"G0 (a (b) ) X1", 1, 7, "inside a comment"},
                     Refusal{"G0 X1 )", 1, 7, "')'"}, Refusal{"G0 X1 / Y1", 1, 7, "'/'"}, Refusal{"% G0", 1, 3, "alone"},
                     Refusal{"G0 X1" + std::string(252, ' '), 1, 257, "257 characters, more than 256"}));
@@ -94,6 +95,13 @@ TEST(GcodeErrors, EveryLineThatIsWrongIsSaidUpToALimit) {
     std::string text;
     for (int i = 0; i < 100; ++i) { text += "G7\n"; }
     EXPECT_EQ(errors(text).size(), kMaxGcodeErrors);
+}
+
+TEST(GcodeErrors, AByteOrderMarkAtTheStartIsNone) {
+    EXPECT_EQ(errors("\xef\xbb\xbfG0 X1\n").size(), 0U);
+    const auto wrong = errors("\xef\xbb\xbfG7\n");
+    ASSERT_EQ(wrong.size(), 1U);
+    EXPECT_EQ(wrong[0].column, 1) << "as an editor counts";
 }
 
 TEST(GcodeErrors, AnEndInAWrongBlockStillLetsTheRestBeSaid) { EXPECT_EQ(errors("G7 M2\nG8\n").size(), 2U); }
