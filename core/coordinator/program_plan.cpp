@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/axis_unit.hpp"
 #include "core/coordinator/lai_path.hpp"
 
 namespace lockstep {
@@ -47,16 +48,17 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = machine_.axes[axes[i]];
         const double mm = move.target_mm[i];
+        const std::string unit = " " + std::string(unit_of(axis.name));
         if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) {
             return std::unexpected(
-                PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + " mm is too far"});
+                PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + unit + " is too far"});
         }
         to[axes[i]] = to_steps(axis, mm);
         if (to[axes[i]] < limits_[axes[i]].min_steps || to[axes[i]] > limits_[axes[i]].max_steps) {
             return std::unexpected(PlanError{FaultCode::OutsideTravel, line,
-                                             axis.name + " " + number(mm) + " mm is outside its travel, " +
+                                             axis.name + " " + number(mm) + unit + " is outside its travel, " +
                                                  number(axis.position_min_mm) + " to " + number(axis.position_max_mm) +
-                                                 " mm"});
+                                                 unit});
         }
     }
     return to;
@@ -67,11 +69,12 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
     if (!axes) { return std::unexpected(axes.error()); }
     for (std::size_t i = 0; i < axes->size(); ++i) {
         const AxisConfig& axis = machine_.axes[(*axes)[i]];
+        const std::string unit = " " + std::string(unit_of(axis.name));
         if (to_steps(axis, program.start_mm[i]) != start[(*axes)[i]]) {
             return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
                                              "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
-                                                 " mm, the axis is at " +
-                                                 number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + " mm"});
+                                                 unit + ", the axis is at " +
+                                                 number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + unit});
         }
     }
     std::vector<Leg> legs(1);

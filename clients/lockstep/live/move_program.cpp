@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clients/lockstep/live/words.hpp"
+#include "core/axis_unit.hpp"
 #include "core/gcode/gcode.hpp"
 #include "services/documents/names.hpp"
 
@@ -25,7 +26,8 @@ std::expected<void, std::string> check_travel(const AxisConfig& axis, double mm)
         mm >= axis.position_min_mm - kTravelTolerance_mm && mm <= axis.position_max_mm + kTravelTolerance_mm;
     if (is_within) { return {}; }
     return std::unexpected(axis.name + "=" + fixed(mm, 4) + " is outside the travel of axis " + axis.name + ", " +
-                           fixed(axis.position_min_mm, 3) + " to " + fixed(axis.position_max_mm, 3) + " mm");
+                           fixed(axis.position_min_mm, 3) + " to " + fixed(axis.position_max_mm, 3) + " " +
+                           std::string(unit_of(axis.name)));
 }
 
 std::expected<void, std::string> check_feed(const MoveOptions& options) {

@@ -39,8 +39,8 @@ std::string row(const std::string& name, const std::string& position, const std:
 }
 
 std::string axis_row(const proto::AxisStatus& axis) {
-    if (!axis.has_position_mm()) { return row(axis.name(), "-", "-", "not heard", "-"); }
-    return row(axis.name(), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
+    if (!axis.has_position_mm()) { return row(axis_label(axis.name()), "-", "-", "not heard", "-"); }
+    return row(axis_label(axis.name()), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
                axis.present() ? axis.state() : "not heard", axis.homed() ? "yes" : "no");
 }
 
@@ -143,7 +143,7 @@ std::string unhomed_text(const proto::StatusReport& status) {
 std::string places_text(const proto::RunReport& report) {
     std::string text;
     for (const proto::FinalPosition& place : report.final_positions()) {
-        text += (text.empty() ? "" : "  ") + place.name() + " " + fixed(place.position_mm(), 4);
+        text += (text.empty() ? "" : "  ") + axis_label(place.name()) + " " + fixed(place.position_mm(), 4);
     }
     return text;
 }

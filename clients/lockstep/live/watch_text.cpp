@@ -9,6 +9,7 @@
 #include "clients/lockstep/live/alarms.hpp"
 #include "clients/lockstep/live/status_text.hpp"
 #include "clients/lockstep/live/words.hpp"
+#include "core/axis_unit.hpp"
 
 namespace lockstep {
 namespace {
@@ -65,7 +66,7 @@ std::string_view colour_of(const proto::AxisStatus& axis) {
 
 std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink ink) {
     std::array<char, 128> name{};
-    std::snprintf(name.data(), name.size(), "%-10s", cut(axis.name(), 10).c_str());
+    std::snprintf(name.data(), name.size(), "%-10s", cut(axis_label(axis.name()), 10).c_str());
     if (!axis.present()) { return name.data() + painted("   not heard", kBad, ink); }
     std::array<char, 32> state{};
     std::snprintf(state.data(), state.size(), "%-10s", axis.state().c_str());
@@ -79,7 +80,8 @@ std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink
 
 std::string place_text(const proto::AxisStatus& axis) {
     if (!axis.present()) { return "not heard"; }
-    return axis.homed() ? fixed(axis.position_mm(), 3) + " mm " + axis.state() : "not homed";
+    return axis.homed() ? fixed(axis.position_mm(), 3) + " " + std::string(unit_of(axis.name())) + " " + axis.state()
+                        : "not homed";
 }
 
 std::string title_row() { return "axis       position mm     mm/s  state      setpoint slack    ms late us loop us"; }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/axis_unit.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -24,6 +26,8 @@ std::string fixed(double value, int digits) {
     const bool is_minus_zero = written.starts_with('-') && written.find_first_not_of(zeros) == written.npos;
     return std::string(is_minus_zero ? written.substr(1) : written);
 }
+
+std::string axis_label(const std::string& name) { return is_rotary(name) ? name + " (deg)" : name; }
 
 std::string duration_text(double seconds) {
     if (seconds < 59.95) { return fixed(seconds, 1) + " s"; }

@@ -11,6 +11,8 @@ namespace lockstep {
 
 /// With so many digits after the point.
 std::string fixed(double value, int digits);
+/// An axis's name, and its unit where that is not the mm of the column: "X", "C (deg)".
+std::string axis_label(const std::string& name);
 /// "8.2 s", "3 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);
 /// Lines of at most `width` characters, broken at spaces; all but the first begin with `indent`.

@@ -44,6 +44,12 @@ TEST(StatusText, SaysWhereEachAxisIsAndHowFast) {
     EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not heard   -\n"));
 }
 
+TEST(StatusText, SaysDegreesOfAnAxisThatTurns) {
+    proto::StatusReport status = running();
+    status.mutable_axes(0)->set_name("C");
+    EXPECT_THAT(status_text(status), HasSubstr("C (deg)                 -5.0000        -10.000   Cruise      yes\n"));
+}
+
 TEST(StatusText, SaysAFaultWithItsCauseAndRemedyOnce) {
     proto::StatusReport status = running();
     *status.mutable_fault() = fault_report(FaultCode::LimitHit, "X");
