@@ -204,11 +204,25 @@ TEST_F(Motion, PausesAndSaysHowToGoOn) {
 
 TEST_F(Motion, GoesOnFromALineAfterAStop) {
     const std::string file = write("square.gcode", kSquare);
-    const Ran dry = run_lockstep({"run", file, "--from-line", "4", "--dry-run"});
+    Command whole(LOCKSTEP_COMMAND, {"run", file});
+    ASSERT_TRUE(becomes("Running"));
+    EXPECT_EQ(run_lockstep({"stop"}).code, 0);
+    EXPECT_EQ(whole.wait().code, 1);
+    const Ran dry = run_lockstep({"run", file, "--from-line", "4", "--lift", "Y=-40", "--dry-run"});
     EXPECT_EQ(dry.code, 0) << dry.err;
-    EXPECT_THAT(dry.out, HasSubstr("first goes straight to X=60.000 Y=0.000"));
-    EXPECT_EQ(run_lockstep({"run", file, "--from-line", "4"}).code, 0);
+    EXPECT_THAT(dry.out, HasSubstr("lifts to X="));
+    EXPECT_THAT(dry.out, HasSubstr("crosses to X=60.000 Y=-40.000"));
+    EXPECT_THAT(dry.out, HasSubstr("goes down to X=60.000 Y=0.000, 40.000 mm, F9000"));
+    EXPECT_THAT(dry.out, HasSubstr("takes up G21 G90 F9000.0, no offset"));
+    const Ran unsure = run_lockstep({"run", file, "--from-line", "4", "--yes"});
+    EXPECT_EQ(unsure.code, 2);
+    EXPECT_THAT(unsure.err, HasSubstr("--lift Z=40")) << "both axes home together";
+    const Ran unasked = run_lockstep({"run", file, "--from-line", "4", "--lift", "Y=-40"});
+    EXPECT_EQ(unasked.code, 2);
+    EXPECT_THAT(unasked.err, HasSubstr("--yes"));
+    EXPECT_EQ(run_lockstep({"run", file, "--from-line", "4", "--lift", "Y=-40", "--yes"}).code, 0);
     EXPECT_EQ(status().axes(0).position_mm(), 20);
+    EXPECT_EQ(run_lockstep({"run", file, "--from-line", "4", "--straight", "--yes"}).code, 0);
     EXPECT_EQ(run_lockstep({"run", file, "--from-line", "40"}).code, 2);
 }
 
