@@ -36,6 +36,12 @@ public:
         if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & kForbidden) == 0) { return; }
         wrong(path, "others may read or change this private key", "chmod 600 " + path.string());
     }
+    /// Whoever may write the directory may put other files in their place.
+    void look_at_directory_mode(const fs::path& path) {
+        struct stat facts {};
+        if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & (S_IWOTH | S_IWGRP)) == 0) { return; }
+        wrong(path, "others may replace the files in this directory", "chmod go-w " + path.string());
+    }
     void look_at_dates(const fs::path& path, std::chrono::sys_seconds now) {
         if (!check_.certificate) { return; }
         const auto [from, until] = std::pair(check_.certificate->from, check_.certificate->until);
@@ -90,7 +96,9 @@ MemberCheck check_member(const MachineConfig& machine, const fs::path& directory
     const std::string permissions_ca = look.read(files.permissions_ca);
     const std::string governance = look.read(files.governance);
     const std::string permissions = look.read(files.permissions);
+    look.look_at_directory_mode(directory);
     look.look_at_key_mode(files.private_key);
+    for (const char* ca : {"identity-ca.key", "permissions-ca.key"}) { look.look_at_key_mode(directory / "ca" / ca); }
     if (!certificate.empty()) { look.certificate(files.certificate, certificate); }
     look.look_at_dates(files.certificate, now);
     if (!certificate.empty() && !identity_ca.empty()) {

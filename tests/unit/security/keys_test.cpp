@@ -76,6 +76,17 @@ TEST_F(Keys, ThatOthersMayReadAreRefusedWithTheChmodThatMendsIt) {
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod 600 " + key.string())));
 }
 
+TEST_F(Keys, InADirectoryThatOthersMayWriteAreRefusedWithTheChmodThatMendsIt) {
+    make();
+    fs::permissions(keys(), fs::perms(0755));
+    EXPECT_THAT(errors_of(client_member()), IsEmpty()) << "others may look";
+    fs::permissions(keys(), fs::perms(0777));
+    EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod go-w " + keys().string())));
+    fs::permissions(keys(), fs::perms(0700));
+    fs::permissions(keys() / "ca" / "identity-ca.key", fs::perms(0604));
+    EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod 600 " + (keys() / "ca").string())));
+}
+
 TEST_F(Keys, EndWhenTheyWereSaidToAndWarnBefore) {
     make(std::chrono::days(100));
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
