@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "services/runtime/clock.hpp"
+#include "services/wire/cut_text.hpp"
 #include "services/wire/newcomers.hpp"
 
 namespace lockstep {
@@ -31,7 +32,7 @@ Ear& the_ear() {
 /// One line of a log: names in certificates are whatever their maker wrote.
 std::string one_line(std::string text) {
     constexpr std::size_t kMaxLength = 400;
-    if (text.size() > kMaxLength) { text.resize(kMaxLength); }
+    text = cut_text(text, kMaxLength);
     while (text.ends_with('\n') || text.ends_with(' ')) { text.pop_back(); }
     std::ranges::replace_if(
         text, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');

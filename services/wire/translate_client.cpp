@@ -1,6 +1,7 @@
 #include <cstring>
 
 #include "services/wire/checks.hpp"
+#include "services/wire/cut_text.hpp"
 #include "services/wire/translate.hpp"
 
 namespace lockstep {
@@ -8,13 +9,6 @@ namespace {
 
 static_assert(lockstep_wire_COMMAND_OVERRIDE == static_cast<int>(CommandKind::Override));
 static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refused));
-
-/// The longest beginning of at most `most` bytes that does not end within a UTF-8 character.
-std::string_view cut_utf8(std::string_view text, std::size_t most) {
-    if (text.size() <= most) { return text; }
-    while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) { --most; }
-    return text.substr(0, most);
-}
 
 }  // namespace
 
@@ -78,7 +72,7 @@ lockstep_wire_Reply to_wire(const Reply& reply) {
                              .fault = reply.fault,
                              .job = reply.job,
                              .text = {}};
-    const std::string_view text = cut_utf8(reply.text, lockstep_wire_MAX_REPLY_BYTES);
+    const std::string text = cut_text(reply.text, lockstep_wire_MAX_REPLY_BYTES);
     std::memcpy(wire.text, text.data(), text.size());
     return wire;
 }
