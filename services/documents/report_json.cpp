@@ -1,10 +1,12 @@
 #include "services/documents/report_json.hpp"
 
+#include <google/protobuf/stubs/logging.h>
 #include <google/protobuf/util/json_util.h>
 
 namespace lockstep {
 
 std::string report_json(const google::protobuf::Message& report) {
+    const google::protobuf::LogSilencer of_texts_that_are_no_utf8;
     google::protobuf::util::JsonPrintOptions options;
     options.add_whitespace = true;
     options.always_print_primitive_fields = true;

@@ -2,6 +2,7 @@
 
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -57,6 +58,7 @@ private:
 }  // namespace
 
 Diagnostics TextSource::parse(std::string_view text, pb::Message& message) {
+    const pb::LogSilencer what_is_wrong_is_the_answer;
     Collector errors;
     pb::TextFormat::Parser parser;
     parser.RecordErrorsTo(&errors);
