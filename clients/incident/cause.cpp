@@ -41,8 +41,10 @@ bool may_heal(const FlightEvent& event) {
 bool has_healed(const Incident& incident, const Entry& symptom, Tick by) {
     if (symptom.event.kind == FlightKind::PeerRestarted) { return symptom.tick < by; }
     return std::ranges::any_of(incident.timeline, [&](const Entry& entry) {
-        const bool is_back = entry.event.kind == FlightKind::PeerHeard || entry.event.kind == FlightKind::AxisSeen;
-        return is_back && entry.event.about == symptom.event.about && entry.tick > symptom.tick && entry.tick < by;
+        const FlightKind kind = entry.event.kind;
+        const bool is_back =
+            kind == FlightKind::PeerHeard || kind == FlightKind::PeerRestarted || kind == FlightKind::AxisSeen;
+        return is_back && entry.event.about == symptom.event.about && entry.tick >= symptom.tick && entry.tick < by;
     });
 }
 

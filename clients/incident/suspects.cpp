@@ -71,13 +71,16 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
     const Tick from = stall->tick - lasts;
     AxisSet axes = 0;
     std::size_t together = 0;
+    std::vector<FlightPeer> looked_at;  // a process may have several lives
     for (const Process& process : incident.processes) {
+        if (std::ranges::find(looked_at, process.who) != looked_at.end()) { continue; }
+        looked_at.push_back(process.who);
         const Entry* other = standstill(incident, process.who, at);
         if (other == nullptr || overlap(*other, *stall) * 2 < lasts) { continue; }
         ++together;
         if (process.who.kind == FlightPeer::Kind::Axis) { axes |= axis_bit(process.who.axis); }
     }
-    if (together > 1 && 2 * together >= incident.processes.size()) {
+    if (together > 1 && 2 * together >= looked_at.size()) {
         return Cause{CauseKind::HostStalled, std::nullopt,
                      fmt::format("{} processes stood still at the same time, for up to {}, {} among them: look at "
                                  "their host",
