@@ -13,12 +13,13 @@ constexpr std::size_t kRemembered = 64;  // frames: more than can be loaded and 
 
 }  // namespace
 
-DeviceTime::DeviceTime(const MachineConfig& machine)
+DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
     : tick_ns_(machine.tick_ns),
       source_(machine.timing.time_source),
       ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       machine_(machine.tick_ns),
-      shown_(machine.tick_ns) {}
+      shown_(machine.tick_ns),
+      pace_(machine.frame_ticks(), limits_of(machine.axes[axis], machine.tick_ns)) {}
 
 bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     device_ = device.now;
@@ -102,54 +103,46 @@ DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
 
 void DeviceTime::load(device::LoadFrame& frame) {
     const Tick machine_end = frame.start + total_ticks(frame.track.body);
+    const Ticks tail = total_ticks(frame.track.tail);
     const bool joins = machine_end_ == frame.start;
+    if (!joins) { pace_.begin(to_device(frame.start), clocks()); }
     const Ticks start_error = joins ? end_error_ : Ticks{};
-    const Tick start = joins ? device_end_ : to_device(frame.start);
     end_error_ = error_at(machine_end);
-    Loaded loaded{.tail_error = error_at(machine_end + total_ticks(frame.track.tail))};
+    Loaded loaded{.tail_error = error_at(machine_end + tail)};
+    frame.start = pace_.end();
     if (own_run_) {
-        frame.start = start;
-        loaded.body_end = start + total_ticks(frame.track.body);
-        loaded.end = loaded.body_end + total_ticks(frame.track.tail);
+        pace_.keep(total_ticks(frame.track.body));
+        loaded.end = pace_.end() + tail;
     } else {
-        loaded.body_end = start;
         stretch(frame, machine_end, loaded);
     }
-    loaded.error = std::max(start_error, end_error_);
+    loaded.body_end = pace_.end();
+    loaded.error += std::max(start_error, end_error_);
     machine_end_ = machine_end;
-    device_end_ = loaded.body_end;
     loaded.frame = frame;
     loaded_.push_back(loaded);
     if (loaded_.size() > kRemembered) { loaded_.pop_front(); }
 }
 
-/// So many ticks of the device's clock for so many of the machine's: what is asked, or as near as the slew allows; a
-/// tick for each piece.
-Ticks DeviceTime::slewed(Ticks machine, Ticks asked, std::size_t pieces) const {
-    const double as_clocks_go = static_cast<double>(machine.value) / (1 + device_clock().rate);
-    const double most = static_cast<double>(machine.value) * MachineTime::kMaxSlew;
-    const double least = std::floor(as_clocks_go - most);
-    const double longest = std::ceil(as_clocks_go + most);
-    const double ticks = std::clamp(static_cast<double>(asked.value), least, longest);
-    return {std::max(std::llround(ticks), static_cast<long long>(pieces))};
+template <typename Pieces>
+FramePace::Stretch DeviceTime::stretch_of(const Pieces& pieces, Tick machine_end) const {
+    return {total_ticks(pieces), pieces.size(), to_device(machine_end), clocks()};
 }
 
-/// `loaded.body_end` is where the frame is to start, and becomes what it says.
+/// A body's error in the middle is that of its ends and what its rate bends it.
 void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
-    const Tick start = loaded.body_end;
-    const Tick asked_end = to_device(machine_end);
-    loaded.body_end = start + slewed(total_ticks(frame.track.body), asked_end - start, frame.track.body.size());
-    end_error_ += length_of(asked_end - loaded.body_end);
-    loaded.end = loaded.body_end;
-    if (!frame.track.tail.empty()) {
-        const Ticks tail = total_ticks(frame.track.tail);
-        const Tick asked_rest = to_device(machine_end + tail);
-        loaded.end += slewed(tail, asked_rest - loaded.body_end, frame.track.tail.size());
-        loaded.tail_error += length_of(asked_rest - loaded.end);
-    }
-    (void)retime(frame.track.body, {start, loaded.body_end});
-    (void)retime(frame.track.tail, {loaded.body_end, loaded.end});
-    frame.start = start;
+    const FramePace::Stretch asked = stretch_of(frame.track.body, machine_end);
+    const Retiming body = pace_.body(asked);
+    end_error_ += length_of(asked.asked_end - body.end);
+    loaded.error = body.bow();
+    loaded.end = body.end;
+    (void)retime(frame.track.body, body);
+    if (frame.track.tail.empty()) { return; }
+    const FramePace::Stretch rest = stretch_of(frame.track.tail, machine_end + total_ticks(frame.track.tail));
+    const Retiming tail = pace_.tail(rest);
+    loaded.tail_error += length_of(rest.asked_end - tail.end) + tail.bow();
+    loaded.end = tail.end;
+    (void)retime(frame.track.tail, tail);
 }
 
 ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) const {

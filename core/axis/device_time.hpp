@@ -4,8 +4,8 @@
 // the network there are three clocks: the coordinator's (machine time), this process's, and the device's. The first is
 // estimated from exchanges of messages, the last from looks at the device; their rates and offsets may change at any
 // time, so each frame's end is mapped anew when the frame is loaded, and its start is where the frame before ended.
-// What has changed between two loads is made up at MachineTime::kMaxSlew at most, however short the frame is; the rest
-// is left to the next frame, and counts as error until then.
+// What has changed between two loads is made up for within the axis's limits (core/axis/frame_pace.hpp); what is left
+// counts as error until then.
 //
 // An axis's own moves are not coordinated: they keep the device's ticks, so that each step is made at its method's own
 // tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time, with what it is
@@ -17,13 +17,15 @@
 
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device.hpp"
+#include "core/axis/frame_pace.hpp"
 #include "core/clock/machine_time.hpp"
 
 namespace lockstep {
 
 class DeviceTime {
 public:
-    explicit DeviceTime(const MachineConfig& machine);
+    /// `axis`: its place in the configuration.
+    DeviceTime(std::size_t axis, const MachineConfig& machine);
 
     /// An exchange with the coordinator, by this process's clock.
     void take(const ClockExchange& exchange) { machine_.take(exchange); }
@@ -72,7 +74,9 @@ private:
     Ticks error_at(Tick machine) const;
     void load(device::LoadFrame& frame);
     void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
-    Ticks slewed(Ticks machine, Ticks asked, std::size_t pieces) const;
+    template <typename Pieces>
+    FramePace::Stretch stretch_of(const Pieces& pieces, Tick machine_end) const;
+    double clocks() const { return 1 / (1 + device_clock().rate) - 1; }
 
     std::int64_t tick_ns_;
     TimeSource source_;
@@ -87,8 +91,8 @@ private:
 
     bool own_run_ = false;
     std::optional<Tick> machine_end_;  // of the frame loaded last in this run
-    Tick device_end_;
-    Ticks end_error_;  // of the one as the other
+    FramePace pace_;
+    Ticks end_error_;  // of its end as the other
     std::deque<Loaded> loaded_;
 };
 

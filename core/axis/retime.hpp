@@ -1,11 +1,12 @@
 // Motion planned in machine time, for a device whose own clock runs a little faster or slower.
 //
-// Every piece's end keeps its place and gets a tick of the device's clock, in proportion: what is to be corrected is
-// spread over the whole stretch, since a short piece that had to make up for it all would break the axis's limits.
-// Between, the velocity is solved again. What rounding leaves of a piece (less than a tick's worth of the smallest
-// velocity) goes into the next, and the last piece gives up its last tick to a piece of its own that ends on the very
-// place. So nothing accumulates, neither in time nor in space, and the next frame, or the axis's rest, joins bit for
-// bit.
+// A stretch of it keeps its two ends' places, at the ticks of the device's clock that it is given. Between, the
+// device's clock goes by the machine's at a rate that changes evenly (core/axis/frame_pace.hpp), and each piece ends at
+// the tick nearest to its end, at the place where the motion then is. So pieces join at the speed that the motion has
+// there, however short they are, and each step is made within a tick of the motion. The velocity is solved for the
+// place; what rounding leaves of it (less than a tick's worth of the smallest velocity) goes into the next piece, and
+// the last one gives up its last tick to a piece of its own that ends on the very place. So nothing accumulates,
+// neither in time nor in space, and the next frame, or the axis's rest, joins bit for bit.
 #pragma once
 
 #include "core/protocol/messages.hpp"
@@ -15,7 +16,11 @@ namespace lockstep {
 /// The stretch of a body or a tail on the device's clock.
 struct Retiming {
     Tick start;
-    Tick end;  // at least as many ticks later as there are pieces
+    Tick end;         // at least as many ticks later as there are pieces
+    double bend = 0;  // the rate at its end is to that at its start as 1 + bend to 1 - bend
+
+    /// How far it goes, at most, from a rate that does not change.
+    Ticks bow() const;
 };
 
 /// The device's pieces: at most one more than there are. Nothing, where that is more than fit.

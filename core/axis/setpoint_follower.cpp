@@ -1,5 +1,7 @@
 #include "core/axis/setpoint_follower.hpp"
 
+#include "core/motion/frame_limits.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -16,7 +18,7 @@ SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machin
       axes_(machine.axes.size()),
       timing_(machine.timing),
       slot_(machine.slot_ticks()),
-      limits_(limits_of(machine.axes[axis], machine.tick_ns)),
+      limits_(frame_limits_of(machine, axis)),
       peers_(machine.axes.size()) {}
 
 void SetpointFollower::hear(const AxisState& peer) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "core/motion/frame_limits.hpp"
 #include "core/motion/interpolate.hpp"
 
 namespace lockstep {
 
-EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot_(machine.slot_ticks()) {
-    for (const AxisConfig& axis : machine.axes) { limits_.push_back(limits_of(axis, machine.tick_ns)); }
-}
+EpochRunner::EpochRunner(const MachineConfig& machine)
+    : machine_(machine), limits_(frame_limits_of(machine)), slot_(machine.slot_ticks()) {}
 
 void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot now) {
     constexpr Slot kMargin = 2;

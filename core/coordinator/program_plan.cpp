@@ -6,6 +6,7 @@
 
 #include "core/axis_unit.hpp"
 #include "core/coordinator/lai_path.hpp"
+#include "core/motion/frame_limits.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,11 +21,8 @@ std::string number(double value) {
 
 }  // namespace
 
-ProgramPlanner::ProgramPlanner(const MachineConfig& machine) : machine_(machine) {
-    for (const AxisConfig& axis : machine.axes) {
-        limits_.push_back(limits_of(axis, machine.tick_ns));
-        steps_per_mm_.push_back(axis.steps_per_mm);
-    }
+ProgramPlanner::ProgramPlanner(const MachineConfig& machine) : machine_(machine), limits_(frame_limits_of(machine)) {
+    for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 
 std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(const Program& program) const {

@@ -17,7 +17,7 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
       machine_(setup.machine),
       lacks_("not looked for yet"),
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, setup.kept),
-      time_(setup.machine) {}
+      time_(setup.axis, setup.machine) {}
 
 AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     AxisOutputs out = decide(own, mail, on_step);

@@ -24,7 +24,8 @@ class LoadedFrames {
 public:
     explicit LoadedFrames(std::uint64_t seed) : clocks_(seed) {
         machine_.timing.time_source = TimeSource::Network;
-        time_.emplace(machine_);
+        machine_.axes = {test_axis()};
+        time_.emplace(0, machine_);
     }
 
     void begin() {

@@ -10,16 +10,16 @@ namespace {
 constexpr double kRounding = 1 + 1e-5;  // what integers make of doubles
 constexpr double kJointTicks = 2;       // phases of a motion meet on whole ticks: each may be off by one
 
-/// What a device's own clock makes of machine time.
+/// What a device's own clock makes of machine time. An axis's limits hold in its device's time, whatever corrections
+/// are made; a feed is one of machine time.
 struct OwnClock {
-    double stretch = 1;   // of a frame: rates 100 ppm apart, known to 200, slewed by 500; and three ticks
-    double rounding = 1;  // ticks, of the time between two steps; pieces end on whole ticks of it
+    double hurry = 1;     // of a feed: rates 200 ppm apart, slewed by 500
+    double rounding = 1;  // ticks, of the time between two steps; frames end on whole ticks of it as well
 };
 
 OwnClock own_clock(const MachineConfig& machine) {
-    if (machine.timing.time_source != TimeSource::Network) { return {}; }
-    const auto frame = static_cast<double>((machine.slot_ticks() * machine.timing.frame_slots).value);
-    return {.stretch = 1 + 800e-6 + 3 / frame, .rounding = 2};
+    return machine.timing.time_source == TimeSource::Network ? OwnClock{.hurry = 1 + 700e-6, .rounding = 2}
+                                                             : OwnClock{};
 }
 
 struct Limits {
@@ -31,11 +31,9 @@ struct Limits {
 
 Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
     const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
-    const double rate = own_clock(machine).stretch;
-    const double scale = axis.steps_per_mm * tick * rate;
-    return {axis.start_velocity_mm_s * scale * kRounding, axis.max_velocity_mm_s * scale * kRounding,
-            axis.max_accel_mm_s2 * scale * tick * rate * kRounding,
-            axis.max_decel_mm_s2 * scale * tick * rate * kRounding};
+    const double scale = axis.steps_per_mm * tick * kRounding;
+    return {axis.start_velocity_mm_s * scale, axis.max_velocity_mm_s * scale, axis.max_accel_mm_s2 * scale * tick,
+            axis.max_decel_mm_s2 * scale * tick};
 }
 
 /// One job's steps of one axis.
@@ -51,7 +49,7 @@ public:
           axis_(axis),
           first_(job.first_step[axis]),
           rounding_(own_clock(recording.machine).rounding),
-          stretch_(own_clock(recording.machine).stretch),
+          hurry_(own_clock(recording.machine).hurry),
           ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
           violations_(violations) {
         // Steps beyond the course are another check's matter.
@@ -109,8 +107,9 @@ private:
 
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n + 1, n + m) > 0) { return; }
-        const double most =
-            course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * stretch_;
+        const double feed =
+            course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * hurry_;
+        const double most = std::min(limits_.top, feed);
         const double speed = static_cast<double>(m) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
@@ -124,10 +123,8 @@ private:
         const auto steps = static_cast<double>(m);
         const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
         const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
-        // One frame's time may be slewed forward, and the next one's back.
-        const double rates_differ = 2 * (stretch_ - 1) * steps / std::min(t1, t2);
-        const double most_rise = limits_.accel * between + rates_differ;
-        const double most_fall = limits_.decel * between + rates_differ;
+        const double most_rise = limits_.accel * between;
+        const double most_fall = limits_.decel * between;
         if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }
         if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
@@ -188,7 +185,7 @@ private:
     std::size_t axis_;
     std::size_t first_;
     double rounding_;  // ticks, of the time between two steps
-    double stretch_;   // of time, by a clock of the device's own
+    double hurry_;     // of a feed, by a clock of the device's own
     bool ceases_;      // the last step may be followed by none, at any speed
     Violations& violations_;
 };
