@@ -16,54 +16,33 @@ class Pace {
 public:
     Pace(Ticks machine, const Retiming& when)
         : machine_(static_cast<double>(machine.value)),
-          device_(static_cast<double>((when.end - when.start).value)),
+          mean_(static_cast<double>((when.end - when.start).value) / machine_),
           bend_(when.bend) {}
 
-    double device_at(double gone) const {
-        const double part = gone / machine_;
-        return device_ * part * (1 - bend_ * (1 - part));
-    }
-    /// Device ticks in a machine tick.
-    double rate_at(double gone) const { return device_ / machine_ * (1 - bend_ + 2 * bend_ * gone / machine_); }
-    double change() const { return 2 * bend_ * device_ / (machine_ * machine_); }
-    /// When the device's clock has gone so far, which is near what it has at `near`.
-    double machine_at(Ticks device, double near) const {
-        return near + (static_cast<double>(device.value) - device_at(near)) / rate_at(near);
+    double device_at(double gone) const { return gone * mean_ * (1 - bend_ * (1 - gone / machine_)); }
+    /// Device ticks in a machine tick, and how fast that changes.
+    double rate_at(double gone) const { return mean_ * (1 - bend_ + 2 * bend_ * gone / machine_); }
+    double change() const { return mean_ * 2 * bend_ / machine_; }
+    /// By how much of a tick the device's clock goes so far later than that.
+    double late(Ticks device, double gone) const {
+        return std::clamp((static_cast<double>(device.value) - device_at(gone)) / rate_at(gone), -0.5, 0.5);
     }
 
 private:
     double machine_;
-    double device_;
+    double mean_;  // device ticks in a machine tick
     double bend_;
 };
 
-/// Where the motion of pieces is, between their ticks as well. Asked for times that rise.
-template <typename Pieces>
-class Motion {
-public:
-    explicit Motion(const Pieces& pieces) : pieces_(pieces) {}
-
-    Displacement at(double gone) {
-        while (piece_ + 1 < pieces_.size() && gone >= begun_ + ticks()) {
-            begun_ += ticks();
-            covered_ = covered_ + pieces_[piece_].covered();
-            ++piece_;
-        }
-        const double within = std::clamp(gone - begun_, 0.0, ticks());
-        const Ticks whole{static_cast<std::int64_t>(within)};
-        const double part = within - static_cast<double>(whole.value);
-        const double next_tick = static_cast<double>(pieces_[piece_].velocity_after(whole + Ticks{1}));
-        return covered_ + pieces_[piece_].covered(whole) + Displacement{static_cast<Int128>(part * next_tick)};
-    }
-
-private:
-    double ticks() const { return static_cast<double>(pieces_[piece_].ticks.value); }
-
-    const Pieces& pieces_;
-    std::size_t piece_ = 0;
-    double begun_ = 0;
-    Displacement covered_;
-};
+/// The speed with which a motion goes through the place where two pieces join: the slower of both, none where it turns.
+/// A tick of it more or less is a tick or less of either.
+double joint_speed(const Piece& before, const Piece& after) {
+    const double ends =
+        static_cast<double>(before.velocity_after(before.ticks)) + static_cast<double>(before.acceleration.raw) / 2;
+    const double begins = static_cast<double>(after.velocity.raw) + static_cast<double>(after.acceleration.raw) / 2;
+    if (ends * begins <= 0) { return 0; }
+    return std::abs(ends) < std::abs(begins) ? ends : begins;
+}
 
 /// The piece for so many device ticks that covers so much, but for what rounding leaves: less than `ticks`. Its
 /// acceleration is that of v / rate by the device's clock, in the middle of the piece: a / rate^2 - v rate' / rate^3.
@@ -89,8 +68,8 @@ template <std::size_t Capacity>
 bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
     StaticVector<Piece, Capacity> result;
     const Pace pace(total_ticks(pieces), when);
-    Motion motion(pieces);
-    Ticks gone;  // of the pieces as they are
+    Ticks gone;           // of the pieces as they are
+    Displacement joined;  // where they end
     Tick device = when.start;
     Displacement reached;
     bool fits = true;
@@ -98,12 +77,16 @@ bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
         const Piece& piece = pieces[i];
         const auto begun = static_cast<double>(gone.value);
         gone += piece.ticks;
+        joined = joined + piece.covered();
         const auto ends = static_cast<double>(gone.value);
         const Ticks needed{static_cast<std::int64_t>(pieces.size() - i) - 1};  // a tick for each that follows
         const bool last = needed == Ticks{};
         const Tick nearest = last ? when.end : when.start + Ticks{std::llround(pace.device_at(ends))};
         const Tick end = std::max(device + Ticks{1}, std::min(nearest, when.end - needed));
-        const Displacement place = motion.at(last ? ends : pace.machine_at(end - when.start, ends));
+        Displacement place = joined;
+        if (!last) {
+            place.raw += static_cast<Int128>(joint_speed(piece, pieces[i + 1]) * pace.late(end - when.start, ends));
+        }
         Piece solution = solved(piece, begun, pace, place - reached, end - device);
         if (last && reached + solution.covered() != place && solution.ticks.value > 1) {
             solution.ticks.value -= 1;

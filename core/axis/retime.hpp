@@ -1,12 +1,12 @@
 // Motion planned in machine time, for a device whose own clock runs a little faster or slower.
 //
 // A stretch of it keeps its two ends' places, at the ticks of the device's clock that it is given. Between, the
-// device's clock goes by the machine's at a rate that changes evenly (core/axis/frame_pace.hpp), and each piece ends at
-// the tick nearest to its end, at the place where the motion then is. So pieces join at the speed that the motion has
-// there, however short they are, and each step is made within a tick of the motion. The velocity is solved for the
-// place; what rounding leaves of it (less than a tick's worth of the smallest velocity) goes into the next piece, and
-// the last one gives up its last tick to a piece of its own that ends on the very place. So nothing accumulates,
-// neither in time nor in space, and the next frame, or the axis's rest, joins bit for bit.
+// device's clock goes by the machine's at a rate that changes evenly (core/axis/frame_pace.hpp). Each piece ends at the
+// tick nearest to its end, at the place that the motion has come to by then: so pieces keep their speeds, however short
+// they are, and each step is made within a tick of the motion. The velocity is solved for the place. What rounding
+// leaves of it (less than a tick's worth of the smallest velocity) goes into the next piece, and the last piece gives
+// up its last tick to a piece of its own that ends on the very place. So nothing accumulates, neither in time nor in
+// space, and the next frame, or the axis's rest, joins bit for bit.
 #pragma once
 
 #include "core/protocol/messages.hpp"

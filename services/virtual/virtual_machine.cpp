@@ -222,8 +222,9 @@ void VirtualMachine::take_clock_mail(std::size_t process) {
     mail_.collect(network_, now_, clock_address(process));
     if (!is_up(process)) { return; }
     for (const ClockRequest& request : mail_.clock_requests) {
-        send(process, clock_address(request.axis),
-             std::make_shared<const VirtualMessage>(ClockReply{request, now_, now_}));
+        network_.send(now_ + options_.network.reply_longer, static_cast<VirtualNetwork::Address>(process),
+                      static_cast<VirtualNetwork::Address>(clock_address(request.axis)),
+                      std::make_shared<const VirtualMessage>(ClockReply{request, now_, now_}));
     }
     for (const ClockReply& reply : mail_.clock_replies) {
         Axis& axis = axes_[process];

@@ -23,6 +23,7 @@ struct NetworkBehaviour {
     double duplicated = 0;  // probability
     double lost = 0;        // probability
     double corrupted = 0;   // probability
+    Ticks reply_longer{};   // than its request an answer to what time it is takes
 };
 
 /// One message, however many copies of it are on their way.

@@ -159,6 +159,17 @@ void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
+/// What is known of the time then changes from one exchange to the next. Drawn by itself, as overrides; the rest of a
+/// hop is the clocks'.
+void give_uneven_delays(std::uint64_t seed, Scenario& scenario) {
+    Draw draw(seed ^ 0x0de1a70fc10c0000U);
+    if (draw.chance(0.3)) { return; }
+    const double most = 0.06 * static_cast<double>(scenario.machine.slot_ticks().value);
+    const auto part = [&] { return Ticks{static_cast<std::int64_t>(draw.real(0, most))}; };
+    scenario.network.delay_max = std::max(scenario.network.delay_max, scenario.network.delay_min + part());
+    scenario.network.reply_longer = part();
+}
+
 /// Set seconds apart, up to 100 ppm fast or slow, processes and devices each for themselves.
 void give_clocks(Draw& draw, Scenario& scenario) {
     MachineConfig& machine = scenario.machine;
@@ -186,7 +197,10 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, kind.axes.value_or(drawn), kind.long_searches);
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
-    if (faults.clock) { give_clocks(draw, scenario); }
+    if (faults.clock) {
+        give_clocks(draw, scenario);
+        give_uneven_delays(seed, scenario);
+    }
     if (draw.chance(0.3)) {
         scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
