@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/protocol/names.hpp"
+#include "core/protocol/reception_watch.hpp"
 #include "services/record/job_recorder.hpp"
 
 namespace lockstep::incident {
@@ -146,6 +147,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
         case Kind::StoodDown:
         case Kind::JobContinued:
         case Kind::JobCutShort:
+        case Kind::Reopened:
         case Kind::Stalled: return Weight::Telling;
         case Kind::Incident: return is_end(event) ? Weight::Telling : Weight::Routine;
         default: return Weight::Routine;
@@ -170,6 +172,8 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::State:
         case Kind::Phase: return phase_words(incident, entry);
         case Kind::Started: return "starts";
+        case Kind::Reopened:
+            return fmt::format("opens its DDS participant anew: {}", text_of(static_cast<ReopenReason>(event.detail)));
         case Kind::Stalled: return fmt::format("its loop has not run for {}", duration(lasts));
         case Kind::Loops:
             return fmt::format("{} loops in a second, at most {} from one to the next", event.count, duration(lasts));

@@ -81,7 +81,12 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         if (view.state && !same) { cut_inherited(TakeoverDoubt::AxisInDoubt, out); }
         const bool is_repeat = same && state.stamp == view.state->stamp;
         const Slot last_stamp = view.state ? view.state->stamp : 0;
+        const bool has_order_open = !order_done(state.axis);
         view = {state, now_slot_, is_repeat ? view.stamp_before : last_stamp, {}};
+        if (state.term != ownership_.term() || state.command_done <= order_sequence_) { continue; }
+        // It has carried out an order that nobody here has given, and takes none with a lower number any more.
+        order_sequence_ = state.command_done;
+        if (has_order_open) { orders_[state.axis]->sequence = ++order_sequence_; }
     }
     for (const MachineState& other : inputs.others) { ownership_.hear(other, now_slot_); }
     commands_.insert(commands_.end(), inputs.commands.begin(), inputs.commands.end());

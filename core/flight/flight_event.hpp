@@ -60,7 +60,8 @@ namespace lockstep {
     X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */        \
     X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */ \
     X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */   \
-    X(JobContinued, "job-continued")       /* count: near this line */
+    X(JobContinued, "job-continued")       /* count: near this line */                                        \
+    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include "core/protocol/second_hearing.hpp"
+#include "services/axis/axis_network.hpp"
 #include "services/axis/axis_node.hpp"
 #include "services/axis/axis_notices.hpp"
 #include "services/axis/device_window.hpp"
@@ -23,8 +25,6 @@
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/user_signal.hpp"
 #include "services/security/service_admission.hpp"
-#include "services/wire/bus.hpp"
-#include "services/wire/clock_link.hpp"
 
 namespace lockstep {
 namespace {
@@ -57,13 +57,13 @@ KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
 class AxisService {
 public:
     /// `fpga`: as AxisConfig::device.
-    AxisService(const AxisNode::Setup& setup, const std::string& fpga, const MachineClock& clock, AxisBus bus,
+    AxisService(const AxisNode::Setup& setup, const std::string& fpga, const MachineClock& clock, AxisNetwork network,
                 std::unique_ptr<RecordSink> sink)
         : setup_(setup),
           fpga_(fpga),
           clock_(clock),
           node_(setup, opener_of(fpga, setup.machine.axes[setup.axis], setup.machine.tick_ns)),
-          bus_(std::move(bus)),
+          network_(std::move(network)),
           sink_(std::move(sink)),
           flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
           flight_(setup.axis, setup.machine, *flight_log_),
@@ -72,9 +72,6 @@ public:
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
-        if (setup.machine.timing.time_source != TimeSource::Network) { return; }
-        const ClockAsker asker(static_cast<std::uint32_t>(setup.axis), setup.identity, setup.machine.tick_ns);
-        clock_client_ = std::make_unique<ClockClient>(bus_.participant, asker, [clock] { return clock.now(); });
     }
 
     AxisService(const AxisService&) = delete;  // the node measures itself by this object
@@ -82,16 +79,18 @@ public:
 
     /// `begun`: when the loop was to begin, on CLOCK_MONOTONIC. False: this process is to end, see end_reason().
     bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
-        hear();
+        const AxisReceived& in = receive();
         const Tick now = clock_.now();
         if (user_signal_.take()) { flight_log_->incident(node_.now(), IncidentReason::Asked); }
-        const AxisOutputs out = node_.step(now, {frames_, states_, machine_, commands_, requests_, exchanges_},
-                                           [this](StepEdge step) { recorder_.step(step); });
-        if (out.state) { (void)bus_.state.write(*out.state); }
+        const AxisOutputs out =
+            node_.step(now, {in.frames, in.states, in.machine, in.commands, in.requests, in.exchanges},
+                       [this](StepEdge step) { recorder_.step(step); });
+        if (out.state) { network_.publish(*out.state); }
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
         if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         report_device();
+        tend_network(now);
         complain(now);
         log_strangers(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
@@ -104,40 +103,37 @@ public:
     void finish() { recorder_.finish(); }
 
 private:
-    void hear() {
-        frames_.clear();
-        states_.clear();
-        machine_.clear();
-        commands_.clear();
-        requests_.clear();
-        if (clock_client_) { exchanges_ = clock_client_->take(); }
-        bus_.frames.take([&](Frame&& m) { frames_.push_back(std::move(m)); });
-        bus_.states.take([&](AxisState&& m) { states_.push_back(m); });
-        bus_.machine.take([&](MachineState&& m) { machine_.push_back(m); });
-        bus_.commands.take([&](AxisCommand&& m) { commands_.push_back(m); });
-        bus_.requests.take([&](Command&& m) { requests_.push_back(m); });
-        const bool is_doubled = std::any_of(states_.begin(), states_.end(), [&](const AxisState& s) {
-            return s.axis == setup_.axis && s.identity < setup_.identity;  // who came first stays
+    const AxisReceived& receive() {
+        const AxisReceived& in = network_.receive();
+        const bool is_doubled = std::any_of(in.states.begin(), in.states.end(), [&](const AxisState& s) {
+            const bool is_older = s.axis == setup_.axis && s.identity < setup_.identity;
+            return is_older && older_.again(s.identity, s.stamp);  // the process that came first stays
         });
         if (is_doubled) { end_reason_ = "axis " + own_name() + " is already run by another process"; }
         const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
-        if (std::ranges::any_of(machine_, owns)) { machine_heard_ = clock_.now(); }
+        if (std::ranges::any_of(in.machine, owns)) { machine_heard_ = clock_.now(); }
+        return in;
+    }
+
+    void tend_network(Tick now) {
+        const auto reason = network_.tend(now, node_.controller().at_rest());
+        if (!reason) { return; }
+        flight_log_->add({.tick = node_.now(),
+                          .kind = FlightKind::Reopened,
+                          .detail = static_cast<std::uint8_t>(*reason),
+                          .count = static_cast<std::int64_t>(network_.reopened())});
+        log_warning("opens its DDS participant anew: " + std::string(text_of(*reason)));
     }
 
     void say_health(std::uint64_t skipped_loops) {
-        const auto health = meter_.report(node_.clock_error(), {.messages = refused_messages(),
+        const auto health = meter_.report(node_.clock_error(), {.messages = network_.refused(),
                                                                 .orders = node_.troubles(),
                                                                 .captures = node_.lost_captures(),
                                                                 .records = sink_->failures(),
                                                                 .skipped_loops = skipped_loops});
         if (!health) { return; }
-        (void)bus_.health.write(*health);
+        network_.publish(*health);
         recorder_.health(*health);
-    }
-
-    std::uint64_t refused_messages() const {
-        return bus_.frames.refusals().count + bus_.states.refusals().count + bus_.machine.refusals().count +
-               bus_.commands.refusals().count + bus_.requests.refusals().count;
     }
 
     void report_device() {
@@ -155,12 +151,10 @@ private:
         if (now - complained_ < period) { return; }
         complained_ = now;
         if (now - machine_heard_ > period) { log_info("waits for the coordinator of machine " + setup_.machine.name); }
-        const std::uint64_t refused = refused_messages();
+        const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
-            log_warning(std::to_string(refused) + " messages refused so far: " + bus_.frames.refusals().last + " " +
-                        bus_.states.refusals().last + " " + bus_.machine.refusals().last + " " +
-                        bus_.commands.refusals().last + " " + bus_.requests.refusals().last);
+            log_warning(std::to_string(refused) + " messages refused so far: " + network_.refusals());
         }
         if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
@@ -192,7 +186,7 @@ private:
     std::string fpga_;
     MachineClock clock_;
     AxisNode node_;
-    AxisBus bus_;
+    AxisNetwork network_;
     std::unique_ptr<RecordSink> sink_;
     std::unique_ptr<FlightLog> flight_log_;
     AxisFlight flight_;
@@ -200,19 +194,13 @@ private:
     AxisRecorder recorder_;
     PositionKeeper keeper_;
     HealthMeter meter_;
-    std::vector<Frame> frames_;
-    std::vector<AxisState> states_;
-    std::vector<MachineState> machine_;
-    std::vector<AxisCommand> commands_;
-    std::vector<Command> requests_;
-    std::unique_ptr<ClockClient> clock_client_;  // where the coordinator is asked for the time
-    std::vector<ClockExchange> exchanges_;
     Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
     std::string trouble_;
     bool has_device_ = true;  // as reported
     bool time_differed_ = false;
+    SecondHearing<Identity> older_;  // another process that speaks for this axis
     std::string end_reason_;
 };
 
@@ -230,9 +218,9 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     const std::string fpga = options.fpga.empty() ? machine.axes[axis].device : options.fpga;
     const auto admission = admit_service(machine, axis_member(machine, axis));
     if (!admission) { return fail(admission.error()); }
-    auto bus = open_bus<AxisBus>(machine.network, machine.name, *admission);
-    if (!bus) { return fail(bus.error()); }
-    AxisService service(setup, fpga, clock, std::move(*bus),
+    auto network = AxisNetwork::open({machine, static_cast<std::uint32_t>(axis), setup.identity, clock, *admission});
+    if (!network) { return fail(network.error()); }
+    AxisService service(setup, fpga, clock, std::move(*network),
                         open_record(machine, machine.axes[axis].name, options.record));
     log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + fpga);
 

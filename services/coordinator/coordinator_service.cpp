@@ -9,6 +9,7 @@
 #include "core/coordinator/coordinator.hpp"
 #include "core/flight/coordinator_flight.hpp"
 #include "core/protocol/names.hpp"
+#include "services/coordinator/coordinator_network.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/flight/flight_recorder.hpp"
@@ -22,8 +23,6 @@
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/user_signal.hpp"
 #include "services/security/service_admission.hpp"
-#include "services/wire/bus.hpp"
-#include "services/wire/clock_link.hpp"
 
 namespace lockstep {
 namespace {
@@ -38,60 +37,65 @@ std::string hash_text(std::uint64_t hash) {
 
 class CoordinatorService {
 public:
-    CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorBus bus,
+    CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorNetwork network,
                        std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby)
         : machine_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
           coordinator_(machine, identity, config_hash(machine), standby),
-          bus_(std::move(bus)),
+          network_(std::move(network)),
           sink_(std::move(sink)),
           flight_log_(open_flight(machine, "", identity)),
           flight_(machine, *flight_log_),
-          recorder_(machine, identity, *sink_) {
-        if (machine.timing.time_source != TimeSource::Network) { return; }
-        clock_server_ = std::make_unique<ClockServer>(bus_.participant, [clock = clock_] { return clock.now(); });
-    }
+          recorder_(machine, identity, *sink_) {}
 
     /// False: another coordinator owns this machine.
     bool loop() {
-        hear();
+        const CoordinatorReceived& received = receive();
         const Tick now = clock_.now();
         if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
-        const CoordinatorInputs in{now, states_, others_, commands_};
+        const CoordinatorInputs in{now, received.states, received.others, received.commands};
         const CoordinatorOutputs out = coordinator_.step(in);
         flight_.take(in, out);
-        // First which epoch it is and where its frames come to rest, then the frames: an axis takes the first frame of
-        // an epoch it has heard of only, and a standby knows of every frame that axes may have.
-        if (out.state) { (void)bus_.machine.write(*out.state); }
-        for (const Frame& frame : out.frames) { (void)bus_.frames.write(frame); }
-        for (const AxisCommand& command : out.axis_commands) { (void)bus_.axis_commands.write(command); }
-        for (const Reply& reply : out.replies) { (void)bus_.replies.write(reply); }
+        network_.publish(out);
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
+        tend_network(now);
         complain(now);
         log_strangers(monotonic_now());
         return !out.must_quit;
     }
 
 private:
-    void hear() {
-        states_.clear();
-        others_.clear();
-        commands_.clear();
-        bus_.chunks.take([&](ProgramChunk&& chunk) {
+    const CoordinatorReceived& receive() {
+        const CoordinatorReceived& received = network_.receive();
+        for (const ProgramChunk& chunk : received.chunks) {
             ProgramInbox::Taken taken = inbox_.take(chunk);
             if (taken.program) { coordinator_.accept_program(chunk.program, std::move(*taken.program)); }
-            if (coordinator_.owns_machine()) { (void)bus_.replies.write(taken.reply); }
-        });
-        bus_.states.take([&](AxisState&& m) {
-            if (m.axis < machine_.axes.size()) {
-                heard_ |= axis_bit(m.axis);
-                configs_[m.axis] = m.config_hash;
-            }
-            states_.push_back(m);
-        });
-        bus_.other_coordinators.take([&](MachineState&& m) { others_.push_back(m); });
-        bus_.commands.take([&](Command&& m) { commands_.push_back(m); });
+            if (coordinator_.owns_machine()) { network_.publish(taken.reply); }
+        }
+        for (const AxisState& state : received.states) {
+            if (state.axis >= machine_.axes.size()) { continue; }
+            heard_ |= axis_bit(state.axis);
+            configs_[state.axis] = state.config_hash;
+        }
+        return received;
+    }
+
+    /// A job that is held is not at rest: it would be lost with the axes' silence.
+    bool at_rest() const {
+        const MachinePhase phase = coordinator_.phase();
+        return phase == MachinePhase::Waiting || phase == MachinePhase::Idle || phase == MachinePhase::Fault ||
+               phase == MachinePhase::Standby;
+    }
+
+    void tend_network(Tick now) {
+        const auto reason = network_.tend(now, at_rest());
+        if (!reason) { return; }
+        flight_log_->add({.tick = now,
+                          .kind = FlightKind::Reopened,
+                          .detail = static_cast<std::uint8_t>(*reason),
+                          .count = static_cast<std::int64_t>(network_.reopened())});
+        log_warning("opens its DDS participant anew: " + std::string(text_of(*reason)));
     }
 
     std::string axis_name(std::uint64_t axis) const {
@@ -140,7 +144,7 @@ private:
         complained_ = now;
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
             if (!has_axis(heard_, i)) {
-                log_info("waits for axis " + machine_.axes[i].name + " " + bus_.states.place());
+                log_info("waits for axis " + machine_.axes[i].name + " " + network_.place_of_states());
             }
         }
         for (const auto& [axis, hash] : configs_) {
@@ -151,29 +155,23 @@ private:
         }
         heard_ = 0;
         configs_.clear();
-        const std::uint64_t refused =
-            bus_.states.refusals().count + bus_.commands.refusals().count + bus_.chunks.refusals().count;
+        const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
-            log_warning(std::to_string(refused) + " messages refused so far: " + bus_.states.refusals().last + " " +
-                        bus_.commands.refusals().last + " " + bus_.chunks.refusals().last);
+            log_warning(std::to_string(refused) + " messages refused so far: " + network_.refusals());
         }
     }
 
     MachineConfig machine_;
     MachineClock clock_;
     Coordinator coordinator_;
-    CoordinatorBus bus_;
-    std::unique_ptr<ClockServer> clock_server_;  // where axes ask for the time
+    CoordinatorNetwork network_;
     std::unique_ptr<RecordSink> sink_;
     std::unique_ptr<FlightLog> flight_log_;
     CoordinatorFlight flight_;
     UserSignal user_signal_;  // a person asks for what was noted
     JobRecorder recorder_;
     ProgramInbox inbox_;
-    std::vector<AxisState> states_;
-    std::vector<MachineState> others_;
-    std::vector<Command> commands_;
     Tick complained_ = clock_.now();
     AxisSet heard_ = 0;
     std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes heard
@@ -192,10 +190,11 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
     const Member member = options.second ? standby_member() : coordinator_member();
     const auto admission = admit_service(machine, member);
     if (!admission) { return fail(admission.error()); }
-    auto bus = open_bus<CoordinatorBus>(machine.network, machine.name, *admission);
-    if (!bus) { return fail(bus.error()); }
+    auto network =
+        CoordinatorNetwork::open({machine, MachineClock(machine.tick_ns, machine.timing.time_source), *admission});
+    if (!network) { return fail(network.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
-    CoordinatorService service(machine, identity, std::move(*bus), open_record(machine, "", options.record),
+    CoordinatorService service(machine, identity, std::move(*network), open_record(machine, "", options.record),
                                options.standby ? std::optional(options.on_takeover) : std::nullopt);
     log_info("coordinator of machine " + machine.name + " is up");
 

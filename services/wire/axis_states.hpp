@@ -19,6 +19,8 @@ public:
 
     /// Never waits. False: the network's buffers are full, or DDS is shutting down.
     bool write(const AxisState& state);
+    /// The file of the memory is no longer the one that is open.
+    bool is_memory_replaced() const { return board_ && !board_->is_current(); }
 
 private:
     Writer<AxisState> network_;
@@ -40,6 +42,10 @@ public:
     const Refusals& refusals() const { return board_ ? board_->refusals() : network_->refusals(); }
     /// By how many on the network it is reached.
     std::uint32_t matched() const { return network_ ? network_->matched() : 0; }
+    /// The file of the memory is no longer the one that is open.
+    bool is_memory_replaced() const { return board_ && !board_->is_current(); }
+    /// What DDS delivered of them; where they come by memory: nothing.
+    TopicReception reception() const { return network_ ? network_->reception() : TopicReception{}; }
     /// Where who is not heard is waited for.
     std::string place() const;
 

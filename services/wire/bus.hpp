@@ -35,6 +35,8 @@ struct AxisBus {
     Reader<Command> requests{participant};  // clients', to the coordinator
     StateSaid state{participant};
     Writer<AxisHealth> health{participant};
+
+    bool is_memory_replaced() const { return states.is_memory_replaced() || state.is_memory_replaced(); }
 };
 
 struct CoordinatorBus {
@@ -47,7 +49,17 @@ struct CoordinatorBus {
     Writer<MachineState> machine{participant};
     Writer<AxisCommand> axis_commands{participant};
     Writer<Reply> replies{participant};
+
+    bool is_memory_replaced() const { return states.is_memory_replaced(); }
 };
+
+/// What has become other than it was when the bus was opened.
+template <typename Bus>
+std::optional<ReopenReason> change_of(const Bus& bus) {
+    if (bus.participant.has_interface_changed()) { return ReopenReason::InterfaceChanged; }
+    if (bus.is_memory_replaced()) { return ReopenReason::MemoryReplaced; }
+    return std::nullopt;
+}
 
 /// What one hears who looks on.
 struct ViewerBus {

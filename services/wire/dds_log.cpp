@@ -29,13 +29,13 @@ Ear& the_ear() {
     return *ear;
 }
 
-/// One line of a log: names in certificates are whatever their maker wrote.
+/// One line of a log: names in certificates, and packets, are whatever their maker wrote.
 std::string one_line(std::string text) {
     constexpr std::size_t kMaxLength = 400;
     text = cut_text(text, kMaxLength);
     while (text.ends_with('\n') || text.ends_with(' ')) { text.pop_back(); }
     std::ranges::replace_if(
-        text, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+        text, [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
     return text;
 }
 

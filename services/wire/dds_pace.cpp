@@ -7,6 +7,7 @@
 namespace lockstep {
 namespace {
 
+constexpr int kLongestLease_ms = 10'000;
 constexpr int kFew = 16;  // processes, for which every period is as short as it is useful
 
 int at_least_few(std::size_t processes) { return std::max(kFew, static_cast<int>(processes)); }
@@ -19,13 +20,16 @@ int stretch(std::size_t processes) {
 
 }  // namespace
 
+std::chrono::milliseconds discovery_lease(std::size_t processes) {
+    return std::chrono::milliseconds(std::min(1000 * stretch(processes), kLongestLease_ms));
+}
+
 // Who is new says so at once and is answered at once; to say it again is for when that was lost, and for the lease.
 std::string discovery_pace(std::size_t processes) {
-    constexpr int kLongestLease_ms = 10'000;
     const int n = at_least_few(processes);
     const int announced_ms = std::min(200 * n * n / (kFew * kFew), kLongestLease_ms / 5);
     return fmt::format("<SPDPInterval>{} ms</SPDPInterval><LeaseDuration>{} ms</LeaseDuration>", announced_ms,
-                       std::min(1000 * stretch(processes), kLongestLease_ms));
+                       discovery_lease(processes).count());
 }
 
 // A lost setpoint must be asked for at once (NackDelay 0; the default 100 ms would cost ten slots), and a lost last one

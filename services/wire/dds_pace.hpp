@@ -3,6 +3,7 @@
 // hosts that start them all at once would be flooded by answers, and take each other for gone.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -10,6 +11,8 @@ namespace lockstep {
 
 /// Cyclone DDS's settings for so many processes, as XML: of its element Discovery, where multicast finds them.
 std::string discovery_pace(std::size_t processes);
+/// How long a process that has ended without a word is then taken for present.
+std::chrono::milliseconds discovery_lease(std::size_t processes);
 /// Of its element Internal.
 std::string repair_pace(std::size_t processes);
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <mutex>
 
 #include "services/runtime/heap.hpp"
 #include "services/wire/dds_log.hpp"
 #include "services/wire/dds_pace.hpp"
-#include "services/wire/interface_sockets.hpp"
 #include "services/wire/peer_discovery.hpp"
 
 namespace lockstep {
@@ -32,6 +32,10 @@ bool is_interface_name(const std::string& name) {
 }
 
 }  // namespace
+
+std::chrono::nanoseconds lease_of(const NetworkConfig& network) {
+    return network.peers.empty() ? discovery_lease(network.processes) : kPeerLease;
+}
 
 std::string domain_place(const NetworkConfig& network) {
     return "DDS domain " + std::to_string(network.domain) + " on interface " + network.interface;
@@ -69,7 +73,9 @@ std::expected<std::shared_ptr<const Domain>, std::string> Domain::make(const Net
     const Descriptors before = udp_sockets();
     Entity entity(dds_create_domain(network.domain, profile->c_str()));
     if (!entity.good()) { return std::unexpected(cannot_open_domain(network, entity.why_not())); }
-    std::shared_ptr<const Domain> made(new Domain(network.interface, std::move(entity)));
+    Descriptors sockets;
+    std::ranges::set_difference(udp_sockets(), before, std::inserter(sockets, sockets.end()));
+    std::shared_ptr<const Domain> made(new Domain(network.interface, std::move(entity), std::move(sockets)));
     if (is_added_to) { return made; }  // it may name further interfaces
     if (auto tied = tie_new_sockets(before, network.interface); !tied) { return std::unexpected(tied.error()); }
     return made;

@@ -4,12 +4,14 @@
 // the same. Where CYCLONEDDS_URI is set it is read after ours: it may add to it (tracing) or override it.
 #pragma once
 
+#include <chrono>
 #include <expected>
 #include <memory>
 #include <string>
 
 #include "core/machine.hpp"
 #include "services/wire/entity.hpp"
+#include "services/wire/interface_sockets.hpp"
 
 namespace lockstep {
 
@@ -17,19 +19,27 @@ namespace lockstep {
 /// process leaves. One that ends without telling them is called on until they take it for gone.
 class Domain {
 public:
+    /// DDS ends its receiving threads by sending packets to itself, again and again until each has come. On an
+    /// interface that is gone none does, so the sockets are shut first.
+    ~Domain() { end_reception(sockets_); }
+    Domain(const Domain&) = delete;
+    Domain& operator=(const Domain&) = delete;
+
     /// Error: the domain, the interface, what DDS said, and the remedy; also where this process has that domain on
     /// another interface.
     static std::expected<std::shared_ptr<const Domain>, std::string> join(const NetworkConfig& network,
                                                                           bool is_secured);
 
 private:
-    Domain(std::string interface, Entity entity) : interface_(std::move(interface)), entity_(std::move(entity)) {}
+    Domain(std::string interface, Entity entity, Descriptors sockets)
+        : interface_(std::move(interface)), entity_(std::move(entity)), sockets_(std::move(sockets)) {}
 
     static std::expected<std::shared_ptr<const Domain>, std::string> make(const NetworkConfig& network,
                                                                           bool is_secured);
 
     std::string interface_;
     Entity entity_;
+    Descriptors sockets_;
 };
 
 /// Whether DDS tells who comes and goes (dds_log.hpp).
@@ -37,6 +47,9 @@ enum class Discovery { Quiet, Traced };
 
 /// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is none.
 std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery told = Discovery::Quiet);
+
+/// How long DDS takes a process for present that has ended without a word.
+std::chrono::nanoseconds lease_of(const NetworkConfig& network);
 
 /// "DDS domain 3 on interface eth0"
 std::string domain_place(const NetworkConfig& network);

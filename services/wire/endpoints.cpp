@@ -1,5 +1,7 @@
 #include "services/wire/endpoints.hpp"
 
+#include <dds/ddsc/dds_statistics.h>
+
 #include "services/wire/present_processes.hpp"
 
 namespace lockstep::detail {
@@ -73,6 +75,13 @@ std::uint32_t matched_writers(const Entity& reader) {
     dds_subscription_matched_status_t status{};
     dds_get_subscription_matched_status(reader.handle(), &status);
     return status.current_count;
+}
+
+std::uint64_t discarded_bytes(const Entity& reader) {
+    const std::unique_ptr<dds_statistics, decltype(&dds_delete_statistics)> figures(
+        dds_create_statistics(reader.handle()), &dds_delete_statistics);
+    const dds_stat_keyvalue* discarded = dds_lookup_statistic(figures.get(), "discarded_bytes");
+    return discarded == nullptr ? 0 : discarded->u.u64;
 }
 
 }  // namespace lockstep::detail

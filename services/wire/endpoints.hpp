@@ -12,6 +12,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/protocol/reception_watch.hpp"
 #include "services/wire/entity.hpp"
 #include "services/wire/participant.hpp"
 #include "services/wire/refusals.hpp"
@@ -37,6 +38,8 @@ Entity make_writer(Participant& participant, const TopicSpec& spec);
 Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival);
 std::uint32_t matched_readers(const Entity& writer);
 std::uint32_t matched_writers(const Entity& reader);
+/// Bytes that DDS received for the reader and did not deliver, since it was made.
+std::uint64_t discarded_bytes(const Entity& reader);
 
 /// The axis for which a message speaks; nothing: for none, and whoever may write the topic may say it.
 template <typename T>
@@ -90,6 +93,7 @@ public:
 
     const Refusals& refusals() const { return refusals_; }
     std::uint32_t matched() const { return detail::matched_writers(entity_); }
+    TopicReception reception() const { return {received_, detail::discarded_bytes(entity_)}; }
 
 private:
     static constexpr std::size_t kBatch = 64;
@@ -117,6 +121,7 @@ private:
         const auto count = static_cast<std::size_t>(std::max(0, loan.count));
         for (std::size_t i = 0; i < count; ++i) {
             if (!loan.infos[i].valid_data) { continue; }  // a sender left
+            ++received_;
             auto believed = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]), value_);
             if (believed) { believed = check_speaker(loan.infos[i].publication_handle); }
             if (believed) {
@@ -140,6 +145,7 @@ private:
     Entity entity_;
     Speakers speakers_;
     T value_{};  // the message at hand
+    std::uint64_t received_ = 0;
     Refusals refusals_;
 };
 

@@ -46,4 +46,9 @@ std::expected<void, std::string> tie_new_sockets(const Descriptors& before, cons
     return {};
 }
 
+/// The kernel says of a socket without a peer that it is not connected, and ends its reception all the same.
+void end_reception(const Descriptors& sockets) {
+    for (const int socket : sockets) { (void)::shutdown(socket, SHUT_RD); }
+}
+
 }  // namespace lockstep

@@ -16,4 +16,7 @@ Descriptors udp_sockets();
 /// Ties those that are open now and were not in `before` to an interface. Error: the kernel refuses, and why.
 std::expected<void, std::string> tie_new_sockets(const Descriptors& before, const std::string& interface);
 
+/// Makes whoever waits for a packet on them return without one, now and from now on.
+void end_reception(const Descriptors& sockets);
+
 }  // namespace lockstep

@@ -42,6 +42,7 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     if (machine.empty() || machine.find_first_of("*?[]") != machine.npos) {  // DDS would match them as patterns
         return std::unexpected("'" + machine + "' cannot name a machine: it is empty or has one of * ? [ ]");
     }
+    const auto interface = interface_identity(network.interface);
     auto domain = Domain::join(network, membership.credentials.has_value());
     if (!domain) { return std::unexpected(domain.error()); }
     Participant made;
@@ -49,6 +50,7 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     made.machine_ = machine;
     made.network_ = network;
     made.axis_ = membership.axis;
+    made.interface_ = interface;
     made.participant_ =
         Entity(dds_create_participant(network.domain, participant_qos(machine, membership).get(), nullptr));
     if (!made.participant_.good()) { return std::unexpected(cannot_join(network, membership, made.participant_)); }
@@ -62,6 +64,11 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     if (!made.subscriber_.good()) { return std::unexpected(cannot_open_domain(network, made.subscriber_.why_not())); }
     if (membership.credentials) { made.sent_keys_ = std::make_unique<SentKeys>(made.handle(), made.subscriber()); }
     return made;
+}
+
+bool Participant::has_interface_changed() const {
+    const auto now = interface_identity(network_.interface);
+    return now && now != interface_;
 }
 
 void Participant::note_failure(std::string text) {

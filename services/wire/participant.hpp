@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/machine.hpp"
+#include "services/runtime/interface_identity.hpp"
 #include "services/wire/domain.hpp"
 #include "services/wire/entity.hpp"
 #include "services/wire/sent_keys.hpp"
@@ -47,6 +48,9 @@ public:
     dds_entity_t publisher() const { return publisher_.handle(); }
     dds_entity_t subscriber() const { return subscriber_.handle(); }
 
+    /// Whether the interface is up again as another one, or with another address, since this was opened.
+    bool has_interface_changed() const;
+
     /// The first failure of a reader or writer made on this participant: so that many can be made in a row and
     /// looked at once.
     const std::optional<std::string>& failure() const { return failure_; }
@@ -59,6 +63,7 @@ private:
     std::string machine_;
     NetworkConfig network_;
     std::optional<std::uint32_t> axis_;
+    std::optional<InterfaceIdentity> interface_;
     Entity participant_;
     Entity publisher_;
     Entity subscriber_;

@@ -6,6 +6,7 @@
 // falls silent. So peers are asked at leisure, and the buffer holds what all of them but this one may leave there.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ namespace lockstep {
 
 /// What DDS is told of its peers, as XML: of the domain's General, Discovery and Internal.
 std::string peer_discovery(const std::vector<std::string>& peers);
+
+/// How long a process that has ended without a word is taken for present: five chances to be heard.
+constexpr std::chrono::milliseconds kPeerLease{4000};
 
 /// The send buffer, in bytes as the kernel counts them, in which motion has room though no peer is there. The kernel
 /// gives twice net.core.wmem_max at most.

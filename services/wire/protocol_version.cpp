@@ -2,7 +2,9 @@
 
 #include <array>
 #include <charconv>
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "services/wire/dds_log.hpp"
 
@@ -33,6 +35,14 @@ void on_participants(dds_entity_t reader, void* machine) {
     }
 }
 
+/// Never freed: it stays with a reader, and when that goes with its participant a callback may still run.
+std::string* kept_name(const std::string& machine) {
+    static std::mutex mutex;
+    static auto& names = *new std::map<std::string, std::string>;
+    const std::lock_guard lock(mutex);
+    return &names.try_emplace(machine, machine).first->second;
+}
+
 }  // namespace
 
 std::string calling_card(int protocol, const std::string& machine) {
@@ -56,10 +66,8 @@ void announce_version(dds_qos_t& participant, int protocol, const std::string& m
     dds_qset_userdata(&participant, card.data(), card.size());
 }
 
-/// The name stays with the reader, which goes with the participant; a callback may still run then, so it is never
-/// freed.
 void watch_versions(dds_entity_t participant, const std::string& machine) {
-    auto* const name = new std::string(machine);
+    std::string* const name = kept_name(machine);
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(dds_create_listener(name),
                                                                                    &dds_delete_listener);
     dds_lset_data_available(listener.get(), on_participants);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "services/runtime/directories.hpp"
-#include "services/runtime/named_file.hpp"
 #include "services/wire/protocol_version.hpp"
 #include "services/wire/translate.hpp"
 
@@ -113,6 +112,10 @@ void StateBoardWriter::write(const AxisState& state) {
     const std::uint64_t number = shared_word(words_ + kSaid).load(std::memory_order_relaxed) + 1;
     StateSlot::write(slot_of(words_, number), number, to_wire(state));
     shared_word(words_ + kSaid).store(number, std::memory_order_release);
+}
+
+bool StateBoardWriter::is_current() const {
+    return file_.is_current() && shared_word(words_ + kRules).load(std::memory_order_relaxed) == kRulesHere;
 }
 
 std::expected<StateBoardReader, std::string> StateBoardReader::open(const fs::path& path,

@@ -19,6 +19,7 @@
 #include "core/protocol/messages.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "idl/dds/axis.h"
+#include "services/runtime/named_file.hpp"
 #include "services/runtime/numbered_slot.hpp"
 #include "services/runtime/shared_mapping.hpp"
 #include "services/wire/refusals.hpp"
@@ -32,6 +33,9 @@ public:
     StateBoardFile(StateBoardFile&& other) noexcept;
     StateBoardFile& operator=(StateBoardFile&&) = delete;
     ~StateBoardFile();
+
+    /// False: it was removed, or another took its place.
+    bool is_current() const { return is_still_named(path_, file_); }
 
     int descriptor() const { return file_; }
     const std::filesystem::path& path() const { return path_; }
@@ -49,6 +53,8 @@ public:
 
     /// Never waits, allocates nothing.
     void write(const AxisState& state);
+    /// False: the file was removed, or another took its place; or its part was overwritten, and nobody believes it.
+    bool is_current() const;
 
 private:
     StateBoardWriter(StateBoardFile file, SharedMapping mapping, std::uint64_t* words)
@@ -83,6 +89,7 @@ public:
 
     const Refusals& refusals() const { return refusals_; }
     const std::filesystem::path& path() const { return file_.path(); }
+    bool is_current() const { return file_.is_current(); }
 
 private:
     StateBoardReader(StateBoardFile file, SharedMapping parts, std::optional<std::uint32_t> own);

@@ -4,6 +4,7 @@
 namespace lockstep {
 
 constexpr std::int64_t kLongestClockError = std::int64_t{1} << 62;
+constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // there are numbers behind all that are believed
 
 // The enumerations on the wire have core's order.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
@@ -46,6 +47,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.rate("velocity", wire.velocity);
     check.far("tick", wire.tick);
     check.far("following_error_steps", wire.following_error_steps);
+    check.within<std::uint64_t>("command_done", wire.command_done, 0, kMostOrders);
     check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
@@ -86,6 +88,7 @@ lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
 
 FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
+    check.within<std::uint64_t>("sequence", wire.sequence_number, 0, kMostOrders);
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
     const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Halt);
     check.far("target_steps", wire.target_steps);

@@ -4,16 +4,23 @@
 #include <linux/if_ether.h>
 #include <linux/if_packet.h>
 #include <net/if.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kProtocol = 14 + 9;  // of an IPv4 packet behind its Ethernet header
+// Of an IPv4 packet without options, behind its Ethernet header.
+constexpr std::size_t kProtocol = 14 + 9;
+constexpr std::size_t kReceiver = 14 + 16;
+constexpr std::size_t kReceiverPort = 14 + 20 + 2;
+constexpr std::size_t kPayload = 14 + 20 + 8;
 constexpr char kUdp = 17;
 
 sockaddr_ll on_loopback() {
@@ -26,7 +33,11 @@ sockaddr_ll on_loopback() {
 
 }  // namespace
 
-PacketTap::PacketTap() : socket_(::socket(AF_PACKET, SOCK_RAW | SOCK_CLOEXEC, htons(ETH_P_IP))) {
+PacketTap::PacketTap()
+    : socket_(::socket(AF_PACKET, SOCK_RAW | SOCK_CLOEXEC, htons(ETH_P_IP))),
+      sender_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    const in_addr lo{htonl(INADDR_LOOPBACK)};
+    (void)::setsockopt(sender_, IPPROTO_IP, IP_MULTICAST_IF, &lo, sizeof lo);
     const sockaddr_ll address = on_loopback();
     constexpr int kBuffer = 32 << 20;
     (void)::setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBuffer, sizeof kBuffer);
@@ -36,7 +47,9 @@ PacketTap::PacketTap() : socket_(::socket(AF_PACKET, SOCK_RAW | SOCK_CLOEXEC, ht
 
 PacketTap::~PacketTap() {
     (void)stop();
-    if (socket_ >= 0) { ::close(socket_); }
+    for (const int socket : {socket_, sender_}) {
+        if (socket >= 0) { ::close(socket); }
+    }
 }
 
 /// On lo every packet goes by twice: as it leaves, and as it comes.
@@ -49,7 +62,7 @@ void PacketTap::listen() {
         socklen_t size = sizeof from;
         const ssize_t length =
             ::recvfrom(socket_, buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
-        const bool is_udp = length > static_cast<ssize_t>(kProtocol) && buffer[kProtocol] == kUdp;
+        const bool is_udp = length > static_cast<ssize_t>(kPayload) && buffer[kProtocol] == kUdp;
         if (is_udp && from.sll_pkttype != PACKET_OUTGOING) {
             packets_.emplace_back(buffer.data(), static_cast<std::size_t>(length));
         }
@@ -62,15 +75,21 @@ const std::vector<std::string>& PacketTap::stop() {
     return packets_;
 }
 
+/// As a datagram of its own: what is put onto lo as a frame, with an address of lo as its sender, the kernel drops.
+bool PacketTap::send(const std::string& packet) const {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    std::memcpy(&to.sin_addr, &packet[kReceiver], sizeof to.sin_addr);
+    std::memcpy(&to.sin_port, &packet[kReceiverPort], sizeof to.sin_port);
+    const std::size_t size = packet.size() - kPayload;
+    const ssize_t sent =
+        ::sendto(sender_, &packet[kPayload], size, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+    return sent == static_cast<ssize_t>(size);
+}
+
 std::size_t PacketTap::send_again() const {
-    const sockaddr_ll address = on_loopback();
-    std::size_t sent = 0;
-    for (const std::string& packet : packets_) {
-        const ssize_t length = ::sendto(socket_, packet.data(), packet.size(), 0,
-                                        reinterpret_cast<const sockaddr*>(&address), sizeof address);
-        sent += length == static_cast<ssize_t>(packet.size()) ? 1 : 0;
-    }
-    return sent;
+    return static_cast<std::size_t>(
+        std::ranges::count_if(packets_, [this](const std::string& packet) { return send(packet); }));
 }
 
 }  // namespace lockstep

@@ -20,6 +20,10 @@ public:
     bool works() const { return socket_ >= 0; }
     /// Ends listening; the packets so far, each once.
     const std::vector<std::string>& stop();
+    /// The same, once it has ended.
+    const std::vector<std::string>& packets() const { return packets_; }
+    /// False: it did not go out whole.
+    bool send(const std::string& packet) const;
     /// Sends them again, in their order. How many went out.
     std::size_t send_again() const;
 
@@ -27,6 +31,7 @@ private:
     void listen();
 
     int socket_;
+    int sender_;
     std::atomic<bool> stopped_ = false;
     std::vector<std::string> packets_;
     std::thread listener_;

@@ -41,6 +41,14 @@ bool answer_chunks(CoordinatorBus& bus) {
     return in_time;
 }
 
+/// An axis that publishes its state until it is killed.
+bool publish_states(AxisBus& bus) {
+    for (;;) {
+        bus.state.write({});
+        std::this_thread::sleep_for(10ms);
+    }
+}
+
 template <typename Bus>
 int play(bool (*role)(Bus&), const NetworkConfig& network) {
     auto bus = open_bus<Bus>(network, "mill", {.axis = 0, .credentials = {}});
@@ -54,6 +62,8 @@ int main(int argc, char** argv) {
     if (argc < 3) { return 2; }
     lockstep::NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(argv[2]))};
     if (argc > 3) { network.processes = std::stoul(argv[3]); }
-    return std::string(argv[1]) == "axis" ? lockstep::play(lockstep::hold_frames, network)
-                                          : lockstep::play(lockstep::answer_chunks, network);
+    const std::string role = argv[1];
+    if (role == "speaker") { return lockstep::play(lockstep::publish_states, network); }
+    return role == "axis" ? lockstep::play(lockstep::hold_frames, network)
+                          : lockstep::play(lockstep::answer_chunks, network);
 }

@@ -34,7 +34,7 @@ AxisState RandomMessages::axis_state() {
             .velocity = {rate()},
             .tick = {far()},
             .following_error_steps = far(),
-            .command_done = bits(),
+            .command_done = bits() >> 2,
             .command_fault = fault(),
             .config_hash = bits(),
             .refused_frames = bits(),
@@ -61,7 +61,7 @@ AxisHealth RandomMessages::axis_health() {
 
 AxisCommand RandomMessages::axis_command() {
     return {.term = term(),
-            .sequence = bits(),
+            .sequence = bits() >> 2,
             .axis = index(kMaxAxes),
             .kind = static_cast<AxisCommandKind>(index(5)),
             .target_steps = far(),

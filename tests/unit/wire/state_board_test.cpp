@@ -192,6 +192,23 @@ TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
     EXPECT_THAT(heard(listener), ElementsAre(said(1, 7))) << "what is said then is heard again";
 }
 
+TEST_F(StateBoard, SaysThatItWasRemovedOrOverwrittenUntilItIsOpenedAnew) {
+    {
+        const StateBoardWriter axis = writer(1);
+        const StateBoardReader listener = reader();
+        EXPECT_TRUE(axis.is_current() && listener.is_current());
+        overwrite(kPartBytes, "garbage!");
+        EXPECT_FALSE(axis.is_current()) << "it alone may write its part anew";
+        EXPECT_TRUE(listener.is_current());
+        EXPECT_TRUE(StateBoardReader::open(path, {})->is_current());
+    }
+    StateBoardWriter axis = writer(1);
+    StateBoardReader listener = reader();
+    fs::remove(path);
+    EXPECT_FALSE(axis.is_current());
+    EXPECT_FALSE(listener.is_current());
+}
+
 TEST_F(StateBoard, GoesWithItsLastProcess) {
     {
         const StateBoardReader listener = reader();

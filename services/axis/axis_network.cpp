@@ -1,0 +1,102 @@
+#include "services/axis/axis_network.hpp"
+
+#include <bit>
+
+namespace lockstep {
+namespace {
+
+std::expected<std::unique_ptr<AxisLink>, std::string> open_link(const AxisNetwork::Setup& setup) {
+    auto bus = open_bus<AxisBus>(setup.machine.network, setup.machine.name, setup.membership);
+    if (!bus) { return std::unexpected(bus.error()); }
+    auto link = std::make_unique<AxisLink>(std::move(*bus), nullptr);
+    if (setup.machine.timing.time_source == TimeSource::Network) {
+        const ClockAsker asker(setup.axis, setup.identity, setup.machine.tick_ns);
+        link->clock =
+            std::make_unique<ClockClient>(link->bus.participant, asker, [clock = setup.clock] { return clock.now(); });
+    }
+    return link;
+}
+
+std::uint64_t refused_by(const AxisBus& bus) {
+    return bus.frames.refusals().count + bus.states.refusals().count + bus.machine.refusals().count +
+           bus.commands.refusals().count + bus.requests.refusals().count;
+}
+
+}  // namespace
+
+void AxisReceived::clear() {
+    frames.clear();
+    states.clear();
+    machine.clear();
+    commands.clear();
+    requests.clear();
+    exchanges.clear();
+}
+
+std::expected<AxisNetwork, std::string> AxisNetwork::open(const Setup& setup) {
+    auto first = open_link(setup);
+    if (!first) { return std::unexpected(first.error()); }
+    return AxisNetwork(setup.axis,
+                       std::make_unique<Link>(setup.machine, std::move(*first), [setup] { return open_link(setup); }));
+}
+
+const AxisReceived& AxisNetwork::receive() {
+    received_.clear();
+    AxisLink* const link = link_->get();
+    if (link == nullptr) { return received_; }
+    AxisBus& bus = link->bus;
+    if (link->clock) { received_.exchanges = link->clock->take(); }
+    bus.frames.take([&](Frame&& m) { received_.frames.push_back(std::move(m)); });
+    bus.states.take([&](AxisState&& m) {
+        axes_heard_ |= axis_bit(m.axis);
+        received_.states.push_back(m);
+    });
+    bus.machine.take([&](MachineState&& m) {
+        others_ = m.axes_present & ~axis_bit(axis_);
+        received_.machine.push_back(std::move(m));
+    });
+    bus.commands.take([&](AxisCommand&& m) { received_.commands.push_back(m); });
+    bus.requests.take([&](Command&& m) { received_.requests.push_back(m); });
+    machine_heard_ = machine_heard_ || !received_.machine.empty();
+    refused_now_ = refused_by(bus);
+    return received_;
+}
+
+void AxisNetwork::publish(const AxisState& state) {
+    if (AxisLink* const link = link_->get()) { (void)link->bus.state.write(state); }
+}
+
+void AxisNetwork::publish(const AxisHealth& health) {
+    if (AxisLink* const link = link_->get()) { (void)link->bus.health.write(health); }
+}
+
+Reception AxisNetwork::look(const AxisLink& link, bool at_rest) {
+    const AxisBus& bus = link.bus;
+    topics_ = {bus.frames.reception(), bus.states.reception(), bus.machine.reception(), bus.commands.reception(),
+               bus.requests.reception()};
+    const AxisSet heard = std::exchange(axes_heard_, 0);
+    const bool is_machine_heard = std::exchange(machine_heard_, false);
+    const bool is_axis_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(heard)) ||
+                                (is_machine_heard && (others_ & ~heard) != 0);
+    return {.change = change_of(bus),
+            .is_peer_silent = is_axis_silent || (bus.machine.matched() > 0 && !is_machine_heard),
+            .is_peer_missing = !is_machine_heard,
+            .may_reopen = at_rest,
+            .topics = topics_};
+}
+
+std::optional<ReopenReason> AxisNetwork::tend(Tick now, bool at_rest) {
+    const auto reason = link_->tend(now, [&](const AxisLink& link) { return look(link, at_rest); });
+    if (reason) { refused_before_ += std::exchange(refused_now_, 0); }
+    return reason;
+}
+
+std::string AxisNetwork::refusals() {
+    AxisLink* const link = link_->get();
+    if (link == nullptr) { return ""; }
+    const AxisBus& bus = link->bus;
+    return bus.frames.refusals().last + " " + bus.states.refusals().last + " " + bus.machine.refusals().last + " " +
+           bus.commands.refusals().last + " " + bus.requests.refusals().last;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,78 @@
+// What an axis's process receives and publishes, and its link to the others, which is opened anew when it has ceased to
+// deliver.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/protocol/messages.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/wire/bus.hpp"
+#include "services/wire/clock_link.hpp"
+#include "services/wire/watched_link.hpp"
+
+namespace lockstep {
+
+struct AxisLink {
+    AxisBus bus;
+    std::unique_ptr<ClockClient> clock;  // where the coordinator is asked for the time
+};
+
+/// The messages of one loop.
+struct AxisReceived {
+    std::vector<Frame> frames;
+    std::vector<AxisState> states;
+    std::vector<MachineState> machine;
+    std::vector<AxisCommand> commands;
+    std::vector<Command> requests;
+    std::vector<ClockExchange> exchanges;
+    void clear();
+};
+
+class AxisNetwork {
+public:
+    struct Setup {
+        MachineConfig machine;
+        std::uint32_t axis = 0;
+        Identity identity = 0;
+        MachineClock clock;
+        Membership membership;
+    };
+    /// Error: as open_bus.
+    static std::expected<AxisNetwork, std::string> open(const Setup& setup);
+
+    /// What came since the last call; nothing while the link is being opened anew.
+    const AxisReceived& receive();
+    void publish(const AxisState& state);
+    void publish(const AxisHealth& health);
+
+    /// Once in every loop, by the process's own clock. Why the link is being opened anew from now on; only at rest.
+    std::optional<ReopenReason> tend(Tick now, bool at_rest);
+    /// How often since the process started.
+    std::uint64_t reopened() const { return link_->reopened(); }
+
+    /// Messages that were not believed, since the process started, and why the last ones were not.
+    std::uint64_t refused() const { return refused_before_ + refused_now_; }
+    std::string refusals();
+
+private:
+    using Link = WatchedLink<AxisLink>;
+    AxisNetwork(std::uint32_t axis, std::unique_ptr<Link> link) : axis_(axis), link_(std::move(link)) {}
+    Reception look(const AxisLink& link, bool at_rest);
+
+    std::uint32_t axis_;
+    std::unique_ptr<Link> link_;
+    AxisReceived received_;
+    AxisSet others_ = 0;      // axes that, by the coordinator, are there
+    AxisSet axes_heard_ = 0;  // since the last look
+    bool machine_heard_ = false;
+    std::vector<TopicReception> topics_;
+    std::uint64_t refused_now_ = 0;     // by the link that is open
+    std::uint64_t refused_before_ = 0;  // by those before it
+};
+
+}  // namespace lockstep

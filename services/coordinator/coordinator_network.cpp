@@ -1,0 +1,102 @@
+#include "services/coordinator/coordinator_network.hpp"
+
+#include <bit>
+
+namespace lockstep {
+namespace {
+
+std::expected<std::unique_ptr<CoordinatorLink>, std::string> open_link(const CoordinatorNetwork::Setup& setup) {
+    auto bus = open_bus<CoordinatorBus>(setup.machine.network, setup.machine.name, setup.membership);
+    if (!bus) { return std::unexpected(bus.error()); }
+    auto link = std::make_unique<CoordinatorLink>(std::move(*bus), nullptr);
+    if (setup.machine.timing.time_source == TimeSource::Network) {
+        link->clock =
+            std::make_unique<ClockServer>(link->bus.participant, [clock = setup.clock] { return clock.now(); });
+    }
+    return link;
+}
+
+AxisSet all_axes(const MachineConfig& machine) {
+    AxisSet axes = 0;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) { axes |= axis_bit(i); }
+    return axes;
+}
+
+}  // namespace
+
+void CoordinatorReceived::clear() {
+    states.clear();
+    others.clear();
+    commands.clear();
+    chunks.clear();
+}
+
+std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Setup& setup) {
+    auto first = open_link(setup);
+    if (!first) { return std::unexpected(first.error()); }
+    return CoordinatorNetwork(all_axes(setup.machine), std::make_unique<Link>(setup.machine, std::move(*first),
+                                                                              [setup] { return open_link(setup); }));
+}
+
+const CoordinatorReceived& CoordinatorNetwork::receive() {
+    received_.clear();
+    CoordinatorLink* const link = link_->get();
+    if (link == nullptr) { return received_; }
+    CoordinatorBus& bus = link->bus;
+    bus.chunks.take([&](ProgramChunk&& m) { received_.chunks.push_back(std::move(m)); });
+    bus.states.take([&](AxisState&& m) {
+        axes_heard_ |= axis_bit(m.axis);
+        received_.states.push_back(m);
+    });
+    bus.other_coordinators.take([&](MachineState&& m) { received_.others.push_back(std::move(m)); });
+    bus.commands.take([&](Command&& m) { received_.commands.push_back(m); });
+    refused_now_ = bus.states.refusals().count + bus.commands.refusals().count + bus.chunks.refusals().count;
+    return received_;
+}
+
+/// First which epoch it is and where its frames come to rest, then the frames: an axis takes the first frame of an
+/// epoch it has heard of only, and a standby knows of every frame that axes may have.
+void CoordinatorNetwork::publish(const CoordinatorOutputs& out) {
+    CoordinatorLink* const link = link_->get();
+    if (link == nullptr) { return; }
+    if (out.state) { (void)link->bus.machine.write(*out.state); }
+    for (const Frame& frame : out.frames) { (void)link->bus.frames.write(frame); }
+    for (const AxisCommand& command : out.axis_commands) { (void)link->bus.axis_commands.write(command); }
+    for (const Reply& reply : out.replies) { (void)link->bus.replies.write(reply); }
+}
+
+void CoordinatorNetwork::publish(const Reply& reply) {
+    if (CoordinatorLink* const link = link_->get()) { (void)link->bus.replies.write(reply); }
+}
+
+Reception CoordinatorNetwork::look(const CoordinatorLink& link, bool at_rest) {
+    const CoordinatorBus& bus = link.bus;
+    topics_ = {bus.states.reception(), bus.other_coordinators.reception(), bus.commands.reception(),
+               bus.chunks.reception()};
+    const AxisSet heard = std::exchange(axes_heard_, 0);
+    return {.change = change_of(bus),
+            .is_peer_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(heard)),
+            .is_peer_missing = (axes_ & ~heard) != 0,
+            .may_reopen = at_rest,
+            .topics = topics_};
+}
+
+std::optional<ReopenReason> CoordinatorNetwork::tend(Tick now, bool at_rest) {
+    const auto reason = link_->tend(now, [&](const CoordinatorLink& link) { return look(link, at_rest); });
+    if (reason) { refused_before_ += std::exchange(refused_now_, 0); }
+    return reason;
+}
+
+std::string CoordinatorNetwork::refusals() {
+    CoordinatorLink* const link = link_->get();
+    if (link == nullptr) { return ""; }
+    return link->bus.states.refusals().last + " " + link->bus.commands.refusals().last + " " +
+           link->bus.chunks.refusals().last;
+}
+
+std::string CoordinatorNetwork::place_of_states() {
+    CoordinatorLink* const link = link_->get();
+    return link == nullptr ? "on the network" : link->bus.states.place();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,75 @@
+// What a process has open on the network, which it can open anew while its loop goes on: closing waits for DDS's
+// threads, and opening for the kernel and the peers' names, so both happen in a thread of their own.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <expected>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace lockstep {
+
+template <typename Link>
+class Reopenable {
+public:
+    using Open = std::function<std::expected<std::unique_ptr<Link>, std::string>()>;
+    using OnFailure = std::function<void(const std::string& why)>;
+
+    /// open: called in the thread, again after a pause where it fails, until it succeeds or this object ends.
+    /// on_failure: called there each time.
+    Reopenable(std::unique_ptr<Link> first, Open open, OnFailure on_failure)
+        : link_(std::move(first)), open_(std::move(open)), on_failure_(std::move(on_failure)) {}
+
+    /// Null while it is being opened anew.
+    Link* get() {
+        if (!link_ && is_open_.exchange(false)) {
+            thread_.join();
+            link_ = std::move(next_);
+        }
+        return link_.get();
+    }
+
+    /// Closes it and opens another. Returns at once; what get() gave is gone. Nothing happens while it is not open.
+    void reopen() {
+        if (!link_) { return; }
+        thread_ = std::jthread([this, old = std::move(link_)](const std::stop_token& stop) mutable {
+            old.reset();  // first: DDS has one domain of a number in a process
+            run(stop);
+        });
+    }
+
+private:
+    static constexpr std::chrono::milliseconds kBetweenTries{500};
+
+    void run(const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            auto opened = open_();
+            if (opened) {
+                next_ = std::move(*opened);
+                is_open_ = true;
+                return;
+            }
+            on_failure_(opened.error());
+            std::unique_lock lock(mutex_);
+            (void)wake_.wait_for(lock, stop, kBetweenTries, [] { return false; });
+        }
+    }
+
+    std::unique_ptr<Link> link_;
+    Open open_;
+    OnFailure on_failure_;
+    std::unique_ptr<Link> next_;  // the thread's, until is_open_
+    std::atomic<bool> is_open_ = false;
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::jthread thread_;  // ends first
+};
+
+}  // namespace lockstep

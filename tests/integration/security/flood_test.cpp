@@ -1,0 +1,71 @@
+// A machine without security recovers by itself after packets of its members were sent again, altered.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <iostream>
+#include <thread>
+
+#include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/security/packet_forger.hpp"
+#include "tests/integration/security/packet_tap.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+class Flooded : public OwnMachine {
+protected:
+    /// From the machine's start until it has moved: how its members find each other, and what they say.
+    void SetUp() override {
+        OwnMachine::SetUp();
+        bring_up_and_home();
+        ASSERT_TRUE(tap_.works()) << "raw sockets need root";
+        ASSERT_EQ(run_lockstep({"move", "X=20", "Y=10"}).code, 0);
+        ASSERT_GT(tap_.stop().size(), 1000U);
+    }
+
+    void flood(unsigned seed) const {
+        constexpr int kPackets = 24'000;
+        PacketForger forger(tap_.packets(), seed);
+        const auto begun = steady_clock::now();
+        for (int sent = 0; sent < kPackets; ++sent) {
+            tap_.send(forger.next());
+            if (sent % 30 == 0) { std::this_thread::sleep_until(begun + sent * 250us); }
+        }
+    }
+
+    /// A person clears the fault, if the silence brought one about.
+    bool is_ready() const {
+        if (run_lockstep({"reset"}).code != 0) { return false; }
+        const Ran ran = run_lockstep({"status", "--json"});
+        if (ran.code != 0) { return false; }
+        const auto report = ran.json<proto::StatusReport>();
+        return report.phase() == "Idle" && report.axes(0).present() && report.axes(1).present();
+    }
+
+    PacketTap tap_;
+};
+
+TEST_F(Flooded, TheMachineIsReadyAgainWithinTenSecondsAfterThePacketsStop) {
+    for (const unsigned seed : {1U, 2U}) {
+        flood(seed);
+        const auto stopped = steady_clock::now();
+        ASSERT_TRUE(eventually([&] { return is_ready(); }));
+        std::cout << "ready " << std::chrono::duration<double>(steady_clock::now() - stopped).count()
+                  << " s after the packets stopped\n";
+        ASSERT_EQ(run_lockstep({"home"}).code, 0);
+        ASSERT_EQ(run_lockstep({"move", "X=30", "Y=20"}).code, 0);
+        EXPECT_TRUE(eventually([&] {
+            const proto::StatusReport report = status();
+            return report.axes(0).position_steps() == 2400 && report.axes(1).position_steps() == 1600;
+        }));
+    }
+    const std::string logs = text_of_log("coordinator") + text_of_log("axis-X") + text_of_log("axis-Y");
+    EXPECT_NE(logs.find("opens its DDS participant anew: "), logs.npos) << "so there was something to recover from";
+}
+
+}  // namespace
+}  // namespace lockstep
