@@ -19,6 +19,7 @@
 #include "clients/analysis/damage.hpp"
 #include "clients/analysis/event_log.hpp"
 #include "clients/analysis/job_moves.hpp"
+#include "clients/analysis/record_end.hpp"
 #include "clients/analysis/skew.hpp"
 #include "clients/drawing/svg.hpp"
 #include "core/machine.hpp"
@@ -70,6 +71,7 @@ struct Analysis {
     std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
     std::uint64_t jobs_not_kept = 0;
     std::int64_t missing_job_events = 0;           // between the first and the last of each coordinator
+    RecordEnd end;                                 // what is missing behind the last messages there
     std::uint64_t events = 0;                      // read, of every kind
     std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
     std::int64_t steps_of_no_job = 0;              // made before any job begins in the log

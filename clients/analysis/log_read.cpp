@@ -3,6 +3,7 @@
 #include <system_error>
 #include <utility>
 
+#include "clients/analysis/program_parts.hpp"
 #include "services/wire/lcm_channels.hpp"
 #include "services/wire/lcm_decode.hpp"
 
@@ -21,13 +22,31 @@ void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told
     }
 }
 
-void tell(const LogEvent& event, LogListener& listener) {
+void tell_part(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
+    const LogPlace place{event.offset, event.bytes};
+    const auto part = decode_lcm<program_part_t>(event.data);
+    if (!part) { return listener.on_damage(place, part.error() + " on " + std::string(event.channel)); }
+    if (const auto taken = programs.take(*part); !taken) { return listener.on_damage(place, taken.error()); }
+    listener.on_program_part(*part, place);
+}
+
+void tell_job(const LogEvent& event, LogListener& listener, const ProgramParts& programs) {
+    const LogPlace place{event.offset, event.bytes};
+    auto job = decode_lcm<job_t>(event.data);
+    if (!job) { return listener.on_damage(place, job.error() + " on " + std::string(event.channel)); }
+    programs.complete(*job);
+    listener.on_job(*job, place);
+}
+
+void tell(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
     switch (kind_of(event.channel)) {
         case RecordKind::Steps: return tell<step_batch_t>(event, listener, &LogListener::on_steps);
         case RecordKind::Position: return tell<axis_position_t>(event, listener, &LogListener::on_position);
         case RecordKind::Health: return tell<axis_health_t>(event, listener, &LogListener::on_health);
         case RecordKind::Run: return tell<run_t>(event, listener, &LogListener::on_run);
-        case RecordKind::Job: return tell<job_t>(event, listener, &LogListener::on_job);
+        case RecordKind::Job: return tell_job(event, listener, programs);
+        case RecordKind::ProgramPart: return tell_part(event, listener, programs);
+        case RecordKind::Mark: return tell<record_mark_t>(event, listener, &LogListener::on_mark);
         case RecordKind::Loss: return;  // of one log; sequence numbers say what is missing of the record
         case RecordKind::Foreign: return listener.on_foreign(event.channel);
     }
@@ -36,11 +55,12 @@ void tell(const LogEvent& event, LogListener& listener) {
 /// Events read. Progress is the share of the file behind us.
 std::expected<std::uint64_t, std::string> read_events(LogReader& reader, LogListener& listener, double file_bytes,
                                                       const std::function<void(double)>& progress) {
+    ProgramParts programs;
     for (std::uint64_t events = 0;; ++events) {
         const auto event = reader.next();
         if (!event) { return std::unexpected(event.error()); }
         if (!*event) { return events; }
-        tell(**event, listener);
+        tell(**event, listener, programs);
         if (progress && events % kEventsPerProgress == 0) {
             progress(static_cast<double>((*event)->offset) / file_bytes);
         }

@@ -10,6 +10,8 @@
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_part_t.hpp>
+#include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 #include <lockstep/step_batch_t.hpp>
 #include <optional>
@@ -29,6 +31,9 @@ public:
     virtual void on_run(const run_t& message, LogPlace place) = 0;
     virtual void on_job(const job_t& message, LogPlace place) = 0;
     virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
+    /// Jobs are given their programs (program_parts.hpp); this is for who counts the messages.
+    virtual void on_program_part(const program_part_t& /*message*/, LogPlace /*place*/) {}
+    virtual void on_mark(const record_mark_t& /*message*/, LogPlace /*place*/) {}
     /// An event of a channel that is not Lockstep's.
     virtual void on_foreign(std::string_view channel) = 0;
     /// What is there cannot be read, or not understood.

@@ -32,6 +32,9 @@ public:
         return true;
     }
 
+    /// Behind the highest that came; 0: none came.
+    std::int64_t end() const { return ends_.empty() ? 0 : ends_.rbegin()->second; }
+
     /// How many are missing between the lowest and the highest that came.
     std::int64_t missing_within() const {
         if (ends_.empty()) { return 0; }

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "clients/analysis/plane_path.hpp"
+#include "clients/analysis/program_parts.hpp"
 #include "clients/analysis/run.hpp"
 #include "services/documents/machine_file.hpp"
-#include "services/documents/program_document.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -86,6 +86,7 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // it came twice
     record.begun_us = message.utime;
     const auto program = read_documents(message, place);
+    if (!has_whole_program(message)) { record.unplannable = program_of(message).error(); }
     if (!analysis_.config) { return; }
     AskedPath asked;
     if (program) {
@@ -133,8 +134,8 @@ std::optional<Program> Recorder::read_documents(const job_t& message, LogPlace p
     } else {
         on_damage(place, to_text("the configuration recorded with the job", config.error()));
     }
-    if (message.program.empty()) { return std::nullopt; }
-    auto program = program_from_text(message.program);
+    if (message.program.empty() || !has_whole_program(message)) { return std::nullopt; }
+    auto program = program_of(message);
     if (program) { return std::move(*program); }
     on_damage(place, "the program recorded with the job: " + program.error());
     return std::nullopt;

@@ -173,6 +173,8 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     fill_findings(analysis, report);
     report.set_jobs_not_listed(analysis.jobs_not_kept);
     report.set_missing_job_events(analysis.missing_job_events);
+    for (const std::string& line : missing_sentences(analysis.end)) { report.add_missing_at_end(line); }
+    for (const std::string& line : open_sentences(analysis.end)) { report.add_not_known(line); }
     for (const Event& event : analysis.happened) { fill(analysis, event, *report.add_events()); }
     for (const Damage& damage : analysis.damages) { fill_unread(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }

@@ -12,6 +12,7 @@ void Sorter::on_steps(const step_batch_t& message, LogPlace place) {
     if (of == nullptr) { return; }
     auto batch = to_batch(message);
     if (!batch) { return on_damage(place, batch.error()); }
+    end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->take(in_machine_time(std::move(*batch)));
 }
 
@@ -21,6 +22,7 @@ void Sorter::on_position(const axis_position_t& message, LogPlace place) {
     if (!is_countable(message.tick) || !is_countable(message.position_steps) || !is_message_number(message.sequence)) {
         return on_damage(place, "a position with numbers that no machine counts to");
     }
+    end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->position_numbers().add(message.incarnation, message.sequence);
     listener_.on_position(message);
     of->log->take(
@@ -33,6 +35,7 @@ void Sorter::on_health(const axis_health_t& message, LogPlace place) {
     if (!is_countable(message.tick) || !is_message_number(message.sequence)) {
         return on_damage(place, "figures with numbers that no machine counts to");
     }
+    end_.saw(RecordKind::Health, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->figure_numbers().add(message.incarnation, message.sequence);
     if (message.setpoints > 0) { of->log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms}); }
 }
@@ -43,6 +46,7 @@ void Sorter::on_run(const run_t& message, LogPlace place) {
     ++runs_;
     const auto run = to_run(message);
     if (!run) { return on_damage(place, run.error()); }
+    end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
     listener_.on_run(of->number, *run);
 }
 
@@ -52,7 +56,17 @@ void Sorter::on_job(const job_t& message, LogPlace place) {
         return on_damage(place, "a job with numbers that no machine counts to");
     }
     job_numbers_.add(message.coordinator, message.sequence);
+    end_.saw(RecordKind::Job, message.machine, "", message.coordinator, message.sequence);
     listener_.on_job(message, place);
+}
+
+void Sorter::on_program_part(const program_part_t& message, LogPlace /*place*/) {
+    if (!is_ours(message.machine) || !is_message_number(message.sequence)) { return; }
+    end_.saw(RecordKind::ProgramPart, message.machine, "", message.coordinator, message.sequence);
+}
+
+void Sorter::on_mark(const record_mark_t& message, LogPlace /*place*/) {
+    if (is_ours(message.machine)) { end_.take(message); }
 }
 
 void Sorter::on_foreign(std::string_view channel) { ++foreign_[std::string(channel)]; }
@@ -103,6 +117,7 @@ void Sorter::give(Analysis& analysis) {
     analysis.foreign = std::move(foreign_);
     analysis.runs = runs_;
     analysis.missing_job_events = job_numbers_.missing_within();
+    analysis.end = end_.finish();
 }
 
 }  // namespace lockstep::analysis

@@ -12,6 +12,7 @@
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/log_read.hpp"
 #include "clients/analysis/message_numbers.hpp"
+#include "clients/analysis/record_end.hpp"
 #include "clients/analysis/sorted_log.hpp"
 
 namespace lockstep::analysis {
@@ -28,6 +29,8 @@ public:
     void on_health(const axis_health_t& message, LogPlace place) override;
     void on_run(const run_t& message, LogPlace place) override;
     void on_job(const job_t& message, LogPlace place) override;
+    void on_program_part(const program_part_t& message, LogPlace place) override;
+    void on_mark(const record_mark_t& message, LogPlace place) override;
     void on_foreign(std::string_view channel) override;
     void on_damage(LogPlace place, std::string what) override;
 
@@ -54,6 +57,7 @@ private:
     std::map<std::string, std::uint64_t> foreign_;
     std::uint64_t runs_ = 0;
     MessageNumbers job_numbers_;
+    RecordEndCheck end_;
     std::optional<std::string> write_error_;
 };
 

@@ -38,9 +38,13 @@ std::vector<std::string> axes_not_known(const Analysis& analysis) {
 std::string missing_in_short(const Analysis& analysis) {
     const std::int64_t steps = total(analysis, missing_steps_of);
     const std::int64_t batches = total(analysis, missing_batches_of);
+    const std::int64_t at_end = analysis.end.missing_messages();
+    if (at_end > 0) { return plural(at_end, "message") + " missing at the end"; }
     const auto names = axes_not_known(analysis);
     if (!names.empty()) { return "not all of " + in_words(names); }
-    if (steps == 0 && batches == 0) { return "nothing missing"; }
+    if (steps == 0 && batches == 0) {
+        return analysis.end.is_closed() ? "nothing missing" : "nothing missing as far as is known";
+    }
     if (steps == 0) { return plural(batches, "message") + " of steps missing"; }
     return "at least " + plural(steps, "step") + " missing";
 }
@@ -206,6 +210,7 @@ std::vector<std::string> notes(const Analysis& analysis) {
                             axis->name(), analysis.microseconds(error));
     }
     for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
+    for (const std::string& line : open_sentences(analysis.end)) { text += line + "\n"; }
     text += events_text(analysis) + log_notes(analysis);
     std::vector<std::string> lines;
     for (std::size_t at = 0; at < text.size();) {

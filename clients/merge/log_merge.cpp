@@ -16,7 +16,10 @@ using Failure = std::unexpected<std::string>;
 class Merger {
 public:
     Merger(const MergeOptions& options, RecordSink& to)
-        : options_(options), to_(to), lately_(options.window_us * kWindowsRemembered) {}
+        : options_(options),
+          to_(to),
+          missing_(options.span.from_us.has_value()),
+          lately_(options.window_us * kWindowsRemembered) {}
 
     std::expected<void, std::string> open() {
         for (const auto& path : options_.logs) {
@@ -52,7 +55,9 @@ public:
             merged_.inputs[i].damages = inputs_[i].damages();
         }
         merged_.axes = missing_.finish();
-        merged_.missing_job_events = missing_.missing_job_events();
+        merged_.missing_job_events = missing_.missing_of_jobs(RecordKind::Job);
+        merged_.missing_program_parts = missing_.missing_of_jobs(RecordKind::ProgramPart);
+        merged_.end = missing_.end();
         return std::move(merged_);
     }
 
@@ -99,7 +104,13 @@ private:
         return lowest;
     }
 
+    bool is_wanted(std::int64_t utime) const {
+        return (!options_.span.from_us || utime >= *options_.span.from_us) &&
+               (!options_.span.until_us || utime < *options_.span.until_us);
+    }
+
     void write(std::size_t from, const HeldMessage& message) {
+        if (!is_wanted(message.id.utime)) { return; }
         if (!message.is_foreign && !is_new(message)) { return; }
         merged_.late += message.id.utime < written_utime_ ? 1 : 0;
         written_utime_ = std::max(written_utime_, message.id.utime);
@@ -144,7 +155,7 @@ private:
 }  // namespace
 
 bool Merged::is_complete() const {
-    return missing_job_events == 0 &&
+    return missing_job_events == 0 && missing_program_parts == 0 && end.missing.empty() &&
            std::ranges::all_of(axes, [](const AxisRecord& axis) { return axis.missing_messages() == 0; });
 }
 

@@ -14,6 +14,7 @@
 
 #include "clients/merge/merge_input.hpp"
 #include "clients/merge/missing.hpp"
+#include "clients/merge/sessions.hpp"
 #include "services/record/record_sink.hpp"
 
 namespace lockstep::merge {
@@ -24,6 +25,7 @@ inline constexpr std::uint64_t kMostBytesHeld = 256 << 20;  // of all logs toget
 
 struct MergeOptions {
     std::vector<std::filesystem::path> logs;
+    TimeSpan span;  // of the messages that are written
     std::int64_t window_us = kWindow_us;
     std::function<void(double)> progress;  // 0 ... 1, now and then
 };
@@ -44,7 +46,11 @@ struct Merged {
     std::uint64_t foreign = 0;     // written, of channels that are not of the record
     std::vector<AxisRecord> axes;
     std::int64_t missing_job_events = 0;
+    std::int64_t missing_program_parts = 0;
+    analysis::RecordEnd end;  // what is missing behind the last messages there, and from when on nobody can know
+    ChosenLogs chosen;        // by the caller: which logs were left out
 
+    /// No message is known to be missing.
     bool is_complete() const;
 };
 

@@ -9,15 +9,43 @@ using analysis::Break;
 using analysis::Numbers;
 using analysis::StepBatch;
 
+namespace {
+
+template <typename Message>
+analysis::RecordingProcess publisher_in(const std::vector<std::uint8_t>& data) {
+    const auto message = decode_lcm<Message>(data);
+    if (!message) { return {}; }
+    if constexpr (requires { message->axis; }) {
+        return {message->machine, message->axis, message->incarnation};
+    } else {
+        return {message->machine, "", message->coordinator};
+    }
+}
+
+analysis::RecordingProcess publisher_of(RecordKind kind, const std::vector<std::uint8_t>& data) {
+    switch (kind) {
+        case RecordKind::Steps: return publisher_in<step_batch_t>(data);
+        case RecordKind::Run: return publisher_in<run_t>(data);
+        case RecordKind::Position: return publisher_in<axis_position_t>(data);
+        case RecordKind::Health: return publisher_in<axis_health_t>(data);
+        case RecordKind::Job: return publisher_in<job_t>(data);
+        case RecordKind::ProgramPart: return publisher_in<program_part_t>(data);
+        default: return {};
+    }
+}
+
+}  // namespace
+
 /// Hears an axis's steps in order, and where they break off.
 class MissingWatch::Axis final : public analysis::StepListener {
 public:
-    Axis(const std::string& machine, const std::string& name) : record{.machine = machine, .axis = name} {}
+    Axis(const std::string& machine, const std::string& name, bool begins_late)
+        : record{.machine = machine, .axis = name}, begins_late_(begins_late) {}
     Axis(const Axis&) = delete;
     Axis& operator=(const Axis&) = delete;
 
     void on_break(const Break& what) override {
-        if (what.missing_batches == 0) { return; }
+        if (what.missing_batches == 0 || (begins_late_ && !what.from)) { return; }
         record.missing_step_messages += what.missing_batches;
         if (record.missing_steps.size() == kListed) { return; }
         record.missing_steps.push_back({.axis = record.axis,
@@ -40,11 +68,12 @@ public:
     analysis::StepStream stream{{this}};
 
 private:
+    bool begins_late_;
     std::optional<std::int64_t> position_;
     bool awaits_end_ = false;
 };
 
-MissingWatch::MissingWatch() = default;
+MissingWatch::MissingWatch(bool begins_late) : begins_late_(begins_late) {}
 MissingWatch::~MissingWatch() = default;
 
 bool MissingWatch::is_new(const MessageId& id) {
@@ -53,52 +82,47 @@ bool MissingWatch::is_new(const MessageId& id) {
 
 MissingWatch::Axis& MissingWatch::axis(const std::string& machine, const std::string& name) {
     auto& axis = axes_[{machine, name}];
-    if (!axis) { axis = std::make_unique<Axis>(machine, name); }
+    if (!axis) { axis = std::make_unique<Axis>(machine, name, begins_late_); }
     return *axis;
 }
 
-MissingWatch::Axis* MissingWatch::axis_of(RecordKind kind, const std::vector<std::uint8_t>& data) {
-    const auto named = [this](const auto& message) {
-        return message ? &axis(message->machine, message->axis) : nullptr;
-    };
-    switch (kind) {
-        case RecordKind::Run: return named(decode_lcm<run_t>(data));
-        case RecordKind::Position: return named(decode_lcm<axis_position_t>(data));
-        case RecordKind::Health: return named(decode_lcm<axis_health_t>(data));
-        default: return nullptr;
+void MissingWatch::note_steps(const step_batch_t& message) {
+    if (auto batch = analysis::to_batch(message)) {
+        axis(message.machine, message.axis).stream.take(analysis::in_machine_time(std::move(*batch)));
     }
 }
 
 void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& data) {
     const RecordKind kind = kind_of(id.channel);
+    if (kind == RecordKind::Mark) {
+        if (const auto mark = decode_lcm<record_mark_t>(data)) { marks_.take(*mark); }
+    }
     if (kind == RecordKind::Steps) {
-        const auto message = decode_lcm<step_batch_t>(data);
-        if (!message) { return; }
-        if (auto batch = analysis::to_batch(*message)) {
-            axis(message->machine, message->axis).stream.take(analysis::in_machine_time(std::move(*batch)));
-        }
-        return;
+        if (const auto message = decode_lcm<step_batch_t>(data)) { note_steps(*message); }
     }
     if (!id.number) { return; }
-    const auto known = numbered_.try_emplace({id.channel, id.number->incarnation}, nullptr).first;
-    if (known->second == nullptr) { known->second = axis_of(kind, data); }
-    if (known->second != nullptr && kind == RecordKind::Run) { ++known->second->record.runs; }
+    const auto [known, is_new] = processes_.try_emplace({id.channel, id.number->incarnation});
+    if (is_new) { known->second = publisher_of(kind, data); }
+    if (kind == RecordKind::Run) { ++axis(known->second.machine, known->second.axis).record.runs; }
 }
 
 void MissingWatch::note_missing_runs(const Whose& whose, AxisRecord& record) const {
     for (const Numbers& gap : seen_.at(whose).gaps()) {
+        if (begins_late_ && gap.from == 0) { continue; }
         record.missing_run_messages += gap.end - gap.from;
         if (record.missing_runs.size() < kListed) { record.missing_runs.push_back({record.axis, whose.second, gap}); }
     }
 }
 
 std::vector<AxisRecord> MissingWatch::finish() {
-    for (const auto& [whose, axis] : numbered_) {
-        if (axis == nullptr) { continue; }
+    for (const auto& [whose, process] : processes_) {
+        if (process.axis.empty()) { continue; }
+        AxisRecord& record = axis(process.machine, process.axis).record;
         switch (kind_of(whose.first)) {
-            case RecordKind::Run: note_missing_runs(whose, axis->record); break;
-            case RecordKind::Position: axis->record.missing_positions += seen_.at(whose).missing_within(); break;
-            default: axis->record.missing_figures += seen_.at(whose).missing_within();
+            case RecordKind::Run: note_missing_runs(whose, record); break;
+            case RecordKind::Position: record.missing_positions += seen_.at(whose).missing_within(); break;
+            case RecordKind::Health: record.missing_figures += seen_.at(whose).missing_within(); break;
+            default: break;
         }
     }
     std::vector<AxisRecord> out;
@@ -111,12 +135,19 @@ std::vector<AxisRecord> MissingWatch::finish() {
     return out;
 }
 
-std::int64_t MissingWatch::missing_job_events() const {
+std::int64_t MissingWatch::missing_of_jobs(RecordKind kind) const {
     std::int64_t missing = 0;
     for (const auto& [whose, numbers] : seen_) {
-        missing += kind_of(whose.first) == RecordKind::Job ? numbers.missing_within() : 0;
+        missing += kind_of(whose.first) == kind ? numbers.missing_within() : 0;
     }
     return missing;
+}
+
+analysis::RecordEnd MissingWatch::end() {
+    for (const auto& [whose, process] : processes_) {
+        marks_.saw(kind_of(whose.first), process.machine, process.axis, process.incarnation, seen_.at(whose).end() - 1);
+    }
+    return marks_.finish();
 }
 
 }  // namespace lockstep::merge

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <lockstep/step_batch_t.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "clients/analysis/number_set.hpp"
+#include "clients/analysis/record_end.hpp"
 #include "clients/analysis/step_stream.hpp"
 #include "clients/merge/message_id.hpp"
 #include "services/wire/lcm_channels.hpp"
@@ -58,7 +60,8 @@ class MissingWatch {
 public:
     static constexpr std::size_t kListed = 1000;  // of each axis; all are counted
 
-    MissingWatch();
+    /// `begins_late`: what is in no log before the first message of a process was not asked for.
+    explicit MissingWatch(bool begins_late);
     ~MissingWatch();
 
     /// Whether it has not come before; what has no number never has. Messages of a channel come nearly in order.
@@ -67,8 +70,10 @@ public:
     void take(const MessageId& id, const std::vector<std::uint8_t>& data);
     /// By axis. Call once, at the end.
     std::vector<AxisRecord> finish();
-    /// Between the first and the last of each coordinator.
-    std::int64_t missing_job_events() const;
+    /// Between the first and the last of each coordinator: events of jobs, or parts of their programs.
+    std::int64_t missing_of_jobs(RecordKind kind) const;
+    /// Call once, at the end.
+    analysis::RecordEnd end();
 
 private:
     class Axis;
@@ -76,13 +81,14 @@ private:
 
     using Whose = std::pair<std::string, std::int64_t>;  // channel and incarnation
 
-    /// The axis that a channel is of; null: of none that can be told.
-    Axis* axis_of(RecordKind kind, const std::vector<std::uint8_t>& data);
+    bool begins_late_;
+    void note_steps(const step_batch_t& message);
     void note_missing_runs(const Whose& whose, AxisRecord& record) const;
 
     std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
-    std::map<Whose, Axis*> numbered_;  // whose runs, positions or figures they are
+    std::map<Whose, analysis::RecordingProcess> processes_;                      // that published the numbered messages
+    analysis::RecordEndCheck marks_;
 };
 
 }  // namespace lockstep::merge

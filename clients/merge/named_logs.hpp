@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "clients/merge/sessions.hpp"
+
 namespace lockstep::merge {
 
 /// A directory stands for all *.lcm in it, in the order of their names. Error: there is none in it.
-std::expected<std::vector<std::filesystem::path>, std::string> named_logs(
-    const std::vector<std::filesystem::path>& names);
+std::expected<std::vector<GivenLog>, std::string> named_logs(const std::vector<std::filesystem::path>& names);
 
 }  // namespace lockstep::merge

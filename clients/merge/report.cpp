@@ -50,6 +50,10 @@ proto::MergeReport to_report(const Merged& merged, const std::filesystem::path& 
     report.set_late(merged.late);
     report.set_foreign(merged.foreign);
     report.set_missing_job_events(merged.missing_job_events);
+    report.set_missing_program_parts(merged.missing_program_parts);
+    for (const std::string& line : analysis::missing_sentences(merged.end)) { report.add_missing_at_end(line); }
+    for (const std::string& line : analysis::open_sentences(merged.end)) { report.add_not_known(line); }
+    for (const auto& log : merged.chosen.left_out) { report.add_left_out(log.string()); }
     for (const MergedInput& input : merged.inputs) { fill(input, *report.add_inputs()); }
     for (const AxisRecord& axis : merged.axes) { fill(axis, *report.add_axes()); }
     return report;

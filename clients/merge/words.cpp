@@ -55,6 +55,17 @@ std::string inputs_table(const Merged& merged) {
     return text;
 }
 
+std::string left_out_text(const ChosenLogs& chosen) {
+    if (chosen.left_out.empty()) { return ""; }
+    std::string text = fmt::format("left out: {} of {} (--all merges them as well)\n",
+                                   plural(static_cast<std::int64_t>(chosen.left_out.size()), "log"),
+                                   plural(chosen.sessions_left_out, "other session"));
+    for (std::size_t i = 0; i < chosen.left_out.size() && i < kLinesOfAnAxis; ++i) {
+        text += "  " + chosen.left_out[i].string() + "\n";
+    }
+    return text;
+}
+
 std::string axes_table(const Merged& merged) {
     std::string text = fmt::format("{:<16} {:>14} {:>10} {:>20}\n", "axis", "steps", "runs", "messages missing");
     for (const AxisRecord& axis : merged.axes) {
@@ -73,21 +84,29 @@ std::string oddities(const Merged& merged) {
     if (merged.differing > 0) {
         text += count(merged.differing) + " left out that had the number of another, but not its content\n";
     }
-    text += line_of("jobs", merged.missing_job_events, "events");
+    text += line_of("jobs", merged.missing_job_events, "events") +
+            line_of("jobs", merged.missing_program_parts, "programs");
+    for (const std::string& line : analysis::missing_sentences(merged.end)) { text += "  " + line + "\n"; }
     if (merged.late > 0) { text += count(merged.late) + " later than the window: written behind younger ones\n"; }
     if (merged.foreign > 0) { text += count(merged.foreign) + " of other channels, kept from each log\n"; }
+    return text;
+}
+
+std::string verdict_of(const Merged& merged) {
+    if (!merged.is_complete()) { return "incomplete: what is listed as missing is in none of the logs"; }
+    std::string text = merged.end.is_closed() ? "complete: no message of the record is missing"
+                                              : "complete as far as is known: no message is known to be missing";
+    for (const std::string& line : analysis::open_sentences(merged.end)) { text += "; " + line; }
     return text;
 }
 
 }  // namespace
 
 std::string to_text(const Merged& merged, const std::filesystem::path& written) {
-    const std::string verdict = merged.is_complete() ? "complete: no message of the record is missing"
-                                                     : "incomplete: what is listed as missing is in none of the logs";
-    return inputs_table(merged) + "\n" + axes_table(merged) + "\n" + oddities(merged) +
+    return inputs_table(merged) + left_out_text(merged.chosen) + "\n" + axes_table(merged) + "\n" + oddities(merged) +
            fmt::format("{}: {} written, {} left out that came again\n{}\n", written.string(),
                        plural(static_cast<std::int64_t>(merged.messages), "message"),
-                       grouped(static_cast<std::int64_t>(merged.duplicates)), verdict);
+                       grouped(static_cast<std::int64_t>(merged.duplicates)), verdict_of(merged));
 }
 
 }  // namespace lockstep::merge

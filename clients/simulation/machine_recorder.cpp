@@ -21,7 +21,13 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
         recorder = std::make_unique<AxisRecorder>(machine_, axis, out.state->identity, sink_);
         for (const StepEdge& step : std::exchange(found_[axis], {})) { recorder->step(step); }
     }
-    if (recorder) { recorder->loop(out, node.controller().zero_count(), node.lost_captures()); }
+    if (!recorder) { return; }
+    recorder->loop(out, node.controller().zero_count(), node.lost_captures());
+    if (!jobs_ || !out.state) { return; }
+    jobs_->note_axis({.identity = out.state->identity,
+                      .axis = static_cast<std::uint32_t>(axis),
+                      .tick = out.state->tick,
+                      .published = recorder->published()});
 }
 
 void MachineRecorder::on_coordinator(std::size_t /*process*/, Tick now, const CoordinatorOutputs& out) {
@@ -30,8 +36,17 @@ void MachineRecorder::on_coordinator(std::size_t /*process*/, Tick now, const Co
         owner_ = out.state->term.coordinator;
         jobs_ = std::make_unique<JobRecorder>(machine_, owner_, sink_);
     }
-    for (const JobEvent& event : out.jobs) {
-        if (jobs_) { jobs_->record(now, event); }
+    now_ = now;
+    if (!jobs_) { return; }
+    if (owns) { note_owner(*out.state); }
+    for (const JobEvent& event : out.jobs) { jobs_->record(now, event); }
+}
+
+void MachineRecorder::note_owner(MachineState state) {
+    jobs_->note(now_);
+    state.published = jobs_->published();
+    for (const auto& axis : axes_) {
+        if (axis) { axis->note_coordinator(state); }
     }
 }
 
@@ -45,6 +60,7 @@ void MachineRecorder::finish() {
     for (const auto& axis : axes_) {
         if (axis) { axis->finish(); }
     }
+    if (jobs_) { jobs_->finish(now_); }
 }
 
 }  // namespace lockstep

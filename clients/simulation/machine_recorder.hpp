@@ -26,12 +26,15 @@ public:
     std::int64_t steps() const { return steps_; }
 
 private:
+    void note_owner(MachineState state);
+
     MachineConfig machine_;
     RecordSink& sink_;
     std::vector<std::unique_ptr<AxisRecorder>> axes_;  // made when the axis's process says who it is
     std::vector<std::vector<StepEdge>> found_;         // by a process before it has said so
     Identity owner_ = 0;                               // whose jobs are recorded
     std::unique_ptr<JobRecorder> jobs_;                // likewise
+    Tick now_;
     std::int64_t steps_ = 0;
 };
 

@@ -81,6 +81,8 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
 
 void AxisCheck::on_break(const analysis::Break& what) {
     if (what.missing_batches == 0 || !findings_.going()) { return; }
+    const bool is_first = !what.from && incarnations_.size() <= 1;
+    if (is_first && (marked_.empty() || what.missing_batches <= marked_.begin()->second)) { return; }  // begins later
     const StepEdge* expected = maker_ ? maker_->next() : nullptr;
     differ("axis " + name_ + ": " + plural(what.missing_batches, "message") + " with at least " +
                plural(std::abs(what.position_change), "step") + " missing between " +
@@ -107,7 +109,31 @@ void AxisCheck::settle(bool log_ended) {
     }
 }
 
+void AxisCheck::began_before_log(const Run& run) {
+    if (!is_aligned_) {
+        before_log_ = std::max(before_log_.value_or(std::pair{run.incarnation, run.sequence}),
+                               std::pair{run.incarnation, run.sequence});
+    }
+}
+
+/// Where the log begins later than the process: what it did before its first whole run is left out.
+void AxisCheck::skip_before_log() {
+    const auto is_before = [this](const Run& run) {
+        return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
+    };
+    while (!is_aligned_ && !runs_.empty() && is_before(runs_.front())) { runs_.pop_front(); }
+    if (is_aligned_ || runs_.empty()) { return; }
+    is_aligned_ = true;
+    const Run& first = runs_.front();
+    if (first.sequence == 0) { return; }
+    while (!waiting_.empty() && waiting_.front().incarnation == first.incarnation &&
+           waiting_.front().edge.tick < first.start) {
+        waiting_.pop_front();
+    }
+}
+
 bool AxisCheck::begin_next_run() {
+    skip_before_log();
     if (runs_.empty()) { return false; }
     maker_.emplace(std::move(runs_.front()));
     runs_.pop_front();

@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clients/analysis/run.hpp"
@@ -59,6 +61,10 @@ public:
     void runs_missing(std::int64_t from, std::int64_t end);
     /// The axis has said so: the next run may be on a device that counts anew.
     void device_lost() { device_lost_ = true; }
+    /// From now on all messages of steps of that process from this number on are in the log.
+    void expect_from(std::int64_t incarnation, std::int64_t number) { marked_.try_emplace(incarnation, number); }
+    /// A run that had begun before the log did: not all of its steps are there.
+    void began_before_log(const Run& run);
     /// Call once, at the end of the log.
     void finish(const HasEnded& has_ended);
 
@@ -68,6 +74,7 @@ public:
 private:
     void settle(bool log_ended);
     bool begin_next_run();
+    void skip_before_log();
     void end_run();
     void pass_step(bool is_recorded);
     bool is_cut_here(const SeenStep* seen);
@@ -94,13 +101,17 @@ private:
     analysis::StepStream stream_{{this}};
     std::deque<SeenStep> waiting_;
     std::deque<Run> runs_;
-    std::vector<std::int64_t> incarnations_;  // in the order of their first messages
-    std::optional<StepMaker> maker_;          // of the run being compared
-    std::optional<Run> last_run_;             // the one before it
-    bool device_lost_ = false;                // since the run before it
-    std::int64_t unsaid_ = 0;                 // steps that a process which ended had not said
-    std::int64_t steps_ = 0;                  // compared and equal
-    std::optional<Tick> last_tick_;           // of these
+    std::vector<std::int64_t> incarnations_;       // in the order of their first messages
+    std::optional<StepMaker> maker_;               // of the run being compared
+    std::optional<Run> last_run_;                  // the one before it
+    bool device_lost_ = false;                     // since the run before it
+    std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be there
+    std::optional<std::pair<std::int64_t, std::int64_t>>
+        before_log_;                 // the last run that began before it: process, number
+    bool is_aligned_ = false;        // the first run compared was begun
+    std::int64_t unsaid_ = 0;        // steps that a process which ended had not said
+    std::int64_t steps_ = 0;         // compared and equal
+    std::optional<Tick> last_tick_;  // of these
 };
 
 }  // namespace lockstep::verification

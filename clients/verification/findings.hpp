@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/analysis/record_end.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::verification {
@@ -30,7 +31,9 @@ struct Findings {
     std::optional<Difference> difference;   // the first
     std::optional<std::string> unreadable;  // what of the log's documents cannot be understood
     std::vector<std::string> notes;
+    analysis::RecordEnd end;
 
+    bool is_exact() const { return !difference && end.missing.empty(); }
     /// Nothing is compared behind the first difference.
     bool going() const { return !difference && !unreadable; }
     void differ(Difference found) {

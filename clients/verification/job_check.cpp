@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "clients/analysis/program_parts.hpp"
 #include "clients/verification/run_difference.hpp"
 #include "services/documents/machine_file.hpp"
-#include "services/documents/program_document.hpp"
 
 namespace lockstep::verification {
 namespace {
@@ -49,6 +49,12 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_err
 
 /// What a stopped coordinator says late of its job goes before the job that another has begun since.
 void JobCheck::take(const job_t& record) {
+    if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
+    if (record.event == "begun" && !first_job_) {
+        first_job_ = record.job;
+        leave_out_before_first_job();
+    }
+    if (record.event == "epoch" && !first_epoch_) { first_epoch_ = static_cast<Epoch>(record.epoch); }
     auto behind = records_.end();
     if (is_late(record)) {
         const auto own = std::ranges::find(records_, record.coordinator, &job_t::coordinator);
@@ -106,8 +112,11 @@ void JobCheck::begin(const job_t& record) {
     job_ =
         Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
     if (record.program.empty() || record.kind == "own-move") { return; }  // axes on their own make no epoch
+    if (!analysis::has_whole_program(record)) {
+        return differ(job_->label + ": its program is not known: " + analysis::program_of(record).error());
+    }
     const auto machine = parse_machine(record.config);
-    const auto program = program_from_text(record.program);
+    const auto program = analysis::program_of(record);
     if (!machine || !program) {
         findings_.unreadable = number_of(record) + (machine ? ": its program: " + program.error()
                                                             : to_text(": its configuration", machine.error()));
@@ -223,6 +232,15 @@ void JobCheck::break_off(std::size_t axis, const std::string& why) {
 }
 
 void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
+    leave_out_before_first_job();
+    if (begins_late_) {
+        findings_.notes.push_back(
+            first_job_
+                ? "the log begins later than the record: exact is meant from job " + std::to_string(*first_job_) +
+                      " on; what was run before is compared with its own record alone"
+                : "the log begins later than the record, and no job begins in it: what was run is compared with "
+                  "its own record alone");
+    }
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
     if (!waiting_.empty()) {
         const auto& [axis, run] = waiting_.front();
@@ -254,8 +272,21 @@ void JobCheck::leave_job(const HasEnded& has_ended) {
 
 // ---- Runs --------------------------------------------------------------------------------------------------------
 
+bool JobCheck::is_before_first_job(const Run& run) const {
+    return begins_late_ && (!first_job_ || (first_epoch_ && run.epoch < *first_epoch_));
+}
+
+/// They count as runs without a plan.
+void JobCheck::leave_out_before_first_job() {
+    if (!begins_late_) { return; }
+    const auto is_out = [&](const auto& waiting) { return is_before_first_job(waiting.second) || !first_epoch_; };
+    findings_.local_runs += static_cast<std::int64_t>(std::erase_if(waiting_, is_out));
+}
+
 void JobCheck::take(const std::string& axis, const Run& run) {
-    if (!findings_.going() || place(axis, run)) { return; }
+    if (!findings_.going()) { return; }
+    if (is_before_first_job(run)) { return void(++findings_.local_runs); }
+    if (place(axis, run)) { return; }
     if (waiting_.size() == kMaxWaiting) { return differ("axis " + axis + ": runs of an unknown epoch", axis, &run); }
     waiting_.emplace_back(axis, run);
 }

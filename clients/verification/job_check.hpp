@@ -34,6 +34,8 @@ public:
     explicit JobCheck(Findings& findings) : findings_(findings) {}
 
     void take(const job_t& record);
+    /// The log begins later than the record does: a job that had begun by then is not held to its plan.
+    void begins_late() { begins_late_ = true; }
     /// A run of a job; in the order of their numbers for each axis.
     void take(const std::string& axis, const Run& run);
     /// Call once, at the end of the log. `at_rest`: it goes on for long enough behind the last motion on record.
@@ -91,6 +93,8 @@ private:
     std::vector<Course> courses_of(EpochReplay& replay, std::size_t axis) const;
     void leave_job(const HasEnded& has_ended);
     std::string out_of_order(const Progress& axis, const Run& run) const;
+    bool is_before_first_job(const Run& run) const;
+    void leave_out_before_first_job();
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 
     static constexpr std::size_t kLabelsKept = 16;
@@ -99,6 +103,9 @@ private:
     std::deque<job_t> records_;  // handled when the first run after them comes: late runs of what they end come before
     std::deque<std::pair<std::string, Run>> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
+    bool begins_late_ = false;
+    std::optional<std::int64_t> first_job_;  // whose beginning is in the log
+    std::optional<Epoch> first_epoch_;       // of a job whose beginning is
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clients/analysis/log_step.hpp"
+#include "clients/analysis/words.hpp"
 #include "core/faults.hpp"
 
 namespace lockstep::verification {
@@ -27,6 +28,7 @@ void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     auto batch = analysis::to_batch(message);
     if (!batch) { return on_damage(place, batch.error()); }
     Machine& of = machines_.find(message.machine)->second;
+    end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
     of.hear(*to, message.incarnation, message.utime);
     of.last.moved_us = of.last.said_us;
     to->check.take(std::move(*batch));
@@ -37,13 +39,67 @@ void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
     if (to == nullptr) { return; }
     auto run = analysis::to_run(message);
     if (!run) { return on_damage(place, run.error()); }
-    LastWords& last = machines_.find(message.machine)->second.last;
-    last.moved_us = last.said_us;  // it is told of when it is over
+    end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
+    Machine& of = machines_.find(message.machine)->second;
+    of.last.moved_us = of.last.said_us;  // it is told of when it is over
+    const auto first = of.first_us.find(message.axis);
+    const bool is_first = run->sequence > 0 && to->runs.is_empty();
+    if (is_first) { of.jobs.begins_late(); }
+    if (first != of.first_us.end() && message.utime < first->second && run->sequence > 0) {
+        to->check.began_before_log(*run);
+    }
     to->runs.take(std::move(*run));
 }
 
+void LogCheck::on_health(const axis_health_t& message, analysis::LogPlace /*place*/) {
+    if (!analysis::is_message_number(message.sequence)) { return; }
+    end_.saw(RecordKind::Health, message.machine, message.axis, message.incarnation, message.sequence);
+}
+
+void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace /*place*/) {
+    if (!analysis::is_message_number(message.sequence)) { return; }
+    end_.saw(RecordKind::ProgramPart, message.machine, "", message.coordinator, message.sequence);
+}
+
+/// What a process says of itself holds from there on in the log.
+void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
+    end_.take(message);
+    if (message.witness != message.process || make_follower_) { return; }
+    if (message.process.empty()) {
+        Machine* of = machine(message.machine, place);
+        if (of != nullptr) { of->marked_jobs.try_emplace(message.incarnation, message.job_events); }
+        return;
+    }
+    Axis* of = axis(message.machine, message.process, place);
+    if (of == nullptr) { return; }
+    machines_.find(message.machine)->second.first_us.try_emplace(message.process, message.utime);
+    of->runs.expect_from(message.incarnation, message.runs);
+    of->check.expect_from(message.incarnation, message.steps);
+}
+
+/// Whether the log begins with that event because it begins later, or lacks those before.
+void LogCheck::note_beginning(Machine& machine, const job_t& message) {
+    if (std::exchange(machine.has_jobs, true) || message.sequence == 0) { return; }
+    machine.jobs.begins_late();
+    const auto marked = machine.marked_jobs.find(message.coordinator);
+    if (marked == machine.marked_jobs.end() || message.sequence <= marked->second) { return; }
+    findings_.differ({.text = std::to_string(message.sequence - marked->second) +
+                              " messages of jobs are missing from the log before job " + std::to_string(message.job),
+                      .axis = {},
+                      .tick_expected = {},
+                      .tick_seen = {},
+                      .commanded = {}});
+    findings_.notes.emplace_back(analysis::kWhereTheRestIs);
+}
+
 /// Of axes that have moved.
-void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace /*place*/) {
+void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace place) {
+    if (analysis::is_countable(message.utime)) {
+        if (Machine* of = machine(message.machine, place)) { of->first_us.try_emplace(message.axis, message.utime); }
+    }
+    if (analysis::is_message_number(message.sequence)) {
+        end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
+    }
     const auto of = machines_.find(message.machine);
     if (of == machines_.end()) { return; }
     const auto said = of->second.axes.find(message.axis);
@@ -64,6 +120,8 @@ void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
     Machine* to = machine(message.machine, place);
     if (to == nullptr) { return; }
     if (analysis::is_countable(message.utime)) { to->last.said_us = message.utime; }
+    end_.saw(RecordKind::Job, message.machine, "", message.coordinator, message.sequence);
+    note_beginning(*to, message);
     to->job_numbers.add(message.coordinator, message.sequence);
     to->jobs.take(message);
 }
@@ -129,6 +187,8 @@ Findings LogCheck::finish() {
                 "; a difference may be theirs (`lockstep log merge` with the coordinator's own log)");
         }
     }
+    if (!make_follower_) { findings_.end = end_.finish(); }
+    for (std::string& line : analysis::open_sentences(findings_.end)) { findings_.notes.push_back(std::move(line)); }
     if (damages_ > kDamagesNoted) {
         findings_.notes.push_back("and " + std::to_string(damages_ - kDamagesNoted) + " more damaged places");
     }

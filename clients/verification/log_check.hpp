@@ -31,6 +31,9 @@ public:
     void on_position(const axis_position_t& message, analysis::LogPlace place) override;
     void on_run(const run_t& message, analysis::LogPlace place) override;
     void on_job(const job_t& message, analysis::LogPlace place) override;
+    void on_health(const axis_health_t& message, analysis::LogPlace place) override;
+    void on_program_part(const program_part_t& message, analysis::LogPlace place) override;
+    void on_mark(const record_mark_t& message, analysis::LogPlace place) override;
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(analysis::LogPlace place, std::string what) override;
 
@@ -56,7 +59,11 @@ private:
         LastWords last;
         analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
+        std::map<std::string, std::int64_t> first_us;      // when an axis was heard first
+        std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log
+        bool has_jobs = false;
     };
+    void note_beginning(Machine& machine, const job_t& message);
 
     Machine* machine(const std::string& name, analysis::LogPlace place);
     Axis* axis(const std::string& machine, const std::string& name, analysis::LogPlace place);
@@ -64,6 +71,7 @@ private:
     MakeFollower make_follower_;
     Findings findings_;
     std::map<std::string, Machine> machines_;
+    analysis::RecordEndCheck end_;
     std::size_t damages_ = 0;
 };
 

@@ -4,13 +4,21 @@
 
 namespace lockstep::verification {
 
+void RunStream::expect_from(std::int64_t incarnation, std::int64_t number) {
+    if (incarnation_ != incarnation) { marked_.try_emplace(incarnation, number); }
+}
+
 void RunStream::take(Run run) {
     if (incarnation_ != run.incarnation) {
         tell(0);
+        const bool is_first = !incarnation_;
         incarnation_ = run.incarnation;
-        expected_ = 0;
+        const auto marked = marked_.find(run.incarnation);
+        expected_ = marked != marked_.end() ? std::optional(marked->second)
+                    : is_first              ? std::nullopt
+                                            : std::optional<std::int64_t>(0);
     }
-    if (run.sequence < expected_) { return; }  // it came twice
+    if (expected_ && run.sequence < *expected_) { return; }  // it came twice
     waiting_.emplace(run.sequence, std::move(run));
     tell(kPatience);
 }
@@ -18,8 +26,8 @@ void RunStream::take(Run run) {
 void RunStream::tell(std::size_t patience) {
     while (!waiting_.empty()) {
         const std::int64_t first = waiting_.begin()->first;
-        if (first != expected_ && waiting_.size() <= patience) { return; }
-        if (first != expected_) { on_missing_(expected_, first); }
+        if (first != expected_.value_or(0) && waiting_.size() <= patience) { return; }
+        if (expected_ && first != *expected_) { on_missing_(*expected_, first); }
         expected_ = first + 1;
         on_run_(waiting_.extract(waiting_.begin()).mapped());
     }

@@ -1,4 +1,7 @@
 // One axis's runs in the order of their numbers, from records that may come late, twice or never.
+//
+// Of the first process a log may begin later than the process: then the first run there is the first. It is a later one
+// that is missing where a mark of that process came before and says that it had recorded fewer.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +27,10 @@ public:
     RunStream(OnRun on_run, OnMissing on_missing) : on_run_(std::move(on_run)), on_missing_(std::move(on_missing)) {}
 
     void take(Run run);
+    /// No run has come yet.
+    bool is_empty() const { return !incarnation_; }
+    /// From now on all runs of that process from this number on are in the log.
+    void expect_from(std::int64_t incarnation, std::int64_t number);
     /// Tells what still waits. Call once, at the end of the log.
     void finish() { tell(0); }
 
@@ -33,7 +40,8 @@ private:
     OnRun on_run_;
     OnMissing on_missing_;
     std::optional<std::int64_t> incarnation_;
-    std::int64_t expected_ = 0;
+    std::optional<std::int64_t> expected_;         // none: the first that comes
+    std::map<std::int64_t, std::int64_t> marked_;  // what is expected of processes, before their first run
     std::map<std::int64_t, Run> waiting_;
 };
 

@@ -1,5 +1,6 @@
 #include "clients/verification/verification.hpp"
 
+#include "clients/analysis/words.hpp"
 #include "clients/verification/log_check.hpp"
 
 namespace lockstep::verification {
@@ -39,12 +40,13 @@ void fill(const Difference& difference, proto::Difference& out) {
 
 proto::VerifyReport to_report(const Findings& findings) {
     proto::VerifyReport report;
-    report.set_exact(!findings.difference);
+    report.set_exact(findings.is_exact());
     report.set_steps_compared(findings.steps);
     report.set_runs_compared(findings.runs + findings.local_runs);
     report.set_jobs_compared(findings.jobs);
     if (findings.difference) { fill(*findings.difference, *report.mutable_first_difference()); }
     for (const std::string& note : findings.notes) { report.add_notes(note); }
+    for (const std::string& line : analysis::missing_sentences(findings.end)) { report.add_missing_at_end(line); }
     return report;
 }
 
@@ -56,9 +58,14 @@ std::string to_text(const Findings& findings) {
             text += "  in motion: " + findings.difference->commanded + "\n";
         }
         text += "  compared before that and equal: " + counted(findings) + "\n";
+    } else if (!findings.end.missing.empty()) {
+        text = "not exact: the log lacks the end of the record; what it has is what the programs give: " +
+               counted(findings) + "\n";
     } else {
         text = "exact: " + counted(findings) + " are what the programs give, tick for tick\n";
     }
+    for (const std::string& line : analysis::missing_sentences(findings.end)) { text += "  missing: " + line + "\n"; }
+    if (!findings.end.missing.empty()) { text += "  note: " + std::string(analysis::kWhereTheRestIs) + "\n"; }
     for (const std::string& note : findings.notes) { text += "  note: " + note + "\n"; }
     return text;
 }

@@ -133,6 +133,7 @@ Reply Coordinator::run(const Command& command, CoordinatorOutputs& out) {
                         .job = job_->number,
                         .job_kind = job_->kind,
                         .program = job_->program,
+                        .program_id = job_->program_id,
                         .start_counts = {start.begin(), start.end()}});
     const Reply reply = accepted(command);
     begin_leg(out);

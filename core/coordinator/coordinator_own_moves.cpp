@@ -61,6 +61,7 @@ void Coordinator::begin_own(Job job, Ticks ticks, CoordinatorOutputs& out) {
                         .job = job_->number,
                         .job_kind = job_->kind,
                         .program = job_->program,
+                        .program_id = job_->program_id,
                         .start_counts = job_->from});
     for (std::size_t i = 0; i < views_.size(); ++i) {
         if (!has_axis(job_->axes, i)) { continue; }

@@ -61,6 +61,7 @@ struct AxisHealth {
     std::optional<Ticks> setpoint_age;  // since the newest frame came; nothing where none is awaited
     Ticks clock_error;                  // its machine time is at most so far off
     RefusalCounts refused;
+    RecordCounts published;  // of the record, by this process
     bool operator==(const AxisHealth&) const = default;
 };
 

@@ -12,6 +12,7 @@
 #include "core/machine.hpp"
 #include "core/motion/overrides.hpp"
 #include "core/motion/path_place.hpp"
+#include "core/protocol/record_counts.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"
 
@@ -179,6 +180,9 @@ struct MachineState {
     JobKind job_kind = JobKind::Run;
     std::uint64_t program = 0;     // Command::program of the job; 0: none is in motion
     std::vector<FrameRest> rests;  // of the frames of the epoch that may be the last ones run, rising
+    // Of the record; nobody decides by it:
+    RecordCounts published;          // by this process
+    std::uint64_t lost_records = 0;  // messages that it could not write
     bool operator==(const MachineState&) const = default;
 };
 

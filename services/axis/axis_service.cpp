@@ -15,6 +15,7 @@
 #include "services/documents/placement.hpp"
 #include "services/flight/flight_recorder.hpp"
 #include "services/record/axis_recorder.hpp"
+#include "services/record/own_log.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/host_name.hpp"
@@ -86,6 +87,7 @@ public:
             node_.step(now, {in.frames, in.states, in.machine, in.commands, in.requests, in.exchanges},
                        [this](StepEdge step) { recorder_.step(step); });
         if (out.state) { network_.publish(*out.state); }
+        for (const MachineState& state : in.machine) { recorder_.note_coordinator(state); }
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
         if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
@@ -126,12 +128,13 @@ private:
     }
 
     void say_health(std::uint64_t skipped_loops) {
-        const auto health = meter_.report(node_.clock_error(), {.messages = network_.refused(),
-                                                                .orders = node_.troubles(),
-                                                                .captures = node_.lost_captures(),
-                                                                .records = sink_->failures(),
-                                                                .skipped_loops = skipped_loops});
+        auto health = meter_.report(node_.clock_error(), {.messages = network_.refused(),
+                                                          .orders = node_.troubles(),
+                                                          .captures = node_.lost_captures(),
+                                                          .records = sink_->failures(),
+                                                          .skipped_loops = skipped_loops});
         if (!health) { return; }
+        health->published = recorder_.published();
         network_.publish(*health);
         recorder_.health(*health);
     }
@@ -151,6 +154,10 @@ private:
         if (now - complained_ < period) { return; }
         complained_ = now;
         if (now - machine_heard_ > period) { log_info("waits for the coordinator of machine " + setup_.machine.name); }
+        if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
+            lost_records_ = lost;
+            log_warning(lost_records_text(setup_.machine, lost));
+        }
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
@@ -197,6 +204,7 @@ private:
     Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
+    std::uint64_t lost_records_ = 0;
     std::string trouble_;
     bool has_device_ = true;  // as reported
     bool time_differed_ = false;

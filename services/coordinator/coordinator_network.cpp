@@ -29,6 +29,7 @@ void CoordinatorReceived::clear() {
     others.clear();
     commands.clear();
     chunks.clear();
+    healths.clear();
 }
 
 std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Setup& setup) {
@@ -44,6 +45,7 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     if (link == nullptr) { return received_; }
     CoordinatorBus& bus = link->bus;
     bus.chunks.take([&](ProgramChunk&& m) { received_.chunks.push_back(std::move(m)); });
+    bus.healths.take([&](AxisHealth&& m) { received_.healths.push_back(m); });
     bus.states.take([&](AxisState&& m) {
         axes_heard_ |= axis_bit(m.axis);
         received_.states.push_back(m);

@@ -29,6 +29,7 @@ struct CoordinatorReceived {
     std::vector<MachineState> others;
     std::vector<Command> commands;
     std::vector<ProgramChunk> chunks;
+    std::vector<AxisHealth> healths;  // for the record alone
     void clear();
 };
 

@@ -14,6 +14,7 @@
 #include "services/documents/machine_file.hpp"
 #include "services/flight/flight_recorder.hpp"
 #include "services/record/job_recorder.hpp"
+#include "services/record/own_log.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/log.hpp"
@@ -54,9 +55,14 @@ public:
         const Tick now = clock_.now();
         if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
         const CoordinatorInputs in{now, received.states, received.others, received.commands};
-        const CoordinatorOutputs out = coordinator_.step(in);
+        CoordinatorOutputs out = coordinator_.step(in);
         flight_.take(in, out);
+        if (out.state) {
+            out.state->published = recorder_.published();
+            out.state->lost_records = sink_->failures();
+        }
         network_.publish(out);
+        recorder_.note(now);
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         tend_network(now);
@@ -65,11 +71,14 @@ public:
         return !out.must_quit;
     }
 
+    void finish() { recorder_.finish(clock_.now()); }
+
 private:
     const CoordinatorReceived& receive() {
         const CoordinatorReceived& received = network_.receive();
         for (const ProgramChunk& chunk : received.chunks) {
             ProgramInbox::Taken taken = inbox_.take(chunk);
+            if (taken.is_new) { recorder_.record(clock_.now(), chunk); }
             if (taken.program) { coordinator_.accept_program(chunk.program, std::move(*taken.program)); }
             if (coordinator_.owns_machine()) { network_.publish(taken.reply); }
         }
@@ -78,6 +87,7 @@ private:
             heard_ |= axis_bit(state.axis);
             configs_[state.axis] = state.config_hash;
         }
+        for (const AxisHealth& health : received.healths) { recorder_.note_axis(health); }
         return received;
     }
 
@@ -155,6 +165,10 @@ private:
         }
         heard_ = 0;
         configs_.clear();
+        if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
+            lost_records_ = lost;
+            log_warning(lost_records_text(machine_, lost));
+        }
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
@@ -177,6 +191,7 @@ private:
     std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes heard
     std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;
+    std::uint64_t lost_records_ = 0;
 };
 
 int fail(const std::string& why) {
@@ -208,6 +223,7 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
         if (!alone) { stop.request(); }
     });
     manager.stopping();
+    service.finish();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
              std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
     if (alone) { return kServiceDone; }

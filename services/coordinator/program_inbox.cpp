@@ -42,7 +42,9 @@ ProgramInbox::Taken ProgramInbox::take(const ProgramChunk& chunk) {
             {}};
     }
     place = chunk.bytes;
-    return --parcel.missing == 0 ? complete(parcel, reply) : Taken{reply, {}};
+    Taken taken = --parcel.missing == 0 ? complete(parcel, reply) : Taken{reply, {}};
+    taken.is_new = true;
+    return taken;
 }
 
 ProgramInbox::Parcel& ProgramInbox::parcel_of(const ProgramChunk& chunk) {

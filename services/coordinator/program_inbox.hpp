@@ -19,6 +19,7 @@ public:
     struct Taken {
         Reply reply;                     // to the chunk
         std::optional<Program> program;  // whole now
+        bool is_new = false;             // the chunk had not come before
     };
     Taken take(const ProgramChunk& chunk);
 

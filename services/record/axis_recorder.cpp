@@ -16,7 +16,8 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
                 .axis_index = static_cast<std::uint32_t>(axis),
                 .incarnation = incarnation,
                 .tick_ns = machine.tick_ns},
-               0, [this](step_batch_t& batch) { publish(batch); }) {}
+               0, [this](step_batch_t& batch) { publish(batch); }),
+      witness_(machine, machine.axes[axis].name, sink) {}
 
 /// The count before the first step there is: where the axis stands, less the steps it had made by then.
 void AxisRecorder::place(const AxisState& state) {
@@ -36,6 +37,7 @@ void AxisRecorder::batch_steps() {
 void AxisRecorder::finish() {
     batch_steps();
     batcher_.flush();
+    witness_.note_end(machine_.axes[axis_].name, incarnation_, counts_, clock_.other);
 }
 
 /// Adds when its steps were made in machine time, by the newest look at the clocks. An estimate that has become better
@@ -52,10 +54,12 @@ void AxisRecorder::publish(step_batch_t& batch) {
     batch.ahead_last = (*published_ - last).value;
     batch.clock_error = (std::max(clock_.error_at(first), clock_.error_at(last)) + shift).value;
     sink_.publish(channels_.steps, batch);
+    ++counts_.steps;
 }
 
 void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
+    if (out.state) { witness_.note(machine_.axes[axis_].name, incarnation_, counts_, clock_.other); }
     if (out.device_changed) { placed_ = false; }
     if (!placed_ && out.state) {
         place(*out.state);
@@ -66,7 +70,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
         const RunRecord record{.machine = machine_.name,
                                .axis = machine_.axes[axis_].name,
                                .incarnation = incarnation_,
-                               .sequence = runs_++,
+                               .sequence = counts_.runs++,
                                .epoch = track.epoch,
                                .frame = track.frame,
                                .tail = track.tail,
@@ -89,7 +93,8 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
         placed_ = false;
     }
     batcher_.poll(clock_.own);
-    if (out.state) { sink_.publish(channels_.position, to_lcm(machine_, *out.state, {incarnation_, positions_++})); }
+    if (!out.state) { return; }
+    sink_.publish(channels_.position, to_lcm(machine_, *out.state, {incarnation_, counts_.positions++}));
 }
 
 }  // namespace lockstep

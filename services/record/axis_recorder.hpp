@@ -7,6 +7,7 @@
 
 #include "core/axis/axis_controller.hpp"
 #include "services/record/record_sink.hpp"
+#include "services/record/record_witness.hpp"
 #include "services/wire/lcm_channels.hpp"
 #include "services/wire/step_batcher.hpp"
 #include "services/wire/translate_lcm.hpp"
@@ -28,8 +29,13 @@ public:
     /// what that is in machine time.
     void loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures);
     void health(const AxisHealth& health) {
-        sink_.publish(channels_.health, to_lcm(machine_, health, {incarnation_, figures_++}));
+        sink_.publish(channels_.health, to_lcm(machine_, health, {incarnation_, counts_.figures++}));
     }
+    /// What the coordinator is known to have published by then.
+    void note_coordinator(const MachineState& state) {
+        witness_.note("", state.term.coordinator, state.published, state.tick);
+    }
+    RecordCounts published() const { return counts_; }
     /// At the end: what is still in hand.
     void finish();
 
@@ -45,9 +51,8 @@ private:
     AxisChannels channels_;
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
-    std::uint64_t runs_ = 0;  // recorded, and so on: each is numbered
-    std::uint64_t positions_ = 0;
-    std::uint64_t figures_ = 0;
+    RecordCounts counts_;  // published so far
+    RecordWitness witness_;
     std::uint64_t lost_captures_ = 0;
     /// It is known where the device stands: not at first, since it may have outlived another process, nor where it has
     /// been exchanged, nor after steps without their time.

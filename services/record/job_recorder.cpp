@@ -1,6 +1,9 @@
 #include "services/record/job_recorder.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
@@ -24,13 +27,19 @@ JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, Rec
       coordinator_(coordinator),
       sink_(sink),
       channel_(job_channel(machine.name)),
-      config_(machine_text(machine)) {}
+      config_(machine_text(machine)),
+      witness_(machine, "", sink) {}
+
+void JobRecorder::note_axis(const AxisHealth& health) {
+    if (health.axis >= machine_.axes.size()) { return; }
+    witness_.note(machine_.axes[health.axis].name, health.identity, health.published, health.tick);
+}
 
 void JobRecorder::record(Tick now, const JobEvent& event) {
     constexpr std::array<const char*, 4> kEvents{"begun", "epoch", "ended", "override"};
     JobRecord record{.machine = machine_.name,
                      .coordinator = coordinator_,
-                     .sequence = events_++,
+                     .sequence = published_.job_events++,
                      .job = event.job,
                      .kind = std::string(name_of(event.job_kind)),
                      .event = kEvents[static_cast<std::size_t>(event.kind)],
@@ -43,10 +52,61 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
                      .start_count = event.start_counts};
     if (event.kind == JobEvent::Kind::Begun) {
         record.config = config_;
-        if (event.program) { record.program = program_text(*event.program); }
+        if (event.program) { record_program(now, event, record); }
     }
     if (event.kind == JobEvent::Kind::Ended) { record.outcome = name_of(event.outcome); }
     sink_.publish(channel_, to_lcm(record, now, machine_.tick_ns));
+}
+
+void JobRecorder::record(Tick now, const ProgramChunk& chunk) {
+    if (chunk.count == 1) { return; }
+    if (std::ranges::find(in_parts_, chunk.program) == in_parts_.end()) { in_parts_.push_back(chunk.program); }
+    if (in_parts_.size() > kProgramsKept) { in_parts_.pop_front(); }
+    program_part_t part{};
+    part.program = static_cast<std::int64_t>(chunk.program);
+    part.part = static_cast<std::int32_t>(chunk.index);
+    part.parts = static_cast<std::int32_t>(chunk.count);
+    part.data = chunk.bytes;
+    publish(now, std::move(part));
+}
+
+/// Into the job's message where it is short; else the parts are there already, or are recorded now.
+void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& record) {
+    bool is_in_parts = std::ranges::find(in_parts_, event.program_id) != in_parts_.end();
+    if (!is_in_parts && event.program->blocks.size() > kBlocksInJob) {
+        record_parts(now, event);
+        is_in_parts = true;
+    }
+    if (!is_in_parts) {
+        record.program = program_text(*event.program);
+        return;
+    }
+    program_part_t part{};
+    part.program = static_cast<std::int64_t>(event.program_id);
+    part.job = static_cast<std::int64_t>(event.job);
+    publish(now, std::move(part));
+}
+
+void JobRecorder::record_parts(Tick now, const JobEvent& event) {
+    const std::vector<std::uint8_t> bytes = program_bytes(*event.program);
+    ProgramChunk chunk{.program = event.program_id,
+                       .count = static_cast<std::uint32_t>((bytes.size() + kPartBytes - 1) / kPartBytes)};
+    for (; chunk.index < chunk.count; ++chunk.index) {
+        const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(chunk.index * kPartBytes);
+        const auto left = static_cast<std::size_t>(bytes.end() - from);
+        chunk.bytes.assign(from, from + static_cast<std::ptrdiff_t>(std::min(kPartBytes, left)));
+        record(now, chunk);
+    }
+}
+
+/// A microsecond before the job: merged logs, which are in the order of time, have it in front of the job as well.
+void JobRecorder::publish(Tick now, program_part_t&& part) {
+    part.utime = utime_of(now, machine_.tick_ns) - 1;
+    part.machine = machine_.name;
+    part.coordinator = static_cast<std::int64_t>(coordinator_);
+    part.sequence = static_cast<std::int64_t>(published_.program_parts++);
+    part.size = static_cast<std::int32_t>(part.data.size());
+    sink_.publish(program_channel(machine_.name), part);
 }
 
 }  // namespace lockstep

@@ -20,6 +20,7 @@ QueuedSink::SayLoss loss_teller(const MachineConfig& machine, const std::string&
         message.messages = static_cast<std::int64_t>(loss.messages);
         message.first_utime = loss.first_utime;
         log.publish(loss_channel(machine, axis), message);
+        if (!loss.mark.empty()) { log.write(mark_channel(machine, axis), loss.last_utime, loss.mark); }
     };
 }
 
@@ -41,7 +42,15 @@ std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const Machi
         return std::unexpected(log.error() +
                                "; set record { directory } to one that can be written, or record { own_logs: false }");
     }
-    return std::make_unique<QueuedSink>(std::make_unique<RotatingLog>(std::move(*log)), loss_teller(machine, axis));
+    return std::make_unique<QueuedSink>(std::make_unique<RotatingLog>(std::move(*log)), loss_teller(machine, axis),
+                                        mark_channel(machine.name, axis));
+}
+
+std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost) {
+    return std::to_string(lost) + " messages of the record are lost so far: they could not be " +
+           (machine.record.own_logs ? "written to " + own_log_directory(machine).string() + " (free room there)"
+                                    : std::string("sent (record { own_logs: true } keeps them on a disk)")) +
+           " or sent; lockstep log merge says what no log has";
 }
 
 }  // namespace lockstep

@@ -1,6 +1,7 @@
 // The log that a process keeps by itself, on the board it runs on, as the machine's file has it (`record`).
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <filesystem>
 #include <memory>
@@ -17,5 +18,8 @@ std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const Machi
 
 /// Where this host's processes of the machine keep theirs.
 std::filesystem::path own_log_directory(const MachineConfig& machine);
+
+/// For a process's log, where it has lost so many messages since its start.
+std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost);
 
 }  // namespace lockstep

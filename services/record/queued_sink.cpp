@@ -4,18 +4,39 @@
 
 namespace lockstep {
 
-void RecordLoss::add(std::int64_t utime) { add(RecordLoss{1, utime, utime}); }
+namespace {
+
+/// The room that a sink keeps for what must be said.
+class KeptRoom final : public RecordSink {
+public:
+    explicit KeptRoom(RecordSink& of) : of_(of) {}
+    void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
+        of_.write_kept(channel, utime, bytes);
+    }
+
+private:
+    RecordSink& of_;
+};
+
+}  // namespace
+
+void RecordLoss::add(std::int64_t utime, std::span<const std::uint8_t> lost_mark) {
+    add(RecordLoss{1, utime, utime, {lost_mark.begin(), lost_mark.end()}});
+}
 
 void RecordLoss::add(const RecordLoss& later) {
     if (later.messages == 0) { return; }
     first_utime = messages == 0 ? later.first_utime : first_utime;
     last_utime = later.last_utime;
     messages += later.messages;
+    if (!later.mark.empty()) { mark = later.mark; }
 }
 
-QueuedSink::QueuedSink(std::unique_ptr<RecordSink> behind, SayLoss say_loss, std::size_t queue_bytes)
+QueuedSink::QueuedSink(std::unique_ptr<RecordSink> behind, SayLoss say_loss, std::string mark_channel,
+                       std::size_t queue_bytes)
     : behind_(std::move(behind)),
       say_loss_(std::move(say_loss)),
+      mark_channel_(std::move(mark_channel)),
       queue_bytes_(queue_bytes),
       thread_([this](const std::stop_token& stop) { serve(stop); }) {}
 
@@ -23,15 +44,20 @@ QueuedSink::~QueuedSink() {
     thread_.request_stop();
     thread_.join();
     write_out(aside_);
+    say_in_kept_room(true);
+}
+
+void QueuedSink::lose(RecordLoss& loss, std::string_view channel, std::int64_t utime,
+                      std::span<const std::uint8_t> bytes) {
+    const bool is_mark = !mark_channel_.empty() && channel == mark_channel_;
+    loss.add(utime, is_mark ? bytes : std::span<const std::uint8_t>{});
+    lost_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void QueuedSink::add(Backlog& backlog, std::string_view channel, std::int64_t utime,
                      std::span<const std::uint8_t> bytes) {
-    if (backlog.dropped.messages == 0 && backlog.block.bytes() + bytes.size() <= queue_bytes_) {
-        return backlog.block.add(channel, utime, bytes);
-    }
-    backlog.dropped.add(utime);
-    lost_.fetch_add(1, std::memory_order_relaxed);
+    const bool fits = backlog.dropped.messages == 0 && backlog.block.bytes() + bytes.size() <= queue_bytes_;
+    fits ? backlog.block.add(channel, utime, bytes) : lose(backlog.dropped, channel, utime, bytes);
 }
 
 /// The order is kept: what was put aside goes first.
@@ -62,24 +88,35 @@ void QueuedSink::serve(const std::stop_token& stop) {
 
 void QueuedSink::write_out(const Backlog& backlog) {
     backlog.block.each([this](const MessageBlock::Message& message) {
-        say_unsaid();
+        (void)say_unsaid(*behind_);
         const std::uint64_t failed = behind_->failures();
         behind_->write(std::string(message.channel), message.utime, message.data);
-        if (behind_->failures() == failed) { return; }
-        unsaid_.add(message.utime);
-        lost_.fetch_add(1, std::memory_order_relaxed);
+        if (behind_->failures() != failed) { return lose(unsaid_, message.channel, message.utime, message.data); }
+        said_in_a_row_ = 0;
     });
     unsaid_.add(backlog.dropped);
-    say_unsaid();
+    (void)say_unsaid(*behind_);
+    say_in_kept_room(false);
     if (!backlog.block.empty()) { behind_->flush(); }
 }
 
 /// What cannot be said now is said later.
-void QueuedSink::say_unsaid() {
-    if (unsaid_.messages == 0) { return; }
+bool QueuedSink::say_unsaid(RecordSink& to) {
+    if (unsaid_.messages == 0) { return false; }
     const std::uint64_t failed = behind_->failures();
-    say_loss_(*behind_, unsaid_);
-    if (behind_->failures() == failed) { unsaid_ = {}; }
+    say_loss_(to, unsaid_);
+    if (behind_->failures() != failed) { return false; }
+    unsaid_ = {};
+    return true;
+}
+
+void QueuedSink::say_in_kept_room(bool at_end) {
+    if (!at_end && unsaid_.messages <= said_in_a_row_) { return; }
+    const std::uint64_t messages = unsaid_.messages;
+    KeptRoom room(*behind_);
+    if (!say_unsaid(room)) { return; }
+    said_in_a_row_ += messages;
+    behind_->flush();
 }
 
 }  // namespace lockstep

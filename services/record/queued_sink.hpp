@@ -1,7 +1,9 @@
 // A sink behind a queue, served by a thread of its own: who writes never waits, however long the disk takes.
 //
 // The queue is bounded. What finds no room is counted, and the sink behind is told so in a message of its own, in the
-// place where it is missing.
+// place where it is missing. While nothing can be written, it is said in room that the sink behind keeps for that:
+// at once, whenever the loss has doubled, and at the end; with the newest mark (record_witness.hpp) among what was
+// lost, so that a log that ends like this shows what it lacks.
 #pragma once
 
 #include <atomic>
@@ -10,7 +12,9 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "services/record/message_block.hpp"
 #include "services/record/record_sink.hpp"
@@ -22,8 +26,9 @@ struct RecordLoss {
     std::uint64_t messages = 0;
     std::int64_t first_utime = 0;
     std::int64_t last_utime = 0;
+    std::vector<std::uint8_t> mark;  // the newest lost of the process's own; empty: none was
 
-    void add(std::int64_t utime);
+    void add(std::int64_t utime, std::span<const std::uint8_t> lost_mark);
     void add(const RecordLoss& later);
 };
 
@@ -35,7 +40,8 @@ public:
 
     /// `behind` is called by the thread alone, `say_loss` too: it writes a loss to the sink it is given.
     using SayLoss = std::function<void(RecordSink& behind, const RecordLoss& loss)>;
-    QueuedSink(std::unique_ptr<RecordSink> behind, SayLoss say_loss, std::size_t queue_bytes = kQueueBytes);
+    QueuedSink(std::unique_ptr<RecordSink> behind, SayLoss say_loss, std::string mark_channel = {},
+               std::size_t queue_bytes = kQueueBytes);
     /// Waits until all is written.
     ~QueuedSink() override;
 
@@ -55,10 +61,13 @@ private:
     void add(Backlog& backlog, std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> bytes);
     void serve(const std::stop_token& stop);
     void write_out(const Backlog& backlog);
-    void say_unsaid();
+    void lose(RecordLoss& loss, std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> bytes);
+    bool say_unsaid(RecordSink& to);
+    void say_in_kept_room(bool at_end);
 
     std::unique_ptr<RecordSink> behind_;
     SayLoss say_loss_;
+    std::string mark_channel_;
     std::size_t queue_bytes_;
     std::atomic<std::uint64_t> lost_ = 0;
 
@@ -68,7 +77,9 @@ private:
     std::condition_variable_any wake_;
     Backlog queue_;
 
-    RecordLoss unsaid_;  // the thread's: what could not be written, and not be said yet
+    // The thread's:
+    RecordLoss unsaid_;                // what could not be written, and not be said yet
+    std::uint64_t said_in_a_row_ = 0;  // messages whose loss was said since one was written
     std::jthread thread_;
 };
 

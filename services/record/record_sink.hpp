@@ -13,6 +13,10 @@ public:
     virtual ~RecordSink() = default;
     /// utime: microseconds of machine time. What cannot be written is counted: motion never waits for it.
     virtual void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) = 0;
+    /// Into room that is kept for what must be said even where nothing else can be written.
+    virtual void write_kept(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
+        write(channel, utime, bytes);
+    }
     /// What was written is where it belongs, and is not held back in memory.
     virtual void flush() {}
     /// Messages that could not be written.

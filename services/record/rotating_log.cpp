@@ -70,19 +70,34 @@ std::expected<RotatingLog, std::string> RotatingLog::open(Place place) {
     fs::create_directories(place.directory, error);
     if (error) { return std::unexpected("cannot make " + place.directory.string() + ": " + error.message()); }
     RotatingLog log(std::move(place));
-    if (const auto begun = log.begin_file(); !begun) { return std::unexpected(begun.error()); }
+    auto file = log.new_file();
+    if (!file) { return std::unexpected(file.error()); }
+    log.file_ = std::move(*file);
     return log;
 }
 
-std::expected<void, std::string> RotatingLog::begin_file() {
-    writer_.reset();
-    written_ = 0;
+std::expected<RotatingLog::File, std::string> RotatingLog::new_file() const {
     remove_oldest();
     const auto files = files_of(place_);
-    auto writer = LogWriter::open(claim_file(place_, files.empty() ? 1 : files.back().number + 1));
+    const fs::path path = claim_file(place_, files.empty() ? 1 : files.back().number + 1);
+    auto writer = LogWriter::open(path);
     if (!writer) { return std::unexpected(writer.error()); }
-    writer_.emplace(std::move(*writer));
-    return {};
+    File file{DiskRoom(path), std::move(*writer)};
+    if (file_ && !file.room.reaches(0)) {  // the file before has room for what must be said, which this one has not
+        std::error_code ignored;
+        fs::remove(path, ignored);
+        return std::unexpected("the disk is full");
+    }
+    (void)file.room.reaches(0);
+    return file;
+}
+
+bool RotatingLog::begin_file() {
+    flush();
+    auto file = new_file();
+    if (!file) { return false; }
+    file_ = std::move(*file);
+    return true;
 }
 
 /// Until a new file has room. Empty files, of processes that did not get far, count as if they held something: else
@@ -102,40 +117,46 @@ void RotatingLog::remove_oldest() const {
 
 /// A message larger than a whole file has one to itself.
 bool RotatingLog::has_room(std::uint64_t bytes) const {
-    return written_ == 0 || written_ + bytes <= place_.limit_bytes / kFiles;
+    return file_->written == 0 || file_->written + bytes <= place_.limit_bytes / kFiles;
 }
 
 bool RotatingLog::is_ready(std::int64_t utime, std::uint64_t bytes) {
-    if (writer_ && has_room(bytes)) { return true; }
-    if (writer_) {
-        flush();
-    } else if (utime < retry_utime_) {
-        return false;
+    if (!file_ || !has_room(bytes)) {
+        if (utime < retry_utime_) { return false; }
+        if (!begin_file()) {
+            retry_utime_ = utime + kRetry_us;
+            return false;
+        }
     }
-    if (begin_file()) { return true; }
-    give_up_file(utime);
-    return false;
+    return file_->room.reaches(file_->written + bytes);
 }
 
 void RotatingLog::give_up_file(std::int64_t utime) {
-    writer_.reset();
+    file_.reset();
     retry_utime_ = utime + kRetry_us;
+}
+
+void RotatingLog::put(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
+    if (file_->writer.write(channel, utime, bytes)) {
+        file_->written += LogWriter::event_bytes(channel, bytes);
+        return;
+    }
+    ++failures_;
+    give_up_file(utime);
 }
 
 void RotatingLog::write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
     last_utime_ = utime;
-    const std::uint64_t size = LogWriter::event_bytes(channel, bytes);
-    if (is_ready(utime, size) && writer_->write(channel, utime, bytes)) {
-        written_ += size;
-        return;
-    }
-    ++failures_;
-    if (writer_) { give_up_file(utime); }
+    is_ready(utime, LogWriter::event_bytes(channel, bytes)) ? put(channel, utime, bytes) : void(++failures_);
+}
+
+void RotatingLog::write_kept(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
+    file_ ? put(channel, utime, bytes) : void(++failures_);
 }
 
 /// What then turns out not to fit is not known message by message: one failure is counted, and the file's end shows it.
 void RotatingLog::flush() {
-    if (!writer_ || writer_->flush()) { return; }
+    if (!file_ || file_->writer.flush()) { return; }
     ++failures_;
     give_up_file(last_utime_);
 }

@@ -1,5 +1,6 @@
 // A log on disk that never becomes larger than it may: files NAME.000001.lcm, NAME.000002.lcm, ..., each an eighth of
-// the limit. As one is full the next begins and the oldest goes, whichever process has written it.
+// the limit. As one is full the next begins and the oldest goes, whichever process has written it. On a full disk the
+// file in progress keeps a little room, for what is lost to be said.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "services/record/disk_room.hpp"
 #include "services/record/record_sink.hpp"
 #include "services/wire/lcm_log.hpp"
 
@@ -28,21 +30,29 @@ public:
     static std::expected<RotatingLog, std::string> open(Place place);
 
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override;
+    void write_kept(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override;
     void flush() override;
     std::uint64_t failures() const override { return failures_; }
 
 private:
     explicit RotatingLog(Place place) : place_(std::move(place)) {}
-    std::expected<void, std::string> begin_file();
+    struct File {
+        DiskRoom room;  // given back when the writer has written all
+        LogWriter writer;
+        std::uint64_t written = 0;  // bytes
+    };
+
+    std::expected<File, std::string> new_file() const;
+    bool begin_file();
+    void put(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes);
     bool has_room(std::uint64_t bytes) const;
     bool is_ready(std::int64_t utime, std::uint64_t bytes);
     void give_up_file(std::int64_t utime);
     void remove_oldest() const;
 
     Place place_;
-    std::optional<LogWriter> writer_;  // none: the last one failed
-    std::uint64_t written_ = 0;        // bytes of the present file
-    std::int64_t retry_utime_ = 0;     // while there is none
+    std::optional<File> file_;      // none: the last one failed
+    std::int64_t retry_utime_ = 0;  // no new file is begun before
     std::int64_t last_utime_ = 0;
     std::uint64_t failures_ = 0;
 };

@@ -37,7 +37,7 @@ std::span<const TopicRights> rights() {
         of<AxisCommand>({Coordinator}, {Axis}),
         of<MachineState>({Coordinator}, {Coordinator, Axis, Client, Viewer}),
         of<AxisState>({Axis}, {Coordinator, Axis, Client, Viewer}),
-        of<AxisHealth>({Axis}, {Client, Viewer}),
+        of<AxisHealth>({Axis}, {Coordinator, Client, Viewer}),
         of<Command>({Client}, {Coordinator, Axis}),  // axes hear an emergency stop themselves
         of<ProgramChunk>({Client}, {Coordinator}),
         of<Reply>({Coordinator}, {Client}),

@@ -42,6 +42,7 @@ struct AxisBus {
 struct CoordinatorBus {
     Participant participant;
     StatesHeard states{participant};
+    Reader<AxisHealth> healths{participant};  // for the record alone
     Reader<MachineState> other_coordinators{participant};
     Reader<Command> commands{participant};
     Reader<ProgramChunk> chunks{participant};

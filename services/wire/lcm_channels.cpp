@@ -31,17 +31,25 @@ std::string loss_channel(std::string_view machine, std::string_view axis) {
     return "LOCKSTEP_" + upper(machine) + (axis.empty() ? "" : "_" + upper(axis)) + "_LOSS";
 }
 
+std::string mark_channel(std::string_view machine, std::string_view axis) {
+    return "LOCKSTEP_" + upper(machine) + (axis.empty() ? "" : "_" + upper(axis)) + "_MARK";
+}
+
+std::string program_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_PROGRAM"; }
+
 std::string flight_channel(std::string_view machine, std::string_view process) {
     return "LOCKSTEP_" + upper(machine) + "_" + upper(process) + "_FLIGHT";
 }
 
 RecordKind kind_of(std::string_view channel) {
-    constexpr std::array<std::pair<std::string_view, RecordKind>, 6> kEnds{{{"_STEPS", RecordKind::Steps},
+    constexpr std::array<std::pair<std::string_view, RecordKind>, 8> kEnds{{{"_STEPS", RecordKind::Steps},
                                                                             {"_POSITION", RecordKind::Position},
                                                                             {"_HEALTH", RecordKind::Health},
                                                                             {"_RUN", RecordKind::Run},
                                                                             {"_JOB", RecordKind::Job},
-                                                                            {"_LOSS", RecordKind::Loss}}};
+                                                                            {"_PROGRAM", RecordKind::ProgramPart},
+                                                                            {"_LOSS", RecordKind::Loss},
+                                                                            {"_MARK", RecordKind::Mark}}};
     if (!channel.starts_with("LOCKSTEP_")) { return RecordKind::Foreign; }
     for (const auto& [end, kind] : kEnds) {
         if (channel.ends_with(end)) { return kind; }

@@ -23,11 +23,16 @@ std::string job_channel(std::string_view machine);
 /// Where a log says what it lacks. `axis` is empty for the coordinator's.
 std::string loss_channel(std::string_view machine, std::string_view axis);
 
+/// Where it is said how much a process has published; `axis` is empty for a coordinator.
+std::string mark_channel(std::string_view machine, std::string_view axis);
+/// Parts of programs that are too long for a job's message.
+std::string program_channel(std::string_view machine);
+
 /// Of incident files. `process`: coordinator, axis-NAME.
 std::string flight_channel(std::string_view machine, std::string_view process);
 
 /// What a channel's messages are, by its name.
-enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, Loss, Foreign };
+enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, ProgramPart, Loss, Mark, Foreign };
 RecordKind kind_of(std::string_view channel);
 
 }  // namespace lockstep

@@ -13,7 +13,9 @@
 #include <lockstep/flight_event_t.hpp>
 #include <lockstep/flight_head_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_part_t.hpp>
 #include <lockstep/record_loss_t.hpp>
+#include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 #include <lockstep/step_batch_t.hpp>
 
@@ -34,7 +36,11 @@ inline constexpr std::string_view kLcmLayout<flight_head_t> = "84ss888s8s";
 template <>
 inline constexpr std::string_view kLcmLayout<job_t> = "8s888sss88888844ssn8";
 template <>
+inline constexpr std::string_view kLcmLayout<program_part_t> = "8s888844n1";
+template <>
 inline constexpr std::string_view kLcmLayout<record_loss_t> = "8ss88";
+template <>
+inline constexpr std::string_view kLcmLayout<record_mark_t> = "8sss81888888";
 template <>
 inline constexpr std::string_view kLcmLayout<run_t> = "8ss8888188888188n888n8";
 template <>

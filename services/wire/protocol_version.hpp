@@ -11,9 +11,9 @@
 namespace lockstep {
 
 /// Goes up with every change by which an older process would misunderstand a newer one: see idl/README.md.
-inline constexpr int kProtocol = 2;
+inline constexpr int kProtocol = 3;
 
-/// "lockstep 2 mill".
+/// "lockstep 3 mill".
 std::string calling_card(int protocol, const std::string& machine);
 
 /// What is to be said of a process with this card; nothing: it is of another machine, or speaks the same. Pure.

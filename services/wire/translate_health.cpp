@@ -42,7 +42,11 @@ lockstep_wire_AxisHealth to_wire(const AxisHealth& health) {
             .refused_orders = health.refused.orders,
             .lost_captures = health.refused.captures,
             .lost_records = health.refused.records,
-            .skipped_loops = health.refused.skipped_loops};
+            .skipped_loops = health.refused.skipped_loops,
+            .step_messages = health.published.steps,
+            .run_messages = health.published.runs,
+            .position_messages = health.published.positions,
+            .figure_messages = health.published.figures};
 }
 
 FromWire<AxisHealth> from_wire(const lockstep_wire_AxisHealth& wire) {
@@ -71,6 +75,10 @@ FromWire<AxisHealth> from_wire(const lockstep_wire_AxisHealth& wire) {
                     .captures = wire.lost_captures,
                     .records = wire.lost_records,
                     .skipped_loops = wire.skipped_loops},
+        .published = {.steps = wire.step_messages,
+                      .runs = wire.run_messages,
+                      .positions = wire.position_messages,
+                      .figures = wire.figure_messages},
     };
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return health;

@@ -100,6 +100,23 @@ run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     return out;
 }
 
+record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns) {
+    record_mark_t out{};
+    out.utime = utime_of(then, tick_ns);
+    out.machine = mark.machine;
+    out.witness = mark.witness;
+    out.process = mark.process;
+    out.incarnation = bits(mark.incarnation);
+    out.ended = mark.ended ? 1 : 0;
+    out.steps = bits(mark.counts.steps);
+    out.runs = bits(mark.counts.runs);
+    out.positions = bits(mark.counts.positions);
+    out.figures = bits(mark.counts.figures);
+    out.job_events = bits(mark.counts.job_events);
+    out.program_parts = bits(mark.counts.program_parts);
+    return out;
+}
+
 job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns) {
     job_t out{};
     out.utime = utime_of(now, tick_ns);

@@ -10,6 +10,7 @@
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 
 #include "core/machine.hpp"
@@ -52,6 +53,18 @@ struct RunRecord {
 };
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);
+
+/// What a process is known to have published by then. An empty name is a coordinator's.
+struct RecordMark {
+    std::string machine;
+    std::string witness;
+    std::string process;
+    Identity incarnation = 0;  // of the process
+    RecordCounts counts;
+    bool ended = false;
+};
+
+record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns);
 
 /// What the coordinator says of a job: that it began, goes on in a new epoch, or ended. Fields as in job_t.
 struct JobRecord {

@@ -54,7 +54,10 @@ MachineStateMessage to_wire(const MachineState& state) {
             .config_hash = state.config_hash,
             .is_run = state.job_kind == JobKind::Run,
             .program = state.program,
-            .rests = {}};
+            .rests = {},
+            .job_messages = state.published.job_events,
+            .program_messages = state.published.program_parts,
+            .lost_records = state.lost_records};
     for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
     const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
     wire.rests = {._maximum = size, ._length = size, ._buffer = message.rest_storage.data(), ._release = false};
@@ -93,7 +96,10 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
                        .axes_present = wire.axes_present,
                        .config_hash = wire.config_hash,
                        .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
-                       .program = wire.program};
+                       .program = wire.program,
+                       .rests = {},
+                       .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
+                       .lost_records = wire.lost_records};
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
         check.far("a rest's place", rest.along_high);
         state.rests.push_back(rest_from_wire(rest));

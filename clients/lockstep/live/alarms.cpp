@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clients/lockstep/live/record_loss.hpp"
 #include "clients/lockstep/live/words.hpp"
 
 namespace lockstep {
@@ -25,7 +26,6 @@ std::string refusals(const proto::HealthReport& health) {
     say(health.refused_messages(), "messages not believed");
     say(health.refused_orders(), "orders refused by the device");
     say(health.lost_captures(), "steps without their time");
-    say(health.lost_records(), "messages not recorded");
     return text;
 }
 
@@ -65,6 +65,7 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
     for (const proto::AxisStatus& axis : status.axes()) {
         if (axis.has_health()) { add_health_alarms(axis, scale, alarms); }
     }
+    if (const std::string lost = record_loss_text(status); !lost.empty()) { add(lost); }
     return alarms;
 }
 

@@ -1,6 +1,9 @@
 #include "clients/lockstep/live/job.hpp"
 
+#include <algorithm>
+
 #include "clients/lockstep/live/job_watch.hpp"
+#include "clients/lockstep/live/record_loss.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/status_text.hpp"
 #include "clients/lockstep/live/words.hpp"
@@ -130,6 +133,7 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     const StopSignal stop;
     const HangUp hang_up;
     proto::RunReport report = new_report(job);
+    const std::uint64_t lost = lost_records(status_report(session));
     const auto reply = begin(session, job, stop);
     if (!reply) { return voice.fail(reply.error()); }
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, voice); }
@@ -141,6 +145,8 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     const auto verdict = JobWatch(session, reply->job, job.command, voice, stop, hang_up).wait();
     if (!verdict) { return voice.fail(verdict.error()); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
+    report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
+    if (report.lost_records() > 0) { voice.warn(record_loss_text(status_report(session))); }
     return end(session, job, *verdict, report, voice);
 }
 

@@ -83,6 +83,7 @@ proto::StatusReport status_report(const Session& session) {
     report.set_machine(machine.name);
     if (const auto& heard = session.state()) {
         fill(report, heard->state, machine);
+        report.set_lost_records(heard->state.lost_records);
         report.set_age_ms(static_cast<double>((monotonic_now() - heard->time).count()) * 1e-6);
     }
     report.set_standby(session.has_standby());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "clients/lockstep/live/record_loss.hpp"
 #include "clients/lockstep/live/reports.hpp"
 #include "clients/lockstep/live/words.hpp"
 
@@ -96,6 +97,7 @@ std::string status_text(const proto::StatusReport& status) {
                              status.fault().axis() == axis.name();
         if (axis.has_fault() && !is_said) { text += fault_text(axis.fault()) + "\n"; }
     }
+    if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
     if (status.has_incidents()) { text += incidents_text(status.incidents()); }
     return text;
 }

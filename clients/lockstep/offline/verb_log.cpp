@@ -1,7 +1,10 @@
 // lockstep log
 #include <algorithm>
+#include <expected>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -23,14 +26,17 @@ struct LogMergeOptions {
     std::string out;
     std::vector<std::string> in;
     double window_s = static_cast<double>(merge::kWindow_us) * 1e-6;
+    std::optional<double> since_s;
+    std::optional<std::int64_t> job;
+    bool all = false;
     bool force = false;
     bool json = false;
 };
 
 /// Empty: OUT may be written. The mistake to expect is to name the logs and forget OUT.
-std::string obstacle(const LogMergeOptions& options, const std::vector<fs::path>& logs) {
+std::string obstacle(const LogMergeOptions& options, const std::vector<merge::GivenLog>& logs) {
     std::error_code error;
-    const auto is_out = [&](const fs::path& log) { return fs::equivalent(log, options.out, error); };
+    const auto is_out = [&](const merge::GivenLog& log) { return fs::equivalent(log.path, options.out, error); };
     if (std::ranges::any_of(logs, is_out)) {
         return options.out + ": is one of the logs to merge; name a new file first: lockstep log merge OUT IN...";
     }
@@ -40,11 +46,31 @@ std::string obstacle(const LogMergeOptions& options, const std::vector<fs::path>
     return "";
 }
 
-ExitCode merge_into(const LogMergeOptions& options, const merge::MergeOptions& what, Voice& voice) {
+/// Error: there is no such job.
+std::expected<merge::TimeSpan, std::string> span_of(const LogMergeOptions& options, const merge::ChosenLogs& chosen) {
+    merge::TimeSpan span;
+    if (options.job) {
+        const auto its = merge::span_of_job(chosen.jobs, *options.job);
+        if (!its) {
+            return std::unexpected("no log has the beginning of job " + std::to_string(*options.job) +
+                                   (chosen.left_out.empty() ? "" : "; --all looks for it in other sessions as well"));
+        }
+        span = *its;
+    }
+    if (options.since_s) {
+        const auto since_us = static_cast<std::int64_t>(*options.since_s * 1e6);
+        span.from_us = std::max(span.from_us.value_or(since_us), since_us);
+    }
+    return span;
+}
+
+ExitCode merge_into(const LogMergeOptions& options, const merge::MergeOptions& what, merge::ChosenLogs chosen,
+                    Voice& voice) {
     auto out = NewLogFile::begin(options.out, options.force);
     if (!out) { return voice.fail(bad_input(out.error())); }
-    const auto merged = merge::merge_logs(what, out->sink());
+    auto merged = merge::merge_logs(what, out->sink());
     if (!merged) { return voice.fail(bad_input(merged.error())); }
+    merged->chosen = std::move(chosen);
     if (const auto kept = out->keep(); !kept) { return voice.fail(bad_input(kept.error())); }
     std::string text = merge::to_text(*merged, options.out);
     text.pop_back();
@@ -64,10 +90,16 @@ ExitCode log_merge(const LogMergeOptions& options) {
     if (const std::string why_not = obstacle(options, *logs); !why_not.empty()) {
         return voice.fail(bad_input(why_not));
     }
-    merge::MergeOptions what{
-        .logs = *logs, .window_us = static_cast<std::int64_t>(options.window_s * 1e6), .progress = {}};
+    auto chosen = merge::choose_logs(*logs, options.all);
+    if (!chosen) { return voice.fail(bad_input(chosen.error())); }
+    const auto span = span_of(options, *chosen);
+    if (!span) { return voice.fail(bad_input(span.error())); }
+    merge::MergeOptions what{.logs = chosen->logs,
+                             .span = *span,
+                             .window_us = static_cast<std::int64_t>(options.window_s * 1e6),
+                             .progress = {}};
     what.progress = [&](double done) { voice.progress("merging " + fixed(done * 100, 0) + " %"); };
-    return merge_into(options, what, voice);
+    return merge_into(options, what, std::move(*chosen), voice);
 }
 
 void add_merge(CLI::App& log, Action& action) {
@@ -81,16 +113,25 @@ void add_merge(CLI::App& log, Action& action) {
                      "seconds by which a log may be out of order; more takes more memory, up to 256 MB")
         ->check(CLI::Range(0.01, 600.0))
         ->capture_default_str();
+    verb->add_option("--since", options->since_s, "only what is recorded from this second of machine time on");
+    verb->add_option("--job", options->job,
+                     "only this job, the newest of that number: from the end of the one before it to the next");
+    verb->add_flag("--all", options->all, "logs of earlier sessions as well, where a directory has them");
     verb->add_flag("--force", options->force, "replace OUT where it is there");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         "Example:\n"
         "  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n"
         "  lockstep verify whole.lcm\n\n"
-        "Messages come in the order of machine time, each once. Steps and runs are numbered: what is in none of the\n"
-        "logs is said, from step and tick to step and tick. Positions, figures and jobs have no numbers; and nothing\n"
-        "in a log tells of what came after its last message.\n\n"
-        "Exit codes: 0 complete, 1 written but steps or runs are missing, 2 bad usage or a log that cannot be read:\n"
+        "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n\n"
+        "Messages come in the order of machine time, each once. All are numbered: what is in none of the logs is "
+        "said.\n"
+        "Each process marks in its log how much the others and itself have published, so messages that are missing at\n"
+        "the end are said, too, and logs that are missing altogether; or up to when the record is known to be whole.\n"
+        "Of a directory, the logs are merged that belong to the run that is named beside it, or to the newest "
+        "session.\n\n"
+        "Exit codes: 0 nothing is known to be missing, 1 written but messages are missing, 2 bad usage or a log that "
+        "cannot be read:\n"
         "nothing is written\n");
     verb->callback([&action, options] { action = [options] { return log_merge(*options); }; });
 }

@@ -26,7 +26,7 @@ ExitCode verify(const VerifyOptions& options) {
     }
     const auto findings = verification::verify_log(options.log, progress);
     if (!findings) { return voice.fail(bad_input(findings.error())); }
-    const bool exact = !findings->difference;
+    const bool exact = findings->is_exact();
     voice.say(verdict_text(verification::to_text(*findings), exact));
     voice.report(verification::to_report(*findings));
     return exact ? kExitDone : kExitFailed;

@@ -20,9 +20,11 @@ namespace fs = std::filesystem;
 std::expected<proto::MergeReport, std::string> merge_logs(const MachineConfig& machine, const fs::path& folder) {
     const auto logs = merge::named_logs({folder / "run.lcm", record_directory(machine.name)});
     if (!logs) { return std::unexpected(logs.error()); }
+    const auto all = merge::choose_logs(*logs, true);
+    if (!all) { return std::unexpected(all.error()); }
     auto out = NewLogFile::begin(folder / kWholeLog, true);
     if (!out) { return std::unexpected(out.error()); }
-    const auto merged = merge::merge_logs({.logs = *logs}, out->sink());
+    const auto merged = merge::merge_logs({.logs = all->logs}, out->sink());
     if (!merged) { return std::unexpected(merged.error()); }
     if (const auto kept = out->keep(); !kept) { return std::unexpected(kept.error()); }
     return merge::to_report(*merged, folder / kWholeLog);

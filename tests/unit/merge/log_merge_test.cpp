@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 
+#include "clients/merge/named_logs.hpp"
 #include "clients/merge/report.hpp"
 #include "services/wire/lcm_channels.hpp"
 #include "services/wire/lcm_decode.hpp"
@@ -269,6 +270,95 @@ TEST_F(Merge, OtherChannelsAreKeptFromEachLog) {
     EXPECT_EQ(merged.foreign, 1U);
     EXPECT_THAT(kept.channels,
                 testing::UnorderedElementsAre("LOCKSTEP_MILL_X_STEPS", "CAMERA", "LOCKSTEP_MILL_X_STEPS"));
+}
+
+/// A session's logs: an axis's own and the coordinator's, which know of each other by marks.
+class Sessions : public Merge {
+protected:
+    void write_mark(LogWriter& log, const std::string& witness, const std::string& process, std::int64_t incarnation) {
+        const RecordMark mark{.machine = "mill",
+                              .witness = witness,
+                              .process = process,
+                              .incarnation = static_cast<Identity>(incarnation)};
+        log.write_message(mark_channel("mill", process), 0, to_lcm(mark, {}, 1000));
+    }
+    void write_job(LogWriter& log, std::uint64_t job, std::uint64_t sequence, const char* event, std::int64_t utime) {
+        JobRecord record{.machine = "mill", .coordinator = 50, .sequence = sequence, .job = job, .event = event};
+        log.write_message(job_channel("mill"), utime, to_lcm(record, Tick{utime}, 1000));
+    }
+    /// The session's number is that of its processes.
+    void write_session(std::int64_t number) {
+        const std::string name = std::to_string(number) + ".lcm";
+        auto axis = LogWriter::open(folder / ("axis-X." + name)).value();
+        write_mark(axis, "X", "X", number);
+        write_mark(axis, "X", "", number + 50);
+        write_steps(axis, "X", number);
+        EXPECT_TRUE(axis.flush());
+        auto coordinator = LogWriter::open(folder / ("coordinator." + name)).value();
+        write_mark(coordinator, "", "", number + 50);
+        EXPECT_TRUE(coordinator.flush());
+    }
+    ChosenLogs choose(const std::vector<fs::path>& names, bool all = false) {
+        return choose_logs(named_logs(names).value(), all).value();
+    }
+    static std::vector<std::string> names_of(const std::vector<fs::path>& paths) {
+        std::vector<std::string> names;
+        for (const fs::path& path : paths) { names.push_back(path.filename()); }
+        return names;
+    }
+};
+
+TEST_F(Sessions, OfADirectoryTheNewestIsMerged) {
+    for (std::int64_t number = 1; number <= 3; ++number) { write_session(number); }
+    const auto now = fs::file_time_type::clock::now();
+    for (int number = 1; number <= 3; ++number) {
+        for (const char* process : {"axis-X.", "coordinator."}) {
+            fs::last_write_time(folder / (process + std::to_string(number) + ".lcm"),
+                                now + std::chrono::hours(number % 3));
+        }
+    }
+    const ChosenLogs chosen = choose({folder});
+    EXPECT_THAT(names_of(chosen.logs), testing::ElementsAre("axis-X.2.lcm", "coordinator.2.lcm"));
+    EXPECT_EQ(chosen.left_out.size(), 4U);
+    EXPECT_EQ(chosen.sessions_left_out, 2);
+    EXPECT_EQ(choose({folder}, true).logs.size(), 6U);
+    Merged merged = merge(chosen.logs);
+    merged.chosen = chosen;
+    EXPECT_THAT(to_text(merged, "out.lcm"), HasSubstr("left out: 4 logs of 2 other sessions"));
+}
+
+TEST_F(Sessions, OfADirectoryTheOneOfTheRunThatIsNamedIsMerged) {
+    for (std::int64_t number = 1; number <= 3; ++number) { write_session(number); }
+    auto run = LogWriter::open(folder / "run.of.lcm.logger").value();
+    write_mark(run, "X", "X", 1);
+    ASSERT_TRUE(run.flush());
+    EXPECT_THAT(names_of(choose({folder / "run.of.lcm.logger", folder}).logs),
+                testing::ElementsAre("run.of.lcm.logger", "axis-X.1.lcm", "coordinator.1.lcm"));
+}
+
+TEST_F(Sessions, LogsWithoutMarksAreAlwaysMerged) {
+    write_session(1);
+    (void)log("axis-Y.lcm", "Y", all);
+    EXPECT_EQ(choose({folder}).logs.size(), 3U);
+}
+
+TEST_F(Sessions, AJobIsTakenFromTheEndOfTheOneBeforeToTheBeginningOfTheNext) {
+    auto writer = LogWriter::open(folder / "jobs.lcm").value();
+    std::uint64_t sequence = 0;
+    for (std::uint64_t job = 1; job <= 3; ++job) {
+        write_job(writer, job, sequence++, "begun", static_cast<std::int64_t>(job) * 1000);
+        write_job(writer, job, sequence++, "ended", static_cast<std::int64_t>(job) * 1000 + 500);
+    }
+    ASSERT_TRUE(writer.flush());
+    const ChosenLogs chosen = choose({folder});
+    const auto span = span_of_job(chosen.jobs, 2);
+    ASSERT_TRUE(span);
+    EXPECT_EQ(span->from_us, 1501);
+    EXPECT_EQ(span->until_us, 3000);
+    EXPECT_FALSE(span_of_job(chosen.jobs, 4));
+    const auto merged = merge_logs({.logs = chosen.logs, .span = *span, .progress = {}}, kept).value();
+    EXPECT_EQ(merged.messages, 2U);
+    EXPECT_TRUE(merged.is_complete()) << "what was not asked for is not missing";
 }
 
 }  // namespace

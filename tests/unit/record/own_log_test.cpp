@@ -2,6 +2,8 @@
 #include "services/record/own_log.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 
 #include <algorithm>
 #include <fstream>
@@ -122,6 +124,36 @@ TEST_F(OwnLog, ADirectoryThatGoesIsMadeUpForByTheNextFile) {
     log.flush();
     EXPECT_EQ(log.failures(), failed);
     EXPECT_EQ(times().back(), RotatingLog::kRetry_us + 24);
+}
+
+/// A disk of so many bytes in a directory, seen by this process alone.
+bool mount_disk(const fs::path& folder, const char* size, unsigned long flags = 0) {
+    return mount("tmpfs", folder.c_str(), "tmpfs", flags, size) == 0;
+}
+
+TEST_F(OwnLog, AFullDiskLeavesRoomToSayWhatIsLostAndIsUsedAgainWhenItHasRoom) {
+    fs::create_directories(folder);
+    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        !mount_disk(folder, "size=400k")) {
+        GTEST_SKIP() << "may not mount a disk of its own";
+    }
+    {
+        auto log = begin(80'000'000);
+        write(log, 0, 1000);
+        const std::uint64_t failed = log.failures();
+        EXPECT_GT(failed, 500U);
+        log.write_kept("LOSS", 1000, std::vector<std::uint8_t>(100));
+        log.flush();
+        EXPECT_EQ(log.failures(), failed) << "the loss is written though nothing else is";
+        EXPECT_EQ(times().back(), 1000);
+        ASSERT_TRUE(mount_disk(folder, "size=4m", MS_REMOUNT));
+        write(log, 2000, 2010);
+        log.flush();
+        EXPECT_EQ(log.failures(), failed);
+        EXPECT_EQ(times().back(), 2009);
+        EXPECT_EQ(files().size(), 1U);
+    }
+    EXPECT_EQ(umount(folder.c_str()), 0);
 }
 
 }  // namespace

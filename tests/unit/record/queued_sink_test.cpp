@@ -49,7 +49,7 @@ protected:
                 disk.losses.push_back(loss);
                 disk.losses_said.push_back(disk.written.size());
             },
-            queue_bytes);
+            "MARK", queue_bytes);
     }
     void write(std::int64_t utime) { sink->write("C", utime, std::vector<std::uint8_t>(100)); }
     void end() { sink.reset(); }
@@ -99,6 +99,48 @@ TEST_F(Queue, SaysWhatAFullDiskRefused) {
     std::uint64_t said = 0;
     for (const RecordLoss& loss : disk.losses) { said += loss.messages; }
     EXPECT_EQ(said, 2U);
+}
+
+/// A disk that is full: but for the room that is kept for what must be said.
+class FullSink : public RecordSink {
+public:
+    explicit FullSink(std::vector<std::string>& kept) : kept_(kept) {}
+    void write(const std::string&, std::int64_t, std::span<const std::uint8_t>) override { ++failures_; }
+    void write_kept(const std::string& channel, std::int64_t, std::span<const std::uint8_t> bytes) override {
+        kept_.push_back(channel + " " + std::to_string(bytes.size()));
+    }
+    std::uint64_t failures() const override { return failures_; }
+
+private:
+    std::vector<std::string>& kept_;
+    std::uint64_t failures_ = 0;
+};
+
+TEST(FullDisk, ALossIsSaidInKeptRoomWheneverItHasDoubledAndAtTheEnd) {
+    constexpr std::uint64_t kMessages = 1000;
+    std::vector<std::string> kept;
+    std::uint64_t said = 0;
+    std::size_t largest_mark = 0;
+    {
+        QueuedSink sink(
+            std::make_unique<FullSink>(kept),
+            [&](RecordSink& log, const RecordLoss& loss) {
+                const std::size_t before = kept.size();
+                log.write("LOSS", loss.last_utime, std::vector<std::uint8_t>(8));
+                if (kept.size() == before) { return; }
+                said += loss.messages;
+                largest_mark = std::max(largest_mark, loss.mark.size());
+            },
+            "MARK", 1 << 20);
+        for (std::uint64_t i = 0; i < kMessages; ++i) {
+            sink.write("STEPS", static_cast<std::int64_t>(i), std::vector<std::uint8_t>(100));
+            if (i % 100 == 0) { std::this_thread::sleep_for(QueuedSink::kPeriod * 2); }
+        }
+        sink.write("MARK", kMessages, std::vector<std::uint8_t>(77));
+    }
+    EXPECT_EQ(said, kMessages + 1) << "at the end every loss is said";
+    EXPECT_LE(kept.size(), 14U) << "however many messages are lost";
+    EXPECT_EQ(largest_mark, 77U) << "with how much the process has published";
 }
 
 }  // namespace

@@ -106,7 +106,9 @@ MachineState RandomMessages::machine_state() {
             .config_hash = bits(),
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = bits(),
-            .rests = rests()};
+            .rests = rests(),
+            .published = {.job_events = bits(), .program_parts = bits()},
+            .lost_records = bits()};
 }
 
 Command RandomMessages::command() {

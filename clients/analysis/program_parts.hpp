@@ -1,0 +1,48 @@
+// Programs that are recorded in parts, since they are too long for the message of the job that runs them.
+//
+// The parts come before the job. What a job's message then carries as its program is for program_of() alone.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <expected>
+#include <lockstep/job_t.hpp>
+#include <lockstep/program_part_t.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/program.hpp"
+
+namespace lockstep::analysis {
+
+class ProgramParts {
+public:
+    static constexpr std::size_t kProgramsKept = 8;  // the newest
+    static constexpr std::int32_t kMostParts = 1 << 16;
+
+    /// Error: the part cannot be one.
+    std::expected<void, std::string> take(const program_part_t& part);
+    /// Gives a job that has begun its program, if that was recorded in parts.
+    void complete(job_t& job) const;
+
+private:
+    struct Parts {
+        std::int64_t coordinator = 0;
+        std::int64_t program = 0;
+        std::vector<std::vector<std::uint8_t>> data;
+        std::size_t came = 0;
+    };
+    Parts& parts_of(const program_part_t& part);
+    std::string program_in_parts(std::int64_t coordinator, std::int64_t program) const;
+
+    std::deque<Parts> programs_;
+    std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> of_jobs_;  // by coordinator and job
+};
+
+/// False: parts of the job's program are not in the log; program_of() says which.
+bool has_whole_program(const job_t& job);
+/// What a job runs. Error: it cannot be read, or is not whole.
+std::expected<Program, std::string> program_of(const job_t& job);
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,16 @@
+// Messages of the record that its processes could not write or send, as a person is told of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+
+/// Of all processes that are heard, since each was started.
+std::uint64_t lost_records(const proto::StatusReport& status);
+/// Which processes lost how many, and what to do; empty: none did.
+std::string record_loss_text(const proto::StatusReport& status);
+
+}  // namespace lockstep

@@ -1,0 +1,143 @@
+#include "clients/merge/sessions.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "clients/analysis/record_end.hpp"
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm_decode.hpp"
+#include "services/wire/lcm_log.hpp"
+
+namespace lockstep::merge {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::RecordingProcess;
+
+/// What a log says of who was there, and of jobs.
+struct Contents {
+    std::set<RecordingProcess> processes;
+    std::vector<job_t> jobs;  // beginnings and ends, without their documents
+};
+
+void take_job(const LogEvent& event, Contents& contents) {
+    auto job = decode_lcm<job_t>(event.data);
+    if (!job || (job->event != "begun" && job->event != "ended")) { return; }
+    job->program.clear();
+    job->config.clear();
+    contents.jobs.push_back(std::move(*job));
+}
+
+std::expected<Contents, std::string> contents_of(const fs::path& path) {
+    auto reader = LogReader::open(path);
+    if (!reader) { return std::unexpected(reader.error()); }
+    Contents contents;
+    while (true) {
+        const auto event = reader->next();
+        if (!event) { return std::unexpected(event.error()); }
+        if (!*event) { return contents; }
+        if (kind_of((*event)->channel) == RecordKind::Job) { take_job(**event, contents); }
+        if (kind_of((*event)->channel) != RecordKind::Mark) { continue; }
+        if (const auto mark = decode_lcm<record_mark_t>((*event)->data)) {
+            contents.processes.insert({mark->machine, mark->process, mark->incarnation});
+        }
+    }
+}
+
+/// The session of each log, as the index of its first log.
+std::vector<std::size_t> sessions_of(const std::vector<Contents>& logs) {
+    std::vector<std::size_t> parent(logs.size());
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t log) {
+        while (parent[log] != log) { log = parent[log]; }
+        return log;
+    };
+    std::map<RecordingProcess, std::size_t> known;
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+        for (const RecordingProcess& process : logs[i].processes) {
+            const std::size_t other = root(known.try_emplace(process, i).first->second);
+            const auto [low, high] = std::minmax(root(i), other);
+            parent[high] = low;
+        }
+    }
+    for (std::size_t i = 0; i < logs.size(); ++i) { parent[i] = root(i); }
+    return parent;
+}
+
+std::size_t newest_of(const std::vector<GivenLog>& given, const std::vector<Contents>& contents) {
+    std::size_t newest = given.size();
+    fs::file_time_type written;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        std::error_code error;
+        const auto time = fs::last_write_time(given[i].path, error);
+        if (contents[i].processes.empty() || (newest != given.size() && time <= written)) { continue; }
+        newest = i;
+        written = time;
+    }
+    return newest;
+}
+
+std::vector<JobSpan> spans_of(std::vector<job_t> events) {
+    std::ranges::stable_sort(events, {}, &job_t::utime);
+    std::vector<JobSpan> spans;
+    for (const job_t& event : events) {
+        if (event.event == "begun") {
+            spans.push_back({event.job, event.utime, {}});
+            continue;
+        }
+        const auto its = std::ranges::find(spans.rbegin(), spans.rend(), event.job, &JobSpan::job);
+        if (its != spans.rend() && !its->ended_us) { its->ended_us = event.utime; }
+    }
+    const auto same = [](const JobSpan& a, const JobSpan& b) { return a.job == b.job && a.begun_us == b.begun_us; };
+    spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());  // several logs have it
+    return spans;
+}
+
+}  // namespace
+
+std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& given, bool all) {
+    std::vector<Contents> contents;
+    for (const GivenLog& log : given) {
+        auto found = contents_of(log.path);
+        if (!found) { return std::unexpected(found.error()); }
+        contents.push_back(std::move(*found));
+    }
+    const std::vector<std::size_t> sessions = sessions_of(contents);
+    std::set<std::size_t> wanted;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (given[i].is_named && !contents[i].processes.empty()) { wanted.insert(sessions[i]); }
+    }
+    const std::size_t newest = newest_of(given, contents);
+    if (wanted.empty() && newest < given.size()) { wanted.insert(sessions[newest]); }
+    ChosenLogs chosen;
+    std::vector<job_t> jobs;
+    std::set<std::size_t> left_out;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (all || given[i].is_named || contents[i].processes.empty() || wanted.contains(sessions[i])) {
+            chosen.logs.push_back(given[i].path);
+            jobs.insert(jobs.end(), contents[i].jobs.begin(), contents[i].jobs.end());
+        } else {
+            chosen.left_out.push_back(given[i].path);
+            left_out.insert(sessions[i]);
+        }
+    }
+    chosen.sessions_left_out = static_cast<std::int64_t>(left_out.size());
+    chosen.jobs = spans_of(std::move(jobs));
+    return chosen;
+}
+
+std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job) {
+    const auto found = std::ranges::find(jobs.rbegin(), jobs.rend(), job, &JobSpan::job);
+    if (found == jobs.rend()) { return std::nullopt; }
+    TimeSpan span;
+    if (const auto before = found + 1; before != jobs.rend()) {
+        span.from_us = before->ended_us.value_or(before->begun_us) + 1;
+    }
+    if (found != jobs.rbegin()) { span.until_us = (found - 1)->begun_us; }
+    return span;
+}
+
+}  // namespace lockstep::merge

@@ -1,0 +1,47 @@
+// Which of many logs belong together: processes that published their record at the same time know of each other, and
+// their logs say so by marks (record_mark_t). A directory keeps the logs of all earlier sessions as well.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lockstep::merge {
+
+/// A log to be merged. `is_named`: by the user, not found in a directory.
+struct GivenLog {
+    std::filesystem::path path;
+    bool is_named = true;
+};
+
+/// When a job was begun and when it ended, in microseconds of machine time.
+struct JobSpan {
+    std::int64_t job = 0;
+    std::int64_t begun_us = 0;
+    std::optional<std::int64_t> ended_us;
+};
+
+struct ChosenLogs {
+    std::vector<std::filesystem::path> logs;
+    std::vector<std::filesystem::path> left_out;
+    std::int64_t sessions_left_out = 0;
+    std::vector<JobSpan> jobs;  // in the chosen logs, by time
+};
+
+/// The sessions of the logs that are named; where none is, the one whose logs were written last. Logs without marks are
+/// always chosen: nothing says what they belong to. `all`: every log.
+std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& given, bool all);
+
+/// A stretch of machine time, in microseconds; none: without that limit.
+struct TimeSpan {
+    std::optional<std::int64_t> from_us;
+    std::optional<std::int64_t> until_us;  // not in it
+};
+
+/// The newest job of that number, with what its program was recorded in, and the rest behind it. None: there is none.
+std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job);
+
+}  // namespace lockstep::merge

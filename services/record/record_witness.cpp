@@ -1,0 +1,50 @@
+#include "services/record/record_witness.hpp"
+
+#include "services/wire/lcm_channels.hpp"
+#include "services/wire/translate_lcm.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Positions and figures are published at rest as well.
+bool same_motion(const RecordCounts& a, const RecordCounts& b) {
+    return a.steps == b.steps && a.runs == b.runs && a.job_events == b.job_events && a.program_parts == b.program_parts;
+}
+
+}  // namespace
+
+void RecordWitness::note(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
+    if (known_.size() == kMostProcesses) { known_.clear(); }
+    const auto [found, is_new] = known_.try_emplace({process, incarnation}, Known{counts, then, counts, then});
+    Known& known = found->second;
+    if (!same_motion(known.counts, counts)) { known.grown = then; }
+    known.counts = counts;
+    if (!is_new && !is_due(known, then)) { return; }
+    known.marked = counts;
+    known.marked_at = then;
+    mark(process, incarnation, counts, then, false);
+}
+
+void RecordWitness::note_end(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
+    known_.erase({process, incarnation});
+    mark(process, incarnation, counts, then, true);
+}
+
+bool RecordWitness::is_due(const Known& known, Tick then) const {
+    const bool has_settled = (then - known.grown).value * tick_ns_ >= kSettled_ns;
+    return (then - known.marked_at).value * tick_ns_ >= kPeriod_ns ||
+           (has_settled && !same_motion(known.counts, known.marked));
+}
+
+void RecordWitness::mark(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then,
+                         bool ended) {
+    const RecordMark mark{.machine = machine_,
+                          .witness = witness_,
+                          .process = process,
+                          .incarnation = incarnation,
+                          .counts = counts,
+                          .ended = ended};
+    sink_.publish(mark_channel(machine_, process), to_lcm(mark, then, tick_ns_));
+}
+
+}  // namespace lockstep
