@@ -49,6 +49,10 @@ std::int64_t RecordEnd::missing_messages() const {
     return sum;
 }
 
+bool RecordEnd::lacks_steps() const {
+    return std::ranges::any_of(missing, [](const MissingEnd& one) { return one.kind == RecordKind::Steps; });
+}
+
 RecordEndCheck::Counted* RecordEndCheck::of(const std::string& machine, const std::string& axis,
                                             std::int64_t incarnation) {
     const auto is_last = [&] {

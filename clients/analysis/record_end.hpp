@@ -46,6 +46,7 @@ struct RecordEnd {
     std::vector<OpenEnd> open;
 
     std::int64_t missing_messages() const;
+    bool lacks_steps() const;
     /// Everything that was published is known to be there.
     bool is_closed() const { return missing.empty() && open.empty(); }
 };

@@ -38,7 +38,7 @@ std::int64_t missing_between(const AxisLog& axis) {
 /// Or may lack them, where something cannot be read.
 bool lacks_steps(const Analysis& analysis) {
     const auto lacks = [](const auto& axis) { return missing_steps_of(*axis) != 0 || missing_between(*axis) != 0; };
-    return !analysis.damages.empty() || !analysis.end.missing.empty() || std::ranges::any_of(analysis.axes, lacks);
+    return !analysis.damages.empty() || analysis.end.lacks_steps() || std::ranges::any_of(analysis.axes, lacks);
 }
 
 /// Nor does it lack an axis, nor end in a job.
@@ -139,8 +139,8 @@ void judge_events(const Analysis& analysis, Findings& found) {
 
 void judge_end(const Analysis& analysis, Findings& found) {
     const auto lines = missing_sentences(analysis.end);
-    for (const std::string& line : lines) { found.push_back({Grade::Doubtful, line}); }
-    if (!lines.empty()) { found.push_back({Grade::Doubtful, kWhereTheRestIs}); }
+    for (const std::string& line : lines) { found.push_back({Grade::Unknown, line}); }
+    if (!lines.empty()) { found.push_back({Grade::Unknown, kWhereTheRestIs}); }
 }
 
 void judge_record(const Analysis& analysis, Findings& found) {
@@ -215,14 +215,15 @@ void judge_missing(const Analysis& analysis, Findings& found) {
     const auto lacks = [](const auto& axis) { return axis->statistics().missing_batches() != 0; };
     const std::string since = std::ranges::any_of(analysis.axes, lacks) ? " since the log began" : "";
     if (analysis.config || analysis.axes.empty()) {
-        found.push_back({Grade::Good,
-                         (analysis.end.is_closed() ? "no step is missing" : "no step is known to be missing") + since});
+        found.push_back(
+            {Grade::Good,
+             (analysis.end.open.empty() ? "no step is missing" : "no step is known to be missing") + since});
         return;
     }
     std::vector<std::string> names;  // whether there are more axes, the log does not tell
     for (const auto& axis : analysis.axes) { names.push_back(axis->name()); }
     found.push_back({Grade::Good, "no step of " + in_words(names) +
-                                      (analysis.end.is_closed() ? " is missing" : " is known to be missing") + since});
+                                      (analysis.end.open.empty() ? " is missing" : " is known to be missing") + since});
 }
 
 }  // namespace
