@@ -210,7 +210,6 @@ std::vector<std::string> notes(const Analysis& analysis) {
                             axis->name(), analysis.microseconds(error));
     }
     for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
-    for (const std::string& line : open_sentences(analysis.end)) { text += line + "\n"; }
     text += events_text(analysis) + log_notes(analysis);
     std::vector<std::string> lines;
     for (std::size_t at = 0; at < text.size();) {
@@ -226,7 +225,8 @@ std::string summary(const Analysis& analysis) {
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
     text += verdict_text(analysis) + "\n";
     text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
-    const auto lines = notes(analysis);
+    auto lines = notes(analysis);
+    for (std::string& line : open_sentences(analysis.end)) { lines.push_back(std::move(line)); }
     if (!lines.empty() || !analysis.damages.empty()) { text += "\n"; }
     for (const Damage& damage : analysis.damages) { text += damage_sentence(damage) + "\n"; }
     for (const std::string& line : lines) { text += line + "\n"; }

@@ -59,8 +59,8 @@ std::vector<std::size_t> sessions_of(const std::vector<Contents>& logs) {
     for (std::size_t i = 0; i < logs.size(); ++i) {
         for (const RecordingProcess& process : logs[i].processes) {
             const std::size_t other = root(known.try_emplace(process, i).first->second);
-            const auto [low, high] = std::minmax(root(i), other);
-            parent[high] = low;
+            const std::size_t mine = root(i);
+            parent[std::max(mine, other)] = std::min(mine, other);
         }
     }
     for (std::size_t i = 0; i < logs.size(); ++i) { parent[i] = root(i); }

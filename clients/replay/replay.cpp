@@ -32,6 +32,7 @@ public:
         pass(message);
         check_.on_run(message, place);
     }
+    void on_mark(const record_mark_t& message, LogPlace place) override { check_.on_mark(message, place); }
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace place, std::string what) override { check_.on_damage(place, std::move(what)); }
 

@@ -69,7 +69,8 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     const ClockStretch time = batch.machine_time();
     for (const StepEdge& step : batch.steps) {
         count += step.direction;
-        waiting_.push_back({step, count, batch.incarnation, time.at(step.tick), batch.clock_error});
+        const SeenStep seen{step, count, batch.incarnation, time.at(step.tick), batch.clock_error};
+        if (!is_before_log(seen)) { waiting_.push_back(seen); }
     }
     settle(false);
     if (waiting_.size() > kMaxWaiting) {
@@ -121,15 +122,22 @@ void AxisCheck::skip_before_log() {
     const auto is_before = [this](const Run& run) {
         return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
     };
-    while (!is_aligned_ && !runs_.empty() && is_before(runs_.front())) { runs_.pop_front(); }
+    for (; !is_aligned_ && !runs_.empty() && is_before(runs_.front()); runs_.pop_front()) {
+        begin_behind(runs_.front(), runs_.front().start + runs_.front().ticks());
+    }
     if (is_aligned_ || runs_.empty()) { return; }
     is_aligned_ = true;
-    const Run& first = runs_.front();
-    if (first.sequence == 0) { return; }
-    while (!waiting_.empty() && waiting_.front().incarnation == first.incarnation &&
-           waiting_.front().edge.tick < first.start) {
-        waiting_.pop_front();
-    }
+    if (begins_ || runs_.front().sequence > 0) { begin_behind(runs_.front(), runs_.front().start); }
+}
+
+/// Steps of that process before that tick are left out.
+void AxisCheck::begin_behind(const Run& run, Tick tick) {
+    begins_ = {run.incarnation, tick};
+    std::erase_if(waiting_, [this](const SeenStep& seen) { return is_before_log(seen); });
+}
+
+bool AxisCheck::is_before_log(const SeenStep& seen) const {
+    return begins_ && seen.incarnation == begins_->first && seen.edge.tick < begins_->second;
 }
 
 bool AxisCheck::begin_next_run() {

@@ -75,6 +75,8 @@ private:
     void settle(bool log_ended);
     bool begin_next_run();
     void skip_before_log();
+    void begin_behind(const Run& run, Tick tick);
+    bool is_before_log(const SeenStep& seen) const;
     void end_run();
     void pass_step(bool is_recorded);
     bool is_cut_here(const SeenStep* seen);
@@ -107,7 +109,9 @@ private:
     bool device_lost_ = false;                     // since the run before it
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be there
     std::optional<std::pair<std::int64_t, std::int64_t>>
-        before_log_;                 // the last run that began before it: process, number
+        before_log_;  // the last run that began before it: process, number
+    std::optional<std::pair<std::int64_t, Tick>>
+        begins_;                     // the first whole run of a log that begins later: process, start
     bool is_aligned_ = false;        // the first run compared was begun
     std::int64_t unsaid_ = 0;        // steps that a process which ended had not said
     std::int64_t steps_ = 0;         // compared and equal

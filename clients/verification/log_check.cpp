@@ -29,6 +29,7 @@ void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     if (!batch) { return on_damage(place, batch.error()); }
     Machine& of = machines_.find(message.machine)->second;
     end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
+    of.begin(message.axis, message.utime, message.sequence == 0);
     of.hear(*to, message.incarnation, message.utime);
     of.last.moved_us = of.last.said_us;
     to->check.take(std::move(*batch));
@@ -42,10 +43,12 @@ void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
     end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
     Machine& of = machines_.find(message.machine)->second;
     of.last.moved_us = of.last.said_us;  // it is told of when it is over
+    // None: the run is the axis's first message, as it ended. Messages of one loop carry times that differ a little.
     const auto first = of.first_us.find(message.axis);
     const bool is_first = run->sequence > 0 && to->runs.is_empty();
     if (is_first) { of.jobs.begins_late(); }
-    if (first != of.first_us.end() && message.utime < first->second && run->sequence > 0) {
+    if (first == of.first_us.end() && run->sequence > 0) { of.late.insert(message.axis); }
+    if (of.late.contains(message.axis) && (first == of.first_us.end() || message.utime < first->second + kSilence_us)) {
         to->check.began_before_log(*run);
     }
     to->runs.take(std::move(*run));
@@ -64,7 +67,7 @@ void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace
 /// What a process says of itself holds from there on in the log.
 void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     end_.take(message);
-    if (message.witness != message.process || make_follower_) { return; }
+    if (message.witness != message.process) { return; }
     if (message.process.empty()) {
         Machine* of = machine(message.machine, place);
         if (of != nullptr) { of->marked_jobs.try_emplace(message.incarnation, message.job_events); }
@@ -72,7 +75,7 @@ void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     }
     Axis* of = axis(message.machine, message.process, place);
     if (of == nullptr) { return; }
-    machines_.find(message.machine)->second.first_us.try_emplace(message.process, message.utime);
+    machines_.find(message.machine)->second.begin(message.process, message.utime, message.positions == 0);
     of->runs.expect_from(message.incarnation, message.runs);
     of->check.expect_from(message.incarnation, message.steps);
 }
@@ -95,7 +98,8 @@ void LogCheck::note_beginning(Machine& machine, const job_t& message) {
 /// Of axes that have moved.
 void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace place) {
     if (analysis::is_countable(message.utime)) {
-        if (Machine* of = machine(message.machine, place)) { of->first_us.try_emplace(message.axis, message.utime); }
+        Machine* of = machine(message.machine, place);
+        if (of != nullptr) { of->begin(message.axis, message.utime, message.sequence == 0); }
     }
     if (analysis::is_message_number(message.sequence)) {
         end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
@@ -156,6 +160,11 @@ LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::strin
         found->check.tell(*found->follower);
     }
     return found.get();
+}
+
+void LogCheck::Machine::begin(const std::string& axis, std::int64_t utime, bool is_its_first) {
+    const bool is_new = first_us.try_emplace(axis, utime).second;
+    if (is_new && !is_its_first) { late.insert(axis); }
 }
 
 void LogCheck::Machine::hear(Axis& axis, std::int64_t incarnation, std::int64_t utime) {

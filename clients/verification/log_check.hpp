@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -59,6 +60,9 @@ private:
         LastWords last;
         analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
+        /// An axis's message has come; `is_its_first`: of those that its process numbers.
+        void begin(const std::string& axis, std::int64_t utime, bool is_its_first);
+        std::set<std::string> late;                        // axes of which the log lacks what they did first
         std::map<std::string, std::int64_t> first_us;      // when an axis was heard first
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log
         bool has_jobs = false;
