@@ -1,6 +1,7 @@
 // What a user gets wrong: exit code 2, nothing done, and how to do it right.
 #include <gmock/gmock.h>
 
+#include "idl/proto/machine.pb.h"
 #include "tests/integration/cli/own_machine.hpp"
 
 namespace lockstep {
@@ -41,6 +42,17 @@ TEST_F(BadInput, InFilesIsRefusedWithThePlace) {
     EXPECT_THAT(refused({"up", "--machine", bad}), HasSubstr(bad + ":2:"));
     unsetenv("LOCKSTEP_MACHINE");
     EXPECT_THAT(refused({"status"}), HasSubstr("--machine FILE"));
+}
+
+TEST_F(BadInput, InAMachineFileIsFoundByTheVerbThatOnlyChecksIt) {
+    const std::string bad = write("bad.textproto", "name: \"bad\"\nsped: 3\n");
+    EXPECT_THAT(refused({"machine", "check", bad}), HasSubstr(bad + ":2:"));
+    EXPECT_THAT(refused({"machine"}), HasSubstr("see: lockstep machine --help"));
+    const Ran good = run_lockstep({"machine", "check", file()});
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_THAT(good.out, HasSubstr(file() + ": ok"));
+    const auto machine = run_lockstep({"machine", "check", file(), "--json"}).json<proto::Machine>();
+    EXPECT_EQ(machine.axis_size(), 2);
 }
 
 TEST_F(BadInput, IsSaidAsJsonWhereThatIsAsked) {

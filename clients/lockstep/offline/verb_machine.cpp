@@ -1,0 +1,57 @@
+// lockstep machine check
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/live_options.hpp"
+#include "clients/lockstep/live/machine_choice.hpp"
+#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "core/axis_unit.hpp"
+#include "services/documents/machine_proto.hpp"
+
+namespace lockstep {
+namespace {
+
+struct CheckOptions {
+    std::string file;
+    bool json = false;
+};
+
+std::string axis_line(const AxisConfig& axis) {
+    const std::string unit(unit_of(axis.name));
+    return "  " + axis.name + "  " + fixed(axis.position_min_mm, 3) + " to " + fixed(axis.position_max_mm, 3) + " " +
+           unit + ", " + fixed(axis.max_velocity_mm_s, 1) + " " + unit + "/s, device " + axis.device +
+           (axis.host.empty() ? "" : ", host " + axis.host);
+}
+
+ExitCode check(const CheckOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.file);
+    if (!machine) { return voice.fail(machine.error()); }
+    const MachineConfig& config = machine->config;
+    voice.say(machine->file.string() + ": ok: machine '" + config.name +
+              "', axes: " + std::to_string(config.axes.size()));
+    for (const AxisConfig& axis : config.axes) { voice.say(axis_line(axis)); }
+    voice.report(machine_to_proto(config));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_machine(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("machine", "check a machine's configuration file");
+    verb->require_subcommand(1);
+    CLI::App* part = verb->add_subcommand("check",
+                                          "read the whole file and report everything that is wrong with it; "
+                                          "needs no running machine");
+    const auto options = std::make_shared<CheckOptions>();
+    part->add_option("file", options->file, "the configuration file; else the one that other verbs use");
+    part->add_flag("--json", options->json, "the configuration with every default, as JSON, instead of text");
+    part->footer("Exit 0: the file is valid. 2: it is not, or cannot be read.\n" +
+                 footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n"));
+    part->callback([&action, options] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace lockstep
