@@ -42,6 +42,23 @@ void find_step(const Run& planned, const Run& seen, RunDifference& difference) {
 constexpr double kStretchSlack_ticks = 512;     // pieces of a tick each keep theirs
 constexpr Displacement kHair{Int128{1} << 40};  // 2^-24 step: what rounding leaves of a piece, and more
 
+constexpr std::size_t kEndWithin_ticks = 2;  // of a piece, from its planned end; a piece is a tick or more
+
+/// How far an axis may be from the planned end of piece `i`: the piece ends at a tick of the device's clock close by.
+Displacement end_reach(const Run& planned, std::size_t i) {
+    const std::size_t first = i + 1 < kEndWithin_ticks ? 0 : i + 1 - kEndWithin_ticks;
+    const std::size_t end = std::min(planned.pieces.size(), i + 1 + kEndWithin_ticks);
+    Int128 fastest = 0;
+    for (std::size_t k = first; k < end; ++k) {
+        const Piece& piece = planned.pieces[k];
+        for (const Ticks at : {Ticks{1}, piece.ticks}) {
+            const Int128 velocity = piece.velocity_after(at);
+            fastest = std::max(fastest, velocity < 0 ? -velocity : velocity);
+        }
+    }
+    return Displacement{fastest * static_cast<Int128>(kEndWithin_ticks) + kHair.raw};
+}
+
 /// The first piece after which the axis would not be where it is planned to be; none: everywhere it is.
 std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) {
     Position expected = planned.from;
@@ -54,7 +71,8 @@ std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) 
         const bool last = i + 1 == planned.pieces.size();
         if (last && split) { found = found + seen.pieces.back().covered(); }
         const Displacement off = found - expected;
-        if (last ? off != Displacement{} : off > kHair || -off > kHair) { return i + 1; }
+        const Displacement reach = last ? Displacement{} : end_reach(planned, i);
+        if (off > reach || -off > reach) { return i + 1; }
     }
     return std::nullopt;
 }
