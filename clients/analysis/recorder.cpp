@@ -31,7 +31,10 @@ void Recorder::on_measured(std::size_t lane, const SharedSteps& steps) {
 void Recorder::on_position(const axis_position_t& message) {
     events_.take(message);
     const auto lane = std::ranges::find(lanes_, message.axis, &Lane::axis);
-    merge_.stands(static_cast<std::size_t>(lane - lanes_.begin()), Tick{message.tick}, message.position_steps);
+    const auto number = static_cast<std::size_t>(lane - lanes_.begin());
+    const auto before = std::exchange(lane->positioned_us, message.utime);
+    if (before && message.utime - *before > kSilence_us) { merge_.lost(number); }
+    merge_.stands(number, Tick{message.tick}, message.position_steps);
 }
 
 void Recorder::on_run(std::size_t lane, const Run& run) { events_.take(lanes_[lane].axis, run); }

@@ -35,6 +35,7 @@ private:
     struct Lane {
         std::string axis;
         LateFigures late;
+        std::optional<std::int64_t> positioned_us{};  // by its newest position
     };
 
     JobLog* job(const job_t& message);

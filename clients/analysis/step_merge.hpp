@@ -30,6 +30,8 @@ public:
     void take(std::size_t lane, SharedSteps steps);
     /// The axis says where it was at a tick.
     void stands(std::size_t lane, Tick tick, std::int64_t count);
+    /// Messages of the axis are missing behind the last one: it may have moved away and back.
+    void lost(std::size_t lane) { lanes_[lane].lacks_steps = true; }
     /// From when on, and until when, the log has all that the axis did, but for what is missing between.
     Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
     Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
@@ -56,7 +58,7 @@ private:
         std::int64_t count = 0;  // after its newest step; before its first, where it stood first
         bool has_count = false;
         bool has_steps = false;
-        bool lacks_steps = false;  // it has stood elsewhere since its newest step
+        bool lacks_steps = false;  // it stands elsewhere since its newest step, or may have moved
         bool is_awaited = true;
     };
     struct Turn {
