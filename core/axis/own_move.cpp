@@ -17,12 +17,12 @@ struct Brake {
 
 /// The first whole step that can be reached, but never one beyond the move's last. Where that is nearer than the way to
 /// brake, by what a method rounds, the speed jumps down first, within the start velocity. At rest it jumps by half of
-/// it: a method's pulses may come as unevenly as the other half allows. An axis that moves no faster than it may jump
-/// keeps its speed up to the next step. `jumped`: of the start velocity, what the method's pulses have just used up.
+/// it: a method's pulses may come as unevenly as the other half allows. `jumped`: of the start velocity, what the
+/// method's pulses have just used up.
 Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits) {
     const double d = limits.max_deceleration;
     const double jump = std::max(0.0, limits.start_velocity - jumped);
-    Brake brake{.entry = speed, .exit = speed <= jump ? speed : std::min(limits.start_velocity / 2, jump)};
+    Brake brake{.entry = speed, .exit = std::min({speed, limits.start_velocity / 2, jump})};
     const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // no shorter than two ticks
     const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
     const Int128 whole = (end + kOneStep - 1) / kOneStep * kOneStep;
