@@ -24,6 +24,10 @@ void Recorder::on_axis(const std::string& name) {
 }
 
 void Recorder::on_measured(std::size_t lane, const SharedSteps& steps) {
+    if (!steps->steps.empty()) {
+        auto& seen = lanes_[lane].seen_us;
+        seen = std::max(seen.value_or(0), analysis_.microseconds_at(steps->steps.back().tick));
+    }
     merge_.take(lane, steps);
     merge_.settle([this](std::size_t of, const MeasuredStep& step) { moves_.take(of, step); });
 }
@@ -32,7 +36,7 @@ void Recorder::on_position(const axis_position_t& message) {
     events_.take(message);
     const auto lane = std::ranges::find(lanes_, message.axis, &Lane::axis);
     const auto number = static_cast<std::size_t>(lane - lanes_.begin());
-    const auto before = std::exchange(lane->positioned_us, message.utime);
+    const auto before = std::exchange(lane->seen_us, message.utime);
     if (before && message.utime - *before > kSilence_us) { merge_.lost(number); }
     merge_.stands(number, Tick{message.tick}, message.position_steps);
 }

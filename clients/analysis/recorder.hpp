@@ -35,7 +35,7 @@ private:
     struct Lane {
         std::string axis;
         LateFigures late;
-        std::optional<std::int64_t> positioned_us{};  // by its newest position
+        std::optional<std::int64_t> seen_us{};  // by its newest position or step
     };
 
     JobLog* job(const job_t& message);
