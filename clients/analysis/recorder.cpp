@@ -36,8 +36,11 @@ void Recorder::on_position(const axis_position_t& message) {
     events_.take(message);
     const auto lane = std::ranges::find(lanes_, message.axis, &Lane::axis);
     const auto number = static_cast<std::size_t>(lane - lanes_.begin());
+    const bool lacks_messages = message.incarnation == lane->incarnation && message.sequence > lane->sequence + 1;
     const auto before = std::exchange(lane->seen_us, message.utime);
-    if (before && message.utime - *before > kSilence_us) { merge_.lost(number); }
+    if (lacks_messages && before && message.utime - *before > kSilence_us) { merge_.lost(number); }
+    lane->incarnation = message.incarnation;
+    lane->sequence = message.sequence;
     merge_.stands(number, Tick{message.tick}, message.position_steps);
 }
 

@@ -36,6 +36,8 @@ private:
         std::string axis;
         LateFigures late;
         std::optional<std::int64_t> seen_us{};  // by its newest position or step
+        std::int64_t incarnation = 0;           // of its newest position's process
+        std::int64_t sequence = 0;              // of that position
     };
 
     JobLog* job(const job_t& message);

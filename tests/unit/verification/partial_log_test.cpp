@@ -1,6 +1,7 @@
 // A log that lacks something, of a run in which all was good: what the verdict rests on and is not there is said to be
 // unknown. Nothing that only the missing part could show is called good, or bad.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <random>
 
@@ -19,7 +20,8 @@ class PartialLog : public testing::Test {
 protected:
     static void SetUpTestSuite() {
         const MachineConfig machine = test::example("three-axis");
-        whole_ = std::filesystem::path(testing::TempDir()) / "lockstep_partial_log.lcm";
+        const std::string name = "lockstep_partial_log." + std::to_string(getpid()) + ".lcm";  // tests run side by side
+        whole_ = std::filesystem::path(testing::TempDir()) / name;
         RecordedMachine recorded(machine, whole_);
         recorded.home();
         recorded.advance_ms(1500);
@@ -27,6 +29,8 @@ protected:
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
         recorded.advance_ms(1500);
     }
+
+    static void TearDownTestSuite() { std::filesystem::remove(whole_); }
 
     /// Of a log with the events that `keeps` returns true for.
     template <typename Keeps>
