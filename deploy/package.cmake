@@ -6,8 +6,12 @@ install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
-install(FILES README.md ARCHITECTURE.md sim_fpga/REGISTERS.md deploy/security.md docs/configuration.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
+# Documents keep their places among each other, so that their links lead somewhere.
+install(FILES README.md ARCHITECTURE.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+install(FILES sim_fpga/REGISTERS.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/sim_fpga COMPONENT lockstep)
+install(FILES deploy/security.md deploy/scale.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/deploy COMPONENT lockstep)
 install(FILES deploy/completion/lockstep.bash RENAME lockstep
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lockstep)
 install(FILES deploy/completion/_lockstep

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Every command line in a document is one that the command accepts: its verb and its options are in --help.
+
+Usage: check_commands.py ROOT BIN    BIN has the programs; those that are not there are not checked, lockstep must be.
+
+A command line begins an indented line or a word in backticks, perhaps behind `docker compose run --rm client`.
+"""
+import functools
+import pathlib
+import re
+import subprocess
+import sys
+
+PROGRAMS = "lockstep|lockstep-axis|lockstep-coordinator|lockstep-fpga|lockstep-simtest"
+COMMAND = re.compile(rf"(?:^|[;&|] *|client |CYCLONEDDS_URI=\S+ )({PROGRAMS}) +(?=[a-z-])(.*)")
+SEPARATOR = re.compile(r"\s#|[|;>]|&&|\\$|\.\.\.")
+
+
+def documents(root):
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=root, capture_output=True, text=True,
+                            check=True)
+    return listed.stdout.splitlines()
+
+
+def command_lines(text):
+    """Each with the number of its line."""
+    for number, line in enumerate(text.splitlines(), 1):
+        pieces = [line.strip()] if line.startswith("    ") else re.findall(r"`([^`]+)`", line)
+        for piece in pieces:
+            found = COMMAND.search(piece)
+            if found:
+                yield number, found.group(1), SEPARATOR.split(found.group(2))[0].split()
+
+
+@functools.cache
+def help_of(*words):
+    run = subprocess.run([*words, "--help"], capture_output=True, text=True, check=False)
+    return run.stdout if run.returncode == 0 else None
+
+
+def verbs_in(text):
+    listed = re.search(r"(?ms)^Subcommands:\n(.*?)(?=^\S|\Z)", text)
+    return re.findall(r"(?m)^  ([a-z]\S*)", listed.group(1)) if listed else []
+
+
+def breach(program, words):
+    """What is wrong with a command line; None where nothing is."""
+    path = [str(program)]
+    text = help_of(*path)
+    while words and not words[0].startswith("-") and verbs_in(text):
+        if words[0] not in verbs_in(text):
+            return f"{program.name} has no command {words[0]}"
+        path.append(words.pop(0))
+        text = help_of(*path)
+    options = [re.split("[=,]", word)[0] for word in words if re.match("--[a-z]|-[a-z]$", word)]
+    for option in options:
+        if not re.search(rf"(?<![\w-]){re.escape(option)}(?![\w-])", text):
+            return f"{' '.join([program.name, *path[1:]])} has no option {option}"
+    return None
+
+
+def main():
+    root, programs = map(pathlib.Path, sys.argv[1:])
+    found, count = [], 0
+    for document in documents(root):
+        for number, name, words in command_lines((root / document).read_text()):
+            if not (programs / name).exists():
+                continue
+            count += 1
+            wrong = breach(programs / name, words)
+            if wrong:
+                found.append(f"{document}:{number}: {wrong}")
+    if count == 0:
+        sys.exit(f"no command line found: are {root} a clone and {programs} a folder with the programs?")
+    print("\n".join(found) if found else f"{count} command lines are accepted")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""What documents say of the tree is there: links, files, folders, functions; README and ARCHITECTURE stay short.
+
+Usage: check_documents.py ROOT [--fix]
+
+Every document is a .md file. In backticks, a word with a slash that begins with one of the tree's folders is a path; a word
+that ends with a source file's suffix is a file's name; `file`: `Name::function` is a function in that file. --fix renames a
+path whose file was moved, where only one file has its name.
+"""
+import argparse
+import collections
+import pathlib
+import re
+import subprocess
+import sys
+
+MOST_LINES = {"README.md": 150, "ARCHITECTURE.md": 250}
+MOST_PICTURE_BYTES = 150_000
+FOLDERS = "core|sim_fpga|idl|services|clients|deploy|tests|docs"
+PATH = re.compile(rf"`((?:{FOLDERS})/[\w./@-]*)`")
+NAME = re.compile(r"`([\w-]+\.(?:hpp|cpp|inc|py|proto|idl|lcm|json|pml|js))`")
+FUNCTION = re.compile(rf"`((?:{FOLDERS})/[\w./-]+)`:\s+`([A-Za-z_][\w:]*)`")
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+
+
+class Tree:
+    """The files of the repository, and what they are called."""
+
+    def __init__(self, root):
+        self.root = root
+        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True,
+                                check=False)
+        self.files = [f for f in listed.stdout.splitlines() if (root / f).exists()]
+        self.by_name = collections.defaultdict(list)
+        for file in self.files:
+            self.by_name[file.rsplit("/", 1)[-1]].append(file)
+
+    def documents(self):
+        return [f for f in self.files if f.endswith(".md")]
+
+    def has(self, path):
+        return (self.root / path).exists()
+
+    def moved_to(self, path):
+        found = self.by_name[path.rstrip("/").rsplit("/", 1)[-1]]
+        return found[0] if len(found) == 1 else None
+
+    def defines(self, path, name):
+        """A file defines a name, or its header or source beside it does."""
+        file = self.root / path
+        files = [file.with_suffix(suffix) for suffix in (".hpp", ".cpp", ".inc")] if file.suffix in (".hpp", ".cpp") else [file]
+        text = "".join(f.read_text() for f in files if f.exists())
+        return all(re.search(rf"\b{part}\b", text) for part in name.split("::"))
+
+
+def prose(text):
+    """Without examples: indented lines and fenced blocks are left empty."""
+    inside, lines = False, []
+    for line in text.splitlines():
+        inside ^= line.startswith("```")
+        lines.append("" if inside or line.startswith("    ") else line)
+    return "\n".join(lines)
+
+
+def breaches(tree, document):
+    whole = (tree.root / document).read_text()
+    count = len(whole.splitlines())
+    if count > MOST_LINES.get(document, count):
+        yield 1, f"{count} lines; at most {MOST_LINES[document]}: move something to docs/"
+    text = prose(whole)
+
+    def line_of(match):
+        return text.count("\n", 0, match.start()) + 1
+
+    folder = pathlib.Path(document).parent
+    for link in LINK.finditer(text):
+        target = link.group(1)
+        if not re.match(r"[a-z]+:", target) and not (tree.root / folder / target).exists():
+            yield line_of(link), f"the link {target} leads nowhere"
+    for path in PATH.finditer(text):
+        if not tree.has(path.group(1)):
+            now = tree.moved_to(path.group(1))
+            yield line_of(path), f"{path.group(1)} does not exist" + (f"; it is now {now} (--fix)" if now else "")
+    for name in NAME.finditer(text):
+        if name.group(1) not in tree.by_name:
+            yield line_of(name), f"no file is called {name.group(1)}"
+    for function in FUNCTION.finditer(text):
+        if tree.has(function.group(1)) and not tree.defines(*function.groups()):
+            yield line_of(function), f"{function.group(1)} has no {function.group(2)}"
+
+
+def unlinked(tree):
+    """Documents below docs/ that no other document links to."""
+    linked = set()
+    for document in tree.documents():
+        folder = (tree.root / document).parent
+        linked |= {(folder / link).resolve() for link in LINK.findall((tree.root / document).read_text())}
+    for document in tree.documents():
+        if document.startswith("docs/") and (tree.root / document).resolve() not in linked:
+            yield f"{document}:1: no document links to it"
+
+
+def pictures(tree):
+    for file in tree.files:
+        size = (tree.root / file).stat().st_size
+        if file.startswith("docs/pictures/") and size > MOST_PICTURE_BYTES:
+            yield f"{file}:1: {size} bytes; at most {MOST_PICTURE_BYTES}"
+    drawn = subprocess.run([tree.root / "docs/draw_parts.py"], capture_output=True, text=True, check=True).stdout
+    if drawn != (tree.root / "docs/pictures/parts.svg").read_text():
+        yield "docs/pictures/parts.svg:1: is not what docs/draw_parts.py draws; run: docs/make-pictures"
+
+
+def fix(tree, document):
+    file = tree.root / document
+    text = file.read_text()
+    for path in sorted(set(PATH.findall(text)), key=len, reverse=True):
+        now = None if tree.has(path) else tree.moved_to(path)
+        if now:
+            text = text.replace(f"`{path}`", f"`{now}`")
+    file.write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", type=pathlib.Path)
+    parser.add_argument("--fix", action="store_true")
+    options = parser.parse_args()
+    tree = Tree(options.root.resolve())
+    if options.fix:
+        for document in tree.documents():
+            fix(tree, document)
+    found = [f"{document}:{line}: {what}" for document in tree.documents() for line, what in breaches(tree, document)]
+    found += [*unlinked(tree), *pictures(tree)]
+    if not tree.documents():
+        sys.exit("no documents found: is git there, and ROOT a clone?")
+    print("\n".join(found) if found else f"{len(tree.documents())} documents are in order")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
