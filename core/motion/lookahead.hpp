@@ -19,8 +19,8 @@ struct PathBounds {
 /// The bounds for a machine's frames and tails.
 PathBounds bounds_of(const MachineConfig& machine);
 
-/// A move from one place to another with its limits along the path, before any profile. `feed_steps_per_tick` is
-/// in units of `length_mm` per tick; 0 means as fast as the axes allow. lead is 0 where nothing moves.
+/// A move from one place to another with its limits along the path, before any profile. `feed_mm_per_tick` 0 means as
+/// fast as the axes allow. The move's lead is 0 where nothing moves.
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,
                    std::span<const double> steps_per_mm, double feed_mm_per_tick);
 

@@ -3,7 +3,8 @@
 
 Usage: check_commands.py ROOT BIN    BIN has the programs; those that are not there are not checked, lockstep must be.
 
-A command line begins an indented line or a word in backticks, perhaps behind `docker compose run --rm client`.
+A command line begins an indented line or a word in backticks, perhaps behind `docker compose run --rm client`. A script of
+the tree must be there and executable, and a program below build/bin must be built by a CMakeLists.txt.
 """
 import functools
 import pathlib
@@ -13,6 +14,8 @@ import sys
 
 PROGRAMS = "lockstep|lockstep-axis|lockstep-coordinator|lockstep-fpga|lockstep-simtest"
 COMMAND = re.compile(rf"(?:^|[;&|] *|client |CYCLONEDDS_URI=\S+ )({PROGRAMS}) +(?=[a-z-])(.*)")
+SCRIPT = re.compile(r"(?m)(?:^    |`)((?:tests|deploy|core|docs|idl|sim_fpga)/[\w./-]+)(?= [\w<-])")
+BUILT = re.compile(r"build/bin/([\w-]+)")
 SEPARATOR = re.compile(r"\s#|[|;>]|&&|\\$|\.\.\.")
 
 
@@ -59,11 +62,24 @@ def breach(program, words):
     return None
 
 
+def missing_programs(root, text):
+    """What the text runs that is not there."""
+    for script in SCRIPT.findall(text):
+        if not (root / script).is_file() or not (root / script).stat().st_mode & 0o100:
+            yield f"{script} is not an executable file"
+    made = "".join(file.read_text() for folder in ("clients", "services", "tests") for file in (root / folder).rglob("CMakeLists.txt"))
+    for program in BUILT.findall(text):
+        if not re.search(rf"\b{program}\b", made):
+            yield f"no CMakeLists.txt builds {program}"
+
+
 def main():
     root, programs = map(pathlib.Path, sys.argv[1:])
     found, count = [], 0
     for document in documents(root):
-        for number, name, words in command_lines((root / document).read_text()):
+        text = (root / document).read_text()
+        found += [f"{document}: {what}" for what in missing_programs(root, text)]
+        for number, name, words in command_lines(text):
             if not (programs / name).exists():
                 continue
             count += 1

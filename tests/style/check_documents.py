@@ -4,8 +4,9 @@
 Usage: check_documents.py ROOT [--fix]
 
 Every document is a .md file. In backticks, a word with a slash that begins with one of the tree's folders is a path; a word
-that ends with a source file's suffix is a file's name; `file`: `Name::function` is a function in that file. --fix renames a
-path whose file was moved, where only one file has its name.
+that ends with a source file's suffix is a file's name; `file`: `Name::function` is a function in that file; `CamelCase` is a
+name in the code; `5 (`kName`)` is a constant and its value. --fix renames a path whose file was moved, where only one
+file has its name.
 """
 import argparse
 import collections
@@ -16,10 +17,13 @@ import sys
 
 MOST_LINES = {"README.md": 150, "ARCHITECTURE.md": 250}
 MOST_PICTURE_BYTES = 150_000
+UNITS = {None: 1, " KiB": 1 << 10, " MiB": 1 << 20}
 FOLDERS = "core|sim_fpga|idl|services|clients|deploy|tests|docs"
 PATH = re.compile(rf"`((?:{FOLDERS})/[\w./@-]*)`")
 NAME = re.compile(r"`([\w-]+\.(?:hpp|cpp|inc|py|proto|idl|lcm|json|pml|js))`")
 FUNCTION = re.compile(rf"`((?:{FOLDERS})/[\w./-]+)`:\s+`([A-Za-z_][\w:]*)`")
+TYPE = re.compile(r"`([A-Z][a-z]+[A-Z]\w*(?:::\w+)?)`")
+CONSTANT = re.compile(r"(\d[\d,]*)( [KM]iB)?[^|`()]* \(`(k[A-Z]\w*)`\)")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
@@ -34,9 +38,16 @@ class Tree:
         self.by_name = collections.defaultdict(list)
         for file in self.files:
             self.by_name[file.rsplit("/", 1)[-1]].append(file)
+        self.code = "\n".join((root / f).read_text() for f in self.files if f.endswith((".hpp", ".cpp", ".inc", ".lcm", ".idl")))
+        self.words = set(re.findall(r"\w+", self.code))
 
     def documents(self):
         return [f for f in self.files if f.endswith(".md")]
+
+    def values(self, constant):
+        """What the constants of this name are, where that is a number or a power of two."""
+        found = re.findall(rf"\b{constant} = ([\d']+)(?: << (\d+))?[;,]", self.code)
+        return {int(number.replace("'", "")) << int(shift or 0) for number, shift in found}
 
     def has(self, path):
         return (self.root / path).exists()
@@ -87,6 +98,13 @@ def breaches(tree, document):
     for function in FUNCTION.finditer(text):
         if tree.has(function.group(1)) and not tree.defines(*function.groups()):
             yield line_of(function), f"{function.group(1)} has no {function.group(2)}"
+    for name in TYPE.finditer(text):
+        if not set(name.group(1).split("::")) <= tree.words:
+            yield line_of(name), f"the code has no {name.group(1)}"
+    for constant in CONSTANT.finditer(text):
+        number, unit, name = constant.groups()
+        if int(number.replace(",", "")) * UNITS[unit] not in tree.values(name):
+            yield line_of(constant), f"{name} is {sorted(tree.values(name))}, not {number}{unit or ''}"
 
 
 def unlinked(tree):

@@ -21,7 +21,7 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
 /// "axis X: limit-hit (103): a limit switch closed", then what to do on a line of its own; within `width` columns.
 std::string fault_text(const proto::FaultReport& fault, std::size_t width = 80);
 
-/// What is heard of an axis at `age`; an axis never heard has its name alone.
+/// What the newest state of an axis says; an axis that was never received has its name alone.
 proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present);
 
 proto::StatusReport status_report(const Session& session);

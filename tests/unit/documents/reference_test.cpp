@@ -1,0 +1,138 @@
+// Every range and default that machine.proto states is the one that the code has. docs/configuration.md is made from
+// the same comments.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+#include "services/documents/machine_file.hpp"
+#include "tests/unit/documents/machine_text_examples.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Key {
+    std::string block;  // the message
+    std::string type;
+    std::string name;
+    std::string comment;
+};
+
+/// The scalar keys of machine.proto with the comment above each.
+std::vector<Key> keys() {
+    std::ifstream file(LOCKSTEP_MACHINE_PROTO);
+    std::vector<Key> found;
+    std::string block;
+    std::string comment;
+    static const std::regex kBlock(R"(message (\w+) \{)");
+    static const std::regex kKey(R"(\s*optional (\w+) (\w+) = \d+;)");
+    std::smatch match;
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t text = line.find("// ");
+        if (std::regex_match(line, match, kBlock)) {
+            block = match[1];
+        } else if (std::regex_match(line, match, kKey)) {
+            found.push_back({block, match[1], match[2], comment});
+        }
+        comment = text == std::string::npos ? "" : comment + line.substr(text + 3) + " ";
+    }
+    return found;
+}
+
+/// The shortest machine with this key set; nothing for a block that is not in the table.
+std::optional<std::string> machine_with_key(const Key& key, const std::string& value) {
+    static const std::map<std::string, std::pair<std::string, std::string>> kAround{
+        {"Machine", {"", ""}},
+        {"Timing", {"timing { ", " }"}},
+        {"Network", {"network { ", " }"}},
+        {"Record", {"record { ", " }"}},
+        {"Flight", {"record { flight { ", " } }"}},
+        {"RealTime", {"real_time { ", " }"}},
+        {"Homing", {"homing { ", " }"}},
+        {"Plant", {"plant { ", " }"}},
+        {"Axis", {"", ""}}};
+    const auto around = kAround.find(key.block);
+    if (around == kAround.end()) { return std::nullopt; }
+    const std::string line = around->second.first + key.name + ": " + value + around->second.second;
+    const bool in_axis = key.block == "Axis" || key.block == "Homing" || key.block == "Plant";
+    const std::string given = std::regex_replace(std::string(kShortest), std::regex("  " + key.name + ": .*"), "");
+    return in_axis ? with("\n}", "\n  " + line + "\n}", given) : given + line + "\n";
+}
+
+/// Whether the file is refused for this key's value.
+bool is_refused(const Key& key, const std::string& value) {
+    const auto machine = parse_machine(machine_with_key(key, value).value());
+    if (machine) { return false; }
+    const std::string text = to_text("machine", machine.error());
+    return text.contains(key.name + " is ") || text.contains("Expected integer");
+}
+
+bool is_whole(const Key& key) { return key.type != "double"; }
+
+std::string number(const Key& key, double value) {
+    std::ostringstream text;
+    text.precision(12);
+    text << value;
+    return is_whole(key) ? std::to_string(std::llround(value)) : text.str();
+}
+
+TEST(MachineReference, EveryRangeStatedIsTheOneChecked) {
+    static const std::regex kRange(R"((-?\d[\d.]*) to (-?\d+(?:\.\d+)?))");
+    int checked = 0;
+    for (const Key& key : keys()) {
+        std::smatch range;
+        if (key.type == "string" || !std::regex_search(key.comment, range, kRange)) { continue; }
+        ASSERT_TRUE(machine_with_key(key, "1")) << key.block << " is not in this test's table";
+        const double least = std::stod(range[1]);
+        const double most = std::stod(range[2]);
+        EXPECT_FALSE(is_refused(key, number(key, least))) << key.name << " at its least, " << range[0];
+        EXPECT_FALSE(is_refused(key, number(key, most))) << key.name << " at its most, " << range[0];
+        EXPECT_TRUE(is_refused(key, number(key, is_whole(key) ? least - 1 : least * 0.99)))
+            << key.name << " below " << range[0];
+        EXPECT_TRUE(is_refused(key, number(key, is_whole(key) ? most + 1 : most * 1.01)))
+            << key.name << " above " << range[0];
+        ++checked;
+    }
+    EXPECT_GE(checked, 10);
+}
+
+TEST(MachineReference, EveryGreatestValueStatedIsTheOneChecked) {
+    static const std::regex kMost(R"(at most (\d+))");
+    int checked = 0;
+    for (const Key& key : keys()) {
+        std::smatch most;
+        if (key.type == "string" || !std::regex_search(key.comment, most, kMost)) { continue; }
+        ASSERT_TRUE(machine_with_key(key, "1")) << key.block << " is not in this test's table";
+        const auto value = std::stoll(most[1]);
+        const auto beyond = parse_machine(machine_with_key(key, std::to_string(value + 1)).value());
+        ASSERT_FALSE(beyond) << key.name << " above " << most[0];
+        EXPECT_TRUE(to_text("machine", beyond.error()).contains(" to " + std::to_string(value))) << key.name;
+        ++checked;
+    }
+    EXPECT_GE(checked, 3);
+}
+
+TEST(MachineReference, EveryDefaultStatedIsTheOneTaken) {
+    static const std::regex kDefault(R"([Dd]efault (true|false|-?\d+(?:\.\d+)?|[A-Z]{3,})(?=[.,;]? |[.,;]?$))");
+    int checked = 0;
+    for (const Key& key : keys()) {
+        std::smatch stated;
+        if (!std::regex_search(key.comment, stated, kDefault) || stated.suffix().str().starts_with(" times")) {
+            continue;
+        }
+        const auto text = machine_with_key(key, stated[1]);
+        ASSERT_TRUE(text) << key.block << " is not in this test's table";
+        const auto given = parse_machine(*text);
+        ASSERT_TRUE(given) << to_text("machine", given.error());
+        EXPECT_EQ(machine_text(*given), machine_text(parse_machine(kShortest).value())) << key.name << " " << stated[0];
+        ++checked;
+    }
+    EXPECT_GE(checked, 18);
+}
+
+}  // namespace
+}  // namespace lockstep
