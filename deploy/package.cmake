@@ -7,7 +7,8 @@ install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
 # Documents keep their places among each other, so that their links lead somewhere.
-install(FILES README.md ARCHITECTURE.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
+install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE NOTICE
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep
   FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
 install(FILES sim_fpga/REGISTERS.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/sim_fpga COMPONENT lockstep)
@@ -38,6 +39,7 @@ install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockste
   DESTINATION lib/systemd/system COMPONENT lockstep)
 
 # core, with its headers where "core/..." finds them.
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR}-dev COMPONENT lockstep-dev)
 install(TARGETS lockstep_core lockstep_core_many EXPORT lockstep
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lockstep-dev
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep)

@@ -1,29 +1,23 @@
 #!/usr/bin/env python3
 """Makes one page of an HTML file and what it refers to, as a C++ string.
 
-Usage: inline_page.py NAME PAGE.html FOLDER... OUT.cpp    NAME is the string's. Scripts and styles are looked for beside the page and in FOLDER.
+Usage: inline_page.py NAME PAGE.html OUT.cpp    NAME is the string's. Scripts and styles are looked for beside the page.
 """
 import pathlib
 import re
 import sys
 
 
-def read(name, folders):
-    for folder in folders:
-        if (folder / name).is_file():
-            return (folder / name).read_text()
-    sys.exit(f"{name}: in none of {', '.join(map(str, folders))}")
-
-
 def main():
     name = sys.argv[1]
-    page, *more, out = map(pathlib.Path, sys.argv[2:])
-    folders = [page.parent, *more]
+    page, out = map(pathlib.Path, sys.argv[2:])
+
+    def read(found):
+        return (page.parent / found[1]).read_text()
+
     text = page.read_text()
-    text = re.sub(r'<link rel="stylesheet" href="([^"]+)">',
-                  lambda found: f"<style>\n{read(found[1], folders)}</style>", text)
-    text = re.sub(r'<script src="([^"]+)"></script>',
-                  lambda found: f"<script>\n{read(found[1], folders)}</script>", text)
+    text = re.sub(r'<link rel="stylesheet" href="([^"]+)">', lambda found: f"<style>\n{read(found)}</style>", text)
+    text = re.sub(r'<script src="([^"]+)"></script>', lambda found: f"<script>\n{read(found)}</script>", text)
     out.write_text('#include "clients/report_page/page_template.hpp"\n\nnamespace lockstep::analysis {\n\n'
                    f'const std::string_view {name} = R"page({text})page";\n\n}}\n')
 
