@@ -148,6 +148,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
         case Kind::JobContinued:
         case Kind::JobCutShort:
         case Kind::Reopened:
+        case Kind::LoopStuck:
         case Kind::Stalled: return Weight::Telling;
         case Kind::Incident: return is_end(event) ? Weight::Telling : Weight::Routine;
         default: return Weight::Routine;
@@ -175,6 +176,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::Reopened:
             return fmt::format("opens its DDS participant anew: {}", text_of(static_cast<ReopenReason>(event.detail)));
         case Kind::Stalled: return fmt::format("its loop has not run for {}", duration(lasts));
+        case Kind::LoopStuck: return fmt::format("its loop has not run for {}: it ends itself", duration(lasts));
         case Kind::Loops:
             return fmt::format("{} loops in a second, at most {} from one to the next", event.count, duration(lasts));
         case Kind::Incident: return incident_words(incident, event);

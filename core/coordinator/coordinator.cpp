@@ -73,6 +73,8 @@ void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out)
         AxisView& view = views_[state.axis];
         const bool same = view.state && view.state->identity == state.identity;
         if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
+        const bool is_older = view.state && state.stamp <= view.state->stamp;
+        if (is_older && !same && present(state.axis)) { continue; }  // of a process before, sent again
         if (view.state && !same && !view.stranger.again(state.identity, state.stamp)) { continue; }
         ownership_.hear(state);
         if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }

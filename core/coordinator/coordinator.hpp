@@ -80,7 +80,7 @@ struct CoordinatorOutputs {
     std::vector<JobEvent> jobs;
     std::vector<CoordinatorNotice> notices;
     std::optional<EpochOutcome> epoch_end;  // in the step that judged it
-    bool must_quit = false;                 // another coordinator owns this machine, and this one was not to stand by
+    bool must_quit = false;  // another coordinator proved to own this machine, and this one was not to stand by
 };
 
 class Coordinator {

@@ -36,7 +36,7 @@ void Coordinator::stand_by(CoordinatorOutputs& out) {
     for (std::size_t i = 0; i < views_.size(); ++i) {
         if (!present(i)) { views_[i].state.reset(); }
     }
-    out.must_quit = !standby_ && ownership_.hears_other_owner(now_slot_);
+    out.must_quit = !standby_ && ownership_.has_second_owner(now_slot_);
     if (begins_slot()) { out.state = state(); }
 }
 

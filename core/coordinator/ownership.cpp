@@ -16,6 +16,10 @@ void Ownership::hear(const MachineState& other, Slot now) {
         return;
     }
     known_.hear(other.term, other.stamp);
+    // By network time the machine's time is each coordinator's own clock, so a stamp can only be compared with its
+    // like.
+    const Slot time = timing_.time_source == TimeSource::Network ? other.stamp : now;
+    has_second_ = second_.proves(other.term.coordinator, other.stamp, time);
     const bool known = other_owner_ && other_owner_->term == other.term;
     if (!known && !strangers_.again(other.term, other.stamp)) { return; }
     other_owner_ = other;

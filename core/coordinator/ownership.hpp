@@ -11,6 +11,7 @@
 
 #include "core/coordinator/axis_view.hpp"
 #include "core/protocol/second_hearing.hpp"
+#include "core/protocol/second_process.hpp"
 
 namespace lockstep {
 
@@ -19,7 +20,7 @@ public:
     enum class Change : std::uint8_t { None, Claimed, StoodDown };
 
     /// `self`: new at every start of the process. It owns nothing yet.
-    Ownership(Identity self, const ProtocolTiming& timing) : self_(self), timing_(timing) {}
+    Ownership(Identity self, const ProtocolTiming& timing) : self_(self), timing_(timing), second_(timing) {}
 
     void hear(const AxisState& axis);
     void hear(const MachineState& other, Slot now);
@@ -40,6 +41,8 @@ public:
     /// The owner that is heard, or was heard last: what he said of the machine.
     const std::optional<MachineState>& other_owner() const { return other_owner_; }
     bool hears_other_owner(Slot now) const { return other_owner_ && !silent(now); }
+    /// And it proved that it lives: what it publishes is not an old state sent again.
+    bool has_second_owner(Slot now) const { return has_second_ && hears_other_owner(now); }
 
 private:
     bool silent(Slot now) const { return now - heard_.value_or(now) > rules::silence_slots(timing_); }
@@ -59,9 +62,11 @@ private:
     HighestTerm known_;            // of all that speak
     HighestTerm followed_;         // by an axis
     std::optional<MachineState> other_owner_;
-    TermHearing strangers_;            // who speak as owners and are not believed yet
-    std::optional<Slot> heard_;        // an owner; or when it began to listen
-    std::optional<Slot> vacant_;       // since when nothing else is in the way of a claim
+    TermHearing strangers_;       // who speak as owners and are not believed yet
+    std::optional<Slot> heard_;   // an owner; or when it began to listen
+    std::optional<Slot> vacant_;  // since when nothing else is in the way of a claim
+    SecondProcess second_;
+    bool has_second_ = false;
     std::optional<Slot> elder_heard_;  // who stands by for longer than this one
     std::optional<Slot> judged_;
 };

@@ -61,7 +61,8 @@ namespace lockstep {
     X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */ \
     X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */   \
     X(JobContinued, "job-continued")       /* count: near this line */                                        \
-    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */
+    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */  \
+    X(LoopStuck, "loop-stuck")             /* lasts: its loop did not run; the process ends itself */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,

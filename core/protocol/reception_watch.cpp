@@ -30,6 +30,7 @@ std::string_view text_of(ReopenReason reason) {
         case ReopenReason::PeerSilent: return "a peer is there, but nothing of it is received";
         case ReopenReason::SamplesDiscarded: return "DDS discards all samples of a topic";
         case ReopenReason::PeerMissing: return "nothing of a peer was received for long";
+        case ReopenReason::NotReceivedByPeers: return "the peers report that they do not receive this process";
     }
     return "";
 }
@@ -42,6 +43,7 @@ ReceptionWatch::ReceptionWatch(Ticks lease, std::int64_t tick_ns)
 void ReceptionWatch::forget() {
     silent_since_.reset();
     missing_since_.reset();
+    unreceived_since_.reset();
     topics_.clear();
 }
 
@@ -60,11 +62,14 @@ bool ReceptionWatch::discards_all(std::span<const TopicReception> topics) {
 std::optional<ReopenReason> ReceptionWatch::reason(Tick now, const Reception& reception) {
     keep(silent_since_, reception.is_peer_silent, now);
     keep(missing_since_, reception.is_peer_missing, now);
+    keep(unreceived_since_, reception.is_unreceived, now);
     const bool discards = discards_all(reception.topics);
-    if (!reception.is_peer_missing && !reception.is_peer_silent && !discards) { reopened_ = 0; }
+    const bool has_all = !reception.is_peer_missing && !reception.is_peer_silent && !reception.is_unreceived;
+    if (has_all && !discards) { reopened_ = 0; }
     if (reception.change) { return reception.change; }
     if (lasts(silent_since_, now, peer_silence_)) { return ReopenReason::PeerSilent; }
     if (discards) { return ReopenReason::SamplesDiscarded; }
+    if (lasts(unreceived_since_, now, peer_silence_)) { return ReopenReason::NotReceivedByPeers; }
     if (lasts(missing_since_, now, peer_absence_)) { return ReopenReason::PeerMissing; }
     return std::nullopt;
 }

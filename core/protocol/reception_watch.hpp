@@ -6,6 +6,9 @@
 // off from a peer for good. A participant that is opened anew forgets what it believed of others, and is a new one to
 // them. The same mends what an interface loses that goes away and comes back.
 //
+// Damaged packets can also leave a writer that sends nothing any more. The process itself does not notice: it receives
+// all others. But they report whom they receive, so a process that none of them receives opens its participant again.
+//
 // Only a process at rest does so, and by itself: nothing is arranged between peers. Its identity, its position and its
 // homing are not DDS's matter and stay.
 #pragma once
@@ -21,11 +24,12 @@
 namespace lockstep {
 
 enum class ReopenReason : std::uint8_t {
-    InterfaceChanged,  // it has another address, or is another one of the same name
-    MemoryReplaced,    // the file of the states by memory is no longer the one that is open
-    PeerSilent,        // a peer is there, by DDS or by what others receive, and nothing of it is received
-    SamplesDiscarded,  // DDS discards every sample of a topic that comes
-    PeerMissing        // nothing of a peer was received for long; perhaps it does not run
+    InterfaceChanged,   // it has another address, or is another one of the same name
+    MemoryReplaced,     // the file of the states by memory is no longer the one that is open
+    PeerSilent,         // a peer is there, by DDS or by what others receive, and nothing of it is received
+    SamplesDiscarded,   // DDS discards every sample of a topic that comes
+    PeerMissing,        // nothing of a peer was received for long; perhaps it does not run
+    NotReceivedByPeers  // peers are received, and report that none of them receives this process
 };
 std::string_view text_of(ReopenReason reason);
 
@@ -40,6 +44,7 @@ struct Reception {
     std::optional<ReopenReason> change;  // InterfaceChanged or MemoryReplaced
     bool is_peer_silent = false;         // since the last look: one that is known to be there
     bool is_peer_missing = false;        // since the last look: one without which nothing moves
+    bool is_unreceived = false;          // since the last look: peers reported, none that it receives this process
     bool may_reopen = false;             // at rest
     std::span<const TopicReception> topics;
 };
@@ -69,6 +74,7 @@ private:
     Ticks peer_absence_;
     std::optional<Tick> silent_since_;
     std::optional<Tick> missing_since_;
+    std::optional<Tick> unreceived_since_;
     std::vector<Topic> topics_;
     int reopened_ = 0;  // times in a row, without hearing all peers in between
     std::optional<Tick> reopened_at_;

@@ -53,6 +53,10 @@ const AxisReceived& AxisNetwork::receive() {
     });
     bus.machine.take([&](MachineState&& m) {
         others_ = m.axes_present & ~axis_bit(axis_);
+        if (m.phase != MachinePhase::Standby) {
+            acknowledged_.is_owner_received = true;
+            acknowledged_.is_received |= has_axis(m.axes_present, axis_);
+        }
         received_.machine.push_back(std::move(m));
     });
     bus.commands.take([&](AxisCommand&& m) { received_.commands.push_back(m); });
@@ -63,7 +67,10 @@ const AxisReceived& AxisNetwork::receive() {
 }
 
 void AxisNetwork::publish(const AxisState& state) {
-    if (AxisLink* const link = link_->get()) { (void)link->bus.state.write(state); }
+    AxisLink* const link = link_->get();
+    if (link == nullptr) { return; }
+    (void)link->bus.state.write(state);
+    acknowledged_.has_published = true;
 }
 
 void AxisNetwork::publish(const AxisHealth& health) {
@@ -76,11 +83,13 @@ Reception AxisNetwork::look(const AxisLink& link, bool at_rest) {
                bus.requests.reception()};
     const AxisSet heard = std::exchange(axes_heard_, 0);
     const bool is_machine_heard = std::exchange(machine_heard_, false);
+    const Acknowledged by = std::exchange(acknowledged_, {});
     const bool is_axis_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(heard)) ||
                                 (is_machine_heard && (others_ & ~heard) != 0);
     return {.change = change_of(bus),
             .is_peer_silent = is_axis_silent || (bus.machine.matched() > 0 && !is_machine_heard),
             .is_peer_missing = !is_machine_heard,
+            .is_unreceived = by.has_published && by.is_owner_received && !by.is_received,
             .may_reopen = at_rest,
             .topics = topics_};
 }

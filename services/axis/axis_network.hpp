@@ -70,6 +70,12 @@ private:
     AxisSet others_ = 0;      // axes that, by the coordinator, are there
     AxisSet axes_heard_ = 0;  // since the last look
     bool machine_heard_ = false;
+    /// Since the last look.
+    struct Acknowledged {
+        bool has_published = false;      // a state
+        bool is_owner_received = false;  // the owner's state was received
+        bool is_received = false;        // and reported that the owner receives this axis
+    } acknowledged_;
     std::vector<TopicReception> topics_;
     std::uint64_t refused_now_ = 0;     // by the link that is open
     std::uint64_t refused_before_ = 0;  // by those before it

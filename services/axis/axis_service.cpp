@@ -1,10 +1,11 @@
 #include "services/axis/axis_service.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <iostream>
 #include <memory>
 
-#include "core/protocol/second_hearing.hpp"
+#include "core/protocol/second_process.hpp"
 #include "services/axis/axis_network.hpp"
 #include "services/axis/axis_node.hpp"
 #include "services/axis/axis_notices.hpp"
@@ -14,12 +15,14 @@
 #include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
 #include "services/flight/flight_recorder.hpp"
+#include "services/flight/stuck_process.hpp"
 #include "services/record/axis_recorder.hpp"
 #include "services/record/own_log.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/host_name.hpp"
 #include "services/runtime/log.hpp"
+#include "services/runtime/loop_watchdog.hpp"
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
@@ -86,6 +89,7 @@ public:
         const AxisOutputs out =
             node_.step(now, {in.frames, in.states, in.machine, in.commands, in.requests, in.exchanges},
                        [this](StepEdge step) { recorder_.step(step); });
+        looped_ = node_.now();
         if (out.state) { network_.publish(*out.state); }
         for (const MachineState& state : in.machine) { recorder_.note_coordinator(state); }
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
@@ -104,12 +108,16 @@ public:
 
     void finish() { recorder_.finish(); }
 
+    /// From another thread, while the loop stands still.
+    [[noreturn]] void end_as_stuck() { end_stuck_process(*flight_log_, looped_, setup_.machine.tick_ns); }
+
 private:
     const AxisReceived& receive() {
         const AxisReceived& in = network_.receive();
-        const bool is_doubled = std::any_of(in.states.begin(), in.states.end(), [&](const AxisState& s) {
+        const Slot slot = rules::slot_of(node_.now(), setup_.machine.slot_ticks());
+        const bool is_doubled = std::ranges::any_of(in.states, [&](const AxisState& s) {
             const bool is_older = s.axis == setup_.axis && s.identity < setup_.identity;
-            return is_older && older_.again(s.identity, s.stamp);  // the process that came first stays
+            return is_older && older_.proves(s.identity, s.stamp, slot);  // the process that came first stays
         });
         if (is_doubled) { end_reason_ = "axis " + own_name() + " is already run by another process"; }
         const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
@@ -201,6 +209,7 @@ private:
     AxisRecorder recorder_;
     PositionKeeper keeper_;
     HealthMeter meter_;
+    std::atomic<Tick> looped_;  // when the loop last ran
     Tick complained_ = clock_.now();
     Tick machine_heard_;
     std::uint64_t refused_ = 0;
@@ -208,7 +217,7 @@ private:
     std::string trouble_;
     bool has_device_ = true;  // as reported
     bool time_differed_ = false;
-    SecondHearing<Identity> older_;  // another process that speaks for this axis
+    SecondProcess older_{setup_.machine.timing};  // another process that speaks for this axis
     std::string end_reason_;
 };
 
@@ -235,10 +244,13 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     ServiceManager manager;
     manager.ready("axis " + machine.axes[axis].name + " of machine " + machine.name);
     PeriodicLoop periodic(loop_period(machine));
+    std::optional<LoopWatchdog> watchdog([&] { service.end_as_stuck(); });
     periodic.run(stop, [&](nanoseconds begun) {
+        watchdog->note_loop();
         manager.alive(begun);
         if (!service.loop(begun, periodic.skipped_periods())) { stop.request(); }
     });
+    watchdog.reset();
     manager.stopping();
     service.finish();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +

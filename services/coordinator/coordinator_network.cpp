@@ -48,6 +48,7 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     bus.healths.take([&](AxisHealth&& m) { received_.healths.push_back(m); });
     bus.states.take([&](AxisState&& m) {
         axes_heard_ |= axis_bit(m.axis);
+        is_owner_received_ = is_owner_received_ || m.hears_owner;
         received_.states.push_back(m);
     });
     bus.other_coordinators.take([&](MachineState&& m) { received_.others.push_back(std::move(m)); });
@@ -71,20 +72,22 @@ void CoordinatorNetwork::publish(const Reply& reply) {
     if (CoordinatorLink* const link = link_->get()) { (void)link->bus.replies.write(reply); }
 }
 
-Reception CoordinatorNetwork::look(const CoordinatorLink& link, bool at_rest) {
+Reception CoordinatorNetwork::look(const CoordinatorLink& link, Duty duty) {
     const CoordinatorBus& bus = link.bus;
     topics_ = {bus.states.reception(), bus.other_coordinators.reception(), bus.commands.reception(),
                bus.chunks.reception()};
     const AxisSet heard = std::exchange(axes_heard_, 0);
+    const bool is_owner_received = std::exchange(is_owner_received_, false);
     return {.change = change_of(bus),
             .is_peer_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(heard)),
             .is_peer_missing = (axes_ & ~heard) != 0,
-            .may_reopen = at_rest,
+            .is_unreceived = duty.owns_machine && heard != 0 && !is_owner_received,
+            .may_reopen = duty.at_rest,
             .topics = topics_};
 }
 
-std::optional<ReopenReason> CoordinatorNetwork::tend(Tick now, bool at_rest) {
-    const auto reason = link_->tend(now, [&](const CoordinatorLink& link) { return look(link, at_rest); });
+std::optional<ReopenReason> CoordinatorNetwork::tend(Tick now, Duty duty) {
+    const auto reason = link_->tend(now, [&](const CoordinatorLink& link) { return look(link, duty); });
     if (reason) { refused_before_ += std::exchange(refused_now_, 0); }
     return reason;
 }

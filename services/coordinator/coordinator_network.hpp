@@ -48,8 +48,12 @@ public:
     void publish(const CoordinatorOutputs& out);
     void publish(const Reply& reply);
 
+    struct Duty {
+        bool at_rest = false;
+        bool owns_machine = false;  // then every axis reports whether it receives this process
+    };
     /// Once in every loop, by the process's own clock. Why the link is being opened anew from now on; only at rest.
-    std::optional<ReopenReason> tend(Tick now, bool at_rest);
+    std::optional<ReopenReason> tend(Tick now, Duty duty);
     /// How often since the process started.
     std::uint64_t reopened() const { return link_->reopened(); }
 
@@ -62,12 +66,13 @@ public:
 private:
     using Link = WatchedLink<CoordinatorLink>;
     CoordinatorNetwork(AxisSet axes, std::unique_ptr<Link> link) : axes_(axes), link_(std::move(link)) {}
-    Reception look(const CoordinatorLink& link, bool at_rest);
+    Reception look(const CoordinatorLink& link, Duty duty);
 
     AxisSet axes_;  // all of the machine
     std::unique_ptr<Link> link_;
     CoordinatorReceived received_;
-    AxisSet axes_heard_ = 0;  // since the last look
+    AxisSet axes_heard_ = 0;          // since the last look
+    bool is_owner_received_ = false;  // since the last look: by an axis
     std::vector<TopicReception> topics_;
     std::uint64_t refused_now_ = 0;     // by the link that is open
     std::uint64_t refused_before_ = 0;  // by those before it

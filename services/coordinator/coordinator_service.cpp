@@ -1,6 +1,7 @@
 #include "services/coordinator/coordinator_service.hpp"
 
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <iostream>
 #include <map>
@@ -13,11 +14,13 @@
 #include "services/coordinator/program_inbox.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/flight/flight_recorder.hpp"
+#include "services/flight/stuck_process.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/own_log.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/log.hpp"
+#include "services/runtime/loop_watchdog.hpp"
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
@@ -53,6 +56,7 @@ public:
     bool loop() {
         const CoordinatorReceived& received = receive();
         const Tick now = clock_.now();
+        looped_ = now;
         if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
         const CoordinatorInputs in{now, received.states, received.others, received.commands};
         CoordinatorOutputs out = coordinator_.step(in);
@@ -72,6 +76,9 @@ public:
     }
 
     void finish() { recorder_.finish(clock_.now()); }
+
+    /// From another thread, while the loop stands still.
+    [[noreturn]] void end_as_stuck() { end_stuck_process(*flight_log_, looped_, machine_.tick_ns); }
 
 private:
     const CoordinatorReceived& receive() {
@@ -99,7 +106,7 @@ private:
     }
 
     void tend_network(Tick now) {
-        const auto reason = network_.tend(now, at_rest());
+        const auto reason = network_.tend(now, {at_rest(), coordinator_.owns_machine()});
         if (!reason) { return; }
         flight_log_->add({.tick = now,
                           .kind = FlightKind::Reopened,
@@ -186,6 +193,7 @@ private:
     UserSignal user_signal_;  // a person asks for what was noted
     JobRecorder recorder_;
     ProgramInbox inbox_;
+    std::atomic<Tick> looped_;  // when the loop last ran
     Tick complained_ = clock_.now();
     AxisSet heard_ = 0;
     std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes heard
@@ -217,11 +225,14 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
     manager.ready("coordinator of machine " + machine.name);
     PeriodicLoop periodic(loop_period(machine));
     bool alone = true;
+    std::optional<LoopWatchdog> watchdog([&] { service.end_as_stuck(); });
     periodic.run(stop, [&](nanoseconds begun) {
+        watchdog->note_loop();
         manager.alive(begun);
         alone = alone && service.loop();
         if (!alone) { stop.request(); }
     });
+    watchdog.reset();
     manager.stopping();
     service.finish();
     log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +

@@ -90,7 +90,7 @@ FlightRing::FlightRing(FlightRing&& other) noexcept
       mapping_(std::move(other.mapping_)),
       slots_(other.slots_),
       events_(other.events_),
-      number_(other.number_) {}
+      number_(other.number_.load()) {}
 
 FlightRing::~FlightRing() {
     if (file_ < 0) { return; }
@@ -99,8 +99,8 @@ FlightRing::~FlightRing() {
 }
 
 void FlightRing::add(const FlightEvent& event) {
-    std::uint64_t* const slot = slots_ + number_ % events_ * EventSlot::kWords;
-    EventSlot::write(slot, ++number_, event);
+    const std::uint64_t before = number_.fetch_add(1, std::memory_order_relaxed);
+    EventSlot::write(slots_ + before % events_ * EventSlot::kWords, before + 1, event);
 }
 
 std::expected<FlightSnapshot, std::string> read_ring(const fs::path& path) {

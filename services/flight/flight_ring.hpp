@@ -5,6 +5,7 @@
 // each with its number before it, which is 0 while it is written. One process writes; any may read at any time.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <expected>
 #include <filesystem>
@@ -29,7 +30,7 @@ public:
     /// The process has ended as it was asked to: the ring goes.
     ~FlightRing();
 
-    /// Never waits, allocates nothing.
+    /// From any thread. Never waits, allocates nothing.
     void add(const FlightEvent& event);
     const std::filesystem::path& path() const { return path_; }
 
@@ -47,7 +48,7 @@ private:
     SharedMapping mapping_;
     std::uint64_t* slots_;
     std::size_t events_;
-    std::uint64_t number_ = 0;
+    std::atomic<std::uint64_t> number_ = 0;
 };
 
 /// Error: it cannot be read, or is no ring of this version.

@@ -62,9 +62,11 @@ void on_trace(void*, const dds_log_data_t* data) {
     if (const auto news = ear.newcomers.hear(monotonic_now(), data->message)) { pass_on(ear, *news); }
 }
 
-/// Without what may be a part of an identity.
+/// Its beginning, without what may be a part of an identity: DDS quotes damaged packets behind it.
 std::string kind_of(std::string message) {
+    constexpr std::size_t kLength = 60;
     std::erase_if(message, [](unsigned char c) { return std::isxdigit(c) || c == ':'; });
+    message.resize(std::min(message.size(), kLength));
     return message;
 }
 

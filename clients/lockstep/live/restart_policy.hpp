@@ -1,28 +1,44 @@
-// How often a process that ended unasked is started again: soon at first, then later, and not for ever. Pure.
+// When a process that ended unasked is started again: soon at first, then later. Pure.
+//
+// A process that ends with an exit code has a reason that may last, so it is given up in the end. One that a signal
+// ended met a fault of the moment: damaged packets, too little memory, a library call that never returned. It is
+// started again as often as that happens.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <deque>
 #include <optional>
 
 namespace lockstep {
 
-inline constexpr std::size_t kMaxRestarts = 5;  // within kRestartWindow
+inline constexpr std::size_t kMaxRestarts = 5;  // after exits, within kRestartWindow
 inline constexpr std::chrono::seconds kRestartWindow{60};
-inline constexpr std::chrono::milliseconds kFirstRestartDelay{200};  // doubles with each restart in the window
+inline constexpr std::chrono::milliseconds kFirstRestartDelay{
+    200};  // doubles with each restart in the window, up to 3.2 s
+
+enum class ProcessEnd { Exit, Signal };
 
 class RestartPolicy {
 public:
     /// The process ended at `now`: how long to wait before it is started again. Nothing: give up.
-    std::optional<std::chrono::milliseconds> after_end(std::chrono::nanoseconds now) {
-        while (!ends_.empty() && now - ends_.front() > kRestartWindow) { ends_.pop_front(); }
-        if (ends_.size() >= kMaxRestarts) { return std::nullopt; }
-        ends_.push_back(now);
+    std::optional<std::chrono::milliseconds> after_end(std::chrono::nanoseconds now, ProcessEnd how) {
+        while (!ends_.empty() && now - ends_.front().time > kRestartWindow) { ends_.pop_front(); }
+        const auto is_exit = [](const End& end) { return end.how == ProcessEnd::Exit; };
+        const bool is_full = ends_.size() >= kMaxRestarts;
+        if (is_full && how == ProcessEnd::Exit && std::ranges::all_of(ends_, is_exit)) { return std::nullopt; }
+        if (is_full) { ends_.pop_front(); }
+        ends_.push_back({now, how});
         return kFirstRestartDelay * (1 << (ends_.size() - 1));
     }
 
 private:
-    std::deque<std::chrono::nanoseconds> ends_;
+    struct End {
+        std::chrono::nanoseconds time;
+        ProcessEnd how;
+    };
+    std::deque<End> ends_;
 };
 
 }  // namespace lockstep

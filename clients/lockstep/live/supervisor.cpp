@@ -121,7 +121,8 @@ void Supervisor::ended(Service& service, int status) {
     service.process.reset();
     const std::string what = service.line.name + " " + how(status);
     if (!is_hopeless(status)) {
-        if (const auto delay = service.policy.after_end(monotonic_now())) {
+        const ProcessEnd end = WIFSIGNALED(status) ? ProcessEnd::Signal : ProcessEnd::Exit;
+        if (const auto delay = service.policy.after_end(monotonic_now(), end)) {
             service.start_at = monotonic_now() + *delay;
             return log_warning(what + "; starts again in " + std::to_string(delay->count()) + " ms");
         }

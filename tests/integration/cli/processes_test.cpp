@@ -1,6 +1,8 @@
 // A machine's processes: who is refused, what is started again, what is never left behind.
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
 
 #include <filesystem>
 #include <fstream>
@@ -47,6 +49,37 @@ TEST_F(Processes, ThatDieAreStartedAgainAndTheirAxisIsUnhomed) {
     ASSERT_TRUE(eventually([&] { return process("axis-Y") != 0 && process("axis-Y") != before; }));
     ASSERT_TRUE(eventually([&] { return status().axes(1).present() && !status().axes(1).homed(); }));
     EXPECT_TRUE(status().axes(0).homed());
+}
+
+/// Stands still in a process's first thread, which runs the loop; the others go on.
+class StoppedLoop {
+public:
+    explicit StoppedLoop(pid_t process) : process_(process) {
+        is_stopped_ = ptrace(PTRACE_SEIZE, process, nullptr, nullptr) == 0 &&
+                      ptrace(PTRACE_INTERRUPT, process, nullptr, nullptr) == 0 && wait(0);
+    }
+    bool is_stopped() const { return is_stopped_; }
+    /// True: the process has ended.
+    bool wait_for_end() const {
+        return eventually([&] { return wait(WNOHANG); });
+    }
+
+private:
+    bool wait(int how) const { return waitpid(process_, nullptr, __WALL | how) == process_; }
+    pid_t process_;
+    bool is_stopped_ = false;
+};
+
+TEST_F(Processes, WhoseLoopStandsStillEndThemselvesAndAreStartedAgain) {
+    bring_up();
+    const pid_t before = process("axis-Y");
+    const StoppedLoop loop(before);
+    ASSERT_TRUE(loop.is_stopped());
+    ASSERT_TRUE(loop.wait_for_end());
+    ASSERT_TRUE(eventually([&] { return process("axis-Y") != 0 && process("axis-Y") != before; }));
+    EXPECT_THAT(text_of_log("axis-Y"), HasSubstr("the loop has not run for 5 s"));
+    EXPECT_THAT(text_of_log("supervisor"), HasSubstr("axis-Y was ended by signal 6"));
+    EXPECT_TRUE(eventually([&] { return status().axes(1).present(); }));
 }
 
 TEST_F(Processes, AreTakenDownAlsoWithoutTheirSupervisor) {

@@ -1,21 +1,14 @@
-// The wire format: OMG DDSI-RTPS 2.2, 8.3 and 9.4. All packets here are little endian, since this host is.
 #include "tests/integration/security/packet_forger.hpp"
 
 #include <cstdint>
 #include <cstring>
 
+#include "tests/integration/security/rtps_packet.hpp"
+
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kRtps = 14 + 20 + 8;
-constexpr std::size_t kGuidPrefix = kRtps + 8;
-constexpr std::size_t kSubmessages = kRtps + 20;
-
 enum Submessage : unsigned char { kAckNack = 0x06, kHeartbeat = 0x07, kGap = 0x08, kData = 0x15 };
-
-bool is_rtps(const std::string& packet) {
-    return packet.size() > kSubmessages && packet.compare(kRtps, 4, "RTPS") == 0;
-}
 
 void put_sequence_number(std::string& packet, std::size_t at, std::uint64_t number) {
     const auto high = static_cast<std::uint32_t>(number >> 32);
@@ -40,11 +33,8 @@ void advance(std::string& packet, std::size_t header, std::uint64_t number) {
 
 }  // namespace
 
-PacketForger::PacketForger(const std::vector<std::string>& packets, unsigned seed) : random_(seed) {
-    for (const std::string& packet : packets) {
-        if (is_rtps(packet)) { packets_.push_back(packet); }
-    }
-}
+PacketForger::PacketForger(const std::vector<std::string>& packets, unsigned seed)
+    : packets_(rtps_packets(packets)), random_(seed) {}
 
 std::string PacketForger::next() {
     std::string packet = packets_[below(packets_.size())];
@@ -59,13 +49,7 @@ std::string PacketForger::next() {
 
 void PacketForger::advance_sequence_numbers(std::string& packet) {
     const std::uint64_t number = (std::uint64_t{1} << (20 + below(42))) + below(1000);
-    for (std::size_t header = kSubmessages; header + 4 <= packet.size();) {
-        std::uint16_t length = 0;
-        std::memcpy(&length, &packet[header + 2], 2);
-        advance(packet, header, number);
-        if (length == 0) { return; }  // the last
-        header += 4U + length;
-    }
+    for (const std::size_t header : submessages_of(packet)) { advance(packet, header, number); }
 }
 
 void PacketForger::change_sender(std::string& packet) {

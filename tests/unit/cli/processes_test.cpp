@@ -50,21 +50,31 @@ TEST(ProcessRecord, WithoutANumberIsOfNone) {
     EXPECT_TRUE(wait_until_gone({{.name = "axis-X"}}, 0ms));
 }
 
-TEST(RestartPolicy, WaitsLongerEachTimeThenGivesUp) {
+TEST(RestartPolicy, WaitsLongerAfterEachExitThenGivesUp) {
     RestartPolicy policy;
-    EXPECT_EQ(policy.after_end(1s), 200ms);
-    EXPECT_EQ(policy.after_end(2s), 400ms);
-    EXPECT_EQ(policy.after_end(3s), 800ms);
-    EXPECT_EQ(policy.after_end(4s), 1600ms);
-    EXPECT_EQ(policy.after_end(5s), 3200ms);
-    EXPECT_EQ(policy.after_end(6s), std::nullopt);
+    EXPECT_EQ(policy.after_end(1s, ProcessEnd::Exit), 200ms);
+    EXPECT_EQ(policy.after_end(2s, ProcessEnd::Exit), 400ms);
+    EXPECT_EQ(policy.after_end(3s, ProcessEnd::Exit), 800ms);
+    EXPECT_EQ(policy.after_end(4s, ProcessEnd::Exit), 1600ms);
+    EXPECT_EQ(policy.after_end(5s, ProcessEnd::Exit), 3200ms);
+    EXPECT_EQ(policy.after_end(6s, ProcessEnd::Exit), std::nullopt);
+}
+
+TEST(RestartPolicy, StartsAProcessThatSignalsEndAgainHoweverOften) {
+    RestartPolicy policy;
+    for (int i = 0; i < 1000; ++i) {
+        const auto delay = policy.after_end(i * 1s, ProcessEnd::Signal);
+        ASSERT_TRUE(delay);
+        EXPECT_LE(*delay, 3200ms);
+    }
+    EXPECT_EQ(policy.after_end(1000s, ProcessEnd::Exit), 3200ms) << "the first exit after many signals";
 }
 
 TEST(RestartPolicy, ForgetsWhatIsLongAgo) {
     RestartPolicy policy;
-    for (int i = 0; i < 5; ++i) { (void)policy.after_end(1s); }
-    EXPECT_EQ(policy.after_end(1s + kRestartWindow), std::nullopt);
-    EXPECT_EQ(policy.after_end(2s + kRestartWindow), 200ms);
+    for (int i = 0; i < 5; ++i) { (void)policy.after_end(1s, ProcessEnd::Exit); }
+    EXPECT_EQ(policy.after_end(1s + kRestartWindow, ProcessEnd::Exit), std::nullopt);
+    EXPECT_EQ(policy.after_end(2s + kRestartWindow, ProcessEnd::Exit), 200ms);
 }
 
 std::vector<std::string> names_of(const std::vector<ServiceLine>& lines) {

@@ -141,6 +141,19 @@ TEST(ReceptionWatch, IsNotDisturbedBySamplesThatWereSentAgain) {
     EXPECT_TRUE(process.reopened.empty());
 }
 
+TEST(ReceptionWatch, ReopensWhenThePeersReportForLongThatTheyDoNotReceiveThisProcess) {
+    Process process;
+    process.run(10);
+    process.found.is_unreceived = true;
+    process.run(2.9);
+    EXPECT_TRUE(process.reopened.empty()) << "they need time to receive a process that has just started";
+    process.run(1);
+    ASSERT_EQ(process.reopened.size(), 1U);
+    EXPECT_EQ(process.reopened[0].second, ReopenReason::NotReceivedByPeers);
+    process.run(3.5);
+    EXPECT_EQ(process.reopened.size(), 2U) << "once more, since it did not help";
+}
+
 TEST(ReceptionWatch, ReopensAtOnceOnAnInterfaceThatHasChanged) {
     Process process;
     process.run(10);

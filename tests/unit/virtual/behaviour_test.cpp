@@ -232,14 +232,47 @@ Tick listen_until_owner(Coordinator& coordinator, const MachineConfig& machine) 
     return now;
 }
 
+/// What a coordinator that has just started decides after it received another owner's states for so many slots, each
+/// `age` slots after it was stamped.
+CoordinatorOutputs meet_owner(Coordinator& coordinator, const MachineConfig& machine, int slots, Slot age) {
+    CoordinatorOutputs out;
+    Tick now{3'000'000};
+    for (int i = 0; i < slots; ++i, now += machine.slot_ticks()) {
+        const MachineState owner{.term = {900, 800}, .stamp = rules::slot_of(now, machine.slot_ticks()) - age};
+        out = coordinator.step({.now = now, .others = {&owner, 1}});
+    }
+    return out;
+}
+
 TEST(Coordinators, WhoHearsAnOwnerBeforeItOwnsAnythingEnds) {
-    Coordinator second(small_machine(), 2'000, 1);
-    const std::vector<MachineState> owner{{.term = {900, 800}, .stamp = 3'000}, {.term = {900, 800}, .stamp = 3'001}};
-    EXPECT_TRUE(second.step({.now = {3'001'000}, .others = owner}).must_quit);
-    Coordinator to_stand_by(small_machine(), 2'000, 1, OnTakeover::Stop);
-    const auto out = to_stand_by.step({.now = {3'001'000}, .others = owner});
+    const MachineConfig machine = small_machine();
+    Coordinator second(machine, 2'000, 1);
+    EXPECT_TRUE(meet_owner(second, machine, SecondProcess::kStatesThatProve, 1).must_quit);
+    Coordinator to_stand_by(machine, 2'000, 1, OnTakeover::Stop);
+    const auto out = meet_owner(to_stand_by, machine, SecondProcess::kStatesThatProve, 1);
     EXPECT_FALSE(out.must_quit);
     EXPECT_EQ(out.state->phase, MachinePhase::Standby);
+}
+
+TEST(Coordinators, StatesOfAnEarlierCoordinatorSentAgainEndNone) {
+    const MachineConfig machine = small_machine();
+    Coordinator second(machine, 2'000, 1);
+    const Slot old = rules::silence_slots(machine.timing) + 1;
+    EXPECT_FALSE(meet_owner(second, machine, 10 * SecondProcess::kStatesThatProve, old).must_quit);
+}
+
+TEST(Coordinators, StatesOfAnEarlierProcessOfAnAxisDoNotReplaceThoseOfTheOneThatRuns) {
+    const MachineConfig machine = small_machine();
+    Coordinator coordinator(machine, 2'000, 1);
+    const Tick now = listen_until_owner(coordinator, machine);
+    const Slot slot = rules::slot_of(now, machine.slot_ticks());
+    const AxisState current{.identity = 9, .stamp = slot, .config_hash = 1};
+    std::vector<AxisState> states{current};
+    for (Slot stamp = slot - 100; stamp < slot; ++stamp) {
+        states.push_back({.identity = 5, .stamp = stamp, .config_hash = 2});
+    }
+    (void)coordinator.step({.now = now, .axes = states});
+    EXPECT_NE(coordinator.phase(), MachinePhase::Fault) << "by the other configuration of the earlier process";
 }
 
 TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {

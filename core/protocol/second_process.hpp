@@ -1,0 +1,40 @@
+// Proof that a second process speaks in this one's place.
+//
+// A process that meets another of the same role must end. But old states may be sent again by somebody, or be damaged,
+// so a state alone proves nothing: a process lives that publishes kStatesThatProve current states in a row.
+#pragma once
+
+#include <optional>
+
+#include "core/protocol/rules.hpp"
+
+namespace lockstep {
+
+class SecondProcess {
+public:
+    static constexpr int kStatesThatProve = 20;
+
+    explicit SecondProcess(const ProtocolTiming& timing) : silence_(rules::silence_slots(timing)) {}
+
+    /// A state that another process stamped, received now. True: that process lives.
+    bool proves(Identity process, Slot stamp, Slot now) {
+        const bool is_current = stamp <= now + rules::kHopSlots && now - stamp <= silence_;
+        if (!is_current) { return is_proved(); }
+        if (process != process_ || stamp - last_ > silence_) { count_ = 0; }
+        if (count_ > 0 && stamp <= last_) { return is_proved(); }
+        process_ = process;
+        last_ = stamp;
+        ++count_;
+        return is_proved();
+    }
+
+private:
+    bool is_proved() const { return count_ >= kStatesThatProve; }
+
+    Slot silence_;
+    Identity process_ = 0;
+    Slot last_ = 0;
+    int count_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,18 @@
+#include "services/flight/stuck_process.hpp"
+
+#include <cstdlib>
+
+#include "services/runtime/log.hpp"
+#include "services/runtime/loop_watchdog.hpp"
+
+namespace lockstep {
+
+void end_stuck_process(FlightLog& flight, Tick now, std::int64_t tick_ns) {
+    const Ticks stood{std::chrono::nanoseconds(kLongestLoop).count() / tick_ns};
+    flight.add({.tick = now + stood, .kind = FlightKind::LoopStuck, .lasts = stood});
+    log_error("the loop has not run for " + std::to_string(kLongestLoop.count()) +
+              " s: a library call does not return; this process ends itself, to be started again");
+    std::abort();
+}
+
+}  // namespace lockstep
