@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "clients/analysis/log_step.hpp"
 #include "clients/analysis/numbers.hpp"
@@ -70,8 +71,9 @@ void RecordEndCheck::saw(RecordKind kind, const std::string& machine, const std:
                          std::int64_t sequence) {
     Counted* counted = of(machine, axis, incarnation);
     if (counted == nullptr) { return; }
-    std::int64_t& there = counted->there[index_of(kind)];
-    there = std::max(there, sequence + 1);
+    const std::size_t of_kind = index_of(kind);
+    std::optional<std::int64_t>& there = counted->there[of_kind];
+    there = std::exchange(counted->is_seen[of_kind], true) ? std::max(*there, sequence + 1) : sequence + 1;
 }
 
 namespace {
@@ -86,6 +88,7 @@ void RecordEndCheck::take(const record_mark_t& mark) {
     if (!is_countable(mark.utime) || !std::ranges::all_of(counts_of(mark), is_message_number)) { return; }
     Counted* counted = of(mark.machine, mark.process, mark.incarnation);
     if (counted == nullptr) { return; }
+    first_us_ = first_us_.value_or(mark.utime);
     if (mark.witness == mark.process) { return hold_to(mark, *counted); }
     newest_us_ = std::max(newest_us_, mark.utime);
     counted->others.push_back(mark);
@@ -96,12 +99,18 @@ void RecordEndCheck::take(const record_mark_t& mark) {
     }
 }
 
+/// Whether what is published behind that mark is published while this log is written.
+bool RecordEndCheck::is_of_this_log(const record_mark_t& mark) const {
+    return mark.witness == mark.process || mark.utime >= *first_us_ + kNoted_us;
+}
+
 void RecordEndCheck::hold_to(const record_mark_t& mark, Counted& counted) {
     newest_us_ = std::max(newest_us_, mark.utime);
     counted.ended = counted.ended || mark.ended != 0;
     counted.marked_us = std::max(counted.marked_us.value_or(mark.utime), mark.utime);
     const auto counts = counts_of(mark);
     for (std::size_t i = 0; i < kKinds; ++i) {
+        if (!counted.there[i] && (counts.at(i) == 0 || is_of_this_log(mark))) { counted.there[i] = counts.at(i); }
         if (counts.at(i) <= counted.published[i]) { continue; }
         counted.published[i] = counts.at(i);
         counted.published_us[i] = mark.utime;
@@ -116,9 +125,9 @@ RecordEnd RecordEndCheck::finish() {
         }
         counted.others.clear();
         for (std::size_t i = 0; i < kKinds; ++i) {
-            if (counted.published[i] <= counted.there[i]) { continue; }
+            if (counted.published[i] <= counted.there[i].value_or(counted.published[i])) { continue; }
             end.missing.push_back(
-                {process, kNumbered.at(i), {counted.there[i], counted.published[i]}, counted.published_us[i]});
+                {process, kNumbered.at(i), {*counted.there[i], counted.published[i]}, counted.published_us[i]});
         }
         if (!counted.ended) { end.open.push_back({process, counted.marked_us}); }
     }

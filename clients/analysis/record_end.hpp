@@ -61,6 +61,8 @@ public:
     /// What one process publishes may be on another's disk sooner than on its own. So in logs that are read while they
     /// are written, others' newest marks prove nothing yet.
     static constexpr std::int64_t kOnItsWay_us = 1'000'000;
+    /// What one process says of another's messages is so old at most when it is written.
+    static constexpr std::int64_t kNoted_us = 300'000;
 
     /// A message with its number is there.
     void saw(RecordKind kind, const std::string& machine, const std::string& axis, std::int64_t incarnation,
@@ -72,7 +74,10 @@ public:
 private:
     static constexpr std::size_t kKinds = 6;
     struct Counted {
-        std::int64_t there[kKinds]{};      // behind the highest number seen, of each kind
+        /// Behind the highest number seen, of each kind. None seen: behind what may have been published before the log
+        /// began; nothing where no mark tells.
+        std::optional<std::int64_t> there[kKinds];
+        bool is_seen[kKinds]{};
         std::int64_t published[kKinds]{};  // by the highest mark
         std::int64_t published_us[kKinds]{};
         std::optional<std::int64_t> marked_us;
@@ -80,9 +85,11 @@ private:
         bool ended = false;
     };
     void hold_to(const record_mark_t& mark, Counted& counted);
+    bool is_of_this_log(const record_mark_t& mark) const;
     Counted* of(const std::string& machine, const std::string& axis, std::int64_t incarnation);
 
     std::map<RecordingProcess, Counted> processes_;
+    std::optional<std::int64_t> first_us_;                               // of the first mark
     std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();  // of all marks
     Counted* last_ = nullptr;                                            // messages of one process come together
     const RecordingProcess* last_process_ = nullptr;

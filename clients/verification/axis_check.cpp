@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "clients/analysis/words.hpp"
@@ -9,6 +10,8 @@
 
 namespace lockstep::verification {
 namespace {
+
+constexpr Tick kBeginning{std::numeric_limits<std::int64_t>::min()};
 
 std::string at_tick(const std::optional<Tick>& tick, const char* otherwise) {
     return tick ? "tick " + std::to_string(tick->value) : otherwise;
@@ -65,12 +68,13 @@ void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
 void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (!findings_.going()) { return; }
     (void)birth_of(batch.incarnation);
+    if (!steps_from_) { steps_from_ = batch.sequence > 0 ? batch.steps.front().tick : kBeginning; }
     std::int64_t count = batch.position_before_steps;
     const ClockStretch time = batch.machine_time();
     for (const StepEdge& step : batch.steps) {
         count += step.direction;
         const SeenStep seen{step, count, batch.incarnation, time.at(step.tick), batch.clock_error};
-        if (!is_before_log(seen)) { waiting_.push_back(seen); }
+        is_before_log(seen) ? void(++before_log_steps_) : waiting_.push_back(seen);
     }
     settle(false);
     if (waiting_.size() > kMaxWaiting) {
@@ -96,6 +100,7 @@ void AxisCheck::on_break(const analysis::Break& what) {
 void AxisCheck::settle(bool log_ended) {
     while (findings_.going()) {
         if (!maker_ && !begin_next_run()) { return; }
+        pass_before_log();
         const SeenStep* seen = waiting_.empty() ? nullptr : &waiting_.front();
         const bool may_be_over = seen != nullptr || log_ended;
         if (seen != nullptr && is_of_older_process(*seen)) {
@@ -110,39 +115,37 @@ void AxisCheck::settle(bool log_ended) {
     }
 }
 
-void AxisCheck::began_before_log(const Run& run) {
-    if (!is_aligned_) {
-        before_log_ = std::max(before_log_.value_or(std::pair{run.incarnation, run.sequence}),
-                               std::pair{run.incarnation, run.sequence});
-    }
+// ---- The beginning -------------------------------------------------------------------------------------------------
+
+void AxisCheck::began_before_log(const Run& run) { before_log_ = {run.incarnation, run.sequence}; }
+
+bool AxisCheck::is_before_log(const Run& run) const {
+    return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
 }
 
-/// Where the log begins later than the process: what it did before its first whole run is left out.
-void AxisCheck::skip_before_log() {
-    const auto is_before = [this](const Run& run) {
-        return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
-    };
-    for (; !is_aligned_ && !runs_.empty() && is_before(runs_.front()); runs_.pop_front()) {
-        begin_behind(runs_.front(), runs_.front().start + runs_.front().ticks());
-    }
-    if (is_aligned_ || runs_.empty()) { return; }
-    is_aligned_ = true;
-    if (begins_ || runs_.front().sequence > 0) { begin_behind(runs_.front(), runs_.front().start); }
-}
-
-/// Steps of that process before that tick are left out.
-void AxisCheck::begin_behind(const Run& run, Tick tick) {
-    begins_ = {run.incarnation, tick};
-    std::erase_if(waiting_, [this](const SeenStep& seen) { return is_before_log(seen); });
-}
-
+/// Of a run whose record is not there: it ended before the log began.
 bool AxisCheck::is_before_log(const SeenStep& seen) const {
-    return begins_ && seen.incarnation == begins_->first && seen.edge.tick < begins_->second;
+    return runs_from_ && seen.incarnation == runs_from_->first && seen.edge.tick < runs_from_->second;
 }
+
+/// Of the first process the log may lack the first runs (run_stream.hpp): their steps are of nothing on record.
+void AxisCheck::leave_out_before_log(const Run& first) {
+    runs_from_ = {first.incarnation, first.start};
+    before_log_steps_ += static_cast<std::int64_t>(
+        std::erase_if(waiting_, [this](const SeenStep& seen) { return is_before_log(seen); }));
+}
+
+/// The first steps of a run that had begun before the log are in none of its messages.
+void AxisCheck::pass_before_log() {
+    if (!is_before_log(maker_->run()) || !steps_from_) { return; }
+    while (maker_->next() != nullptr && maker_->next()->tick < *steps_from_) { pass_step(false); }
+}
+
+// ---- Runs and steps ------------------------------------------------------------------------------------------------
 
 bool AxisCheck::begin_next_run() {
-    skip_before_log();
     if (runs_.empty()) { return false; }
+    if (!last_run_ && runs_.front().sequence > 0) { leave_out_before_log(runs_.front()); }
     maker_.emplace(std::move(runs_.front()));
     runs_.pop_front();
     const Run& run = maker_->run();
@@ -310,15 +313,24 @@ void AxisCheck::differ_unsaid(std::int64_t steps) {
 
 // ---- The end -------------------------------------------------------------------------------------------------------
 
-void AxisCheck::finish(const HasEnded& has_ended) {
+void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     if (findings_.going()) { stream_.finish(); }
     settle(true);
+    while (findings_.going() && maker_ && !steps_from_ && is_before_log(maker_->run())) {
+        end_run();  // it was over before the log began
+        settle(true);
+    }
     while (findings_.going() && maker_ && has_ended(maker_->run().incarnation)) {
         leave_run();
         settle(true);
     }
     if (findings_.going() && !maker_ && !waiting_.empty() && is_left_at_end(has_ended)) { leave_steps(); }
-    if (findings_.going()) { end_of_log(); }
+    if (findings_.going()) { end_of_log(edges); }
+    if (findings_.going() && before_log_steps_ > 0) {
+        findings_.notes.push_back("axis " + name_ + ": " + plural(before_log_steps_, "step") + " before tick " +
+                                  std::to_string(runs_from_->second.value) +
+                                  " are of runs that ended before the log began, and not compared");
+    }
     if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
 }
 
@@ -329,9 +341,19 @@ bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
     return has_ended(of) || (birth_of(of) > 0 && !has_run);
 }
 
-void AxisCheck::end_of_log() {
+void AxisCheck::end_of_log(LogEdges edges) {
     const std::string compared = plural(steps_, "step") + " up to " + at_tick(last_tick_, "there") + " compared";
-    if (maker_) {
+    if (edges.ends_early && maker_) {
+        findings_.cannot_tell("axis " + name_ + ": the log ends before the last steps of " + name_of(maker_->run()) +
+                              "; " + compared);
+    } else if (edges.begins_late && !last_run_ && !waiting_.empty()) {
+        findings_.cannot_tell("axis " + name_ + ": no run of it is in the log, which begins later; " +
+                              plural(static_cast<std::int64_t>(waiting_.size()), "step") + " cannot be compared");
+    } else if (edges.ends_early && !waiting_.empty()) {
+        findings_.cannot_tell("axis " + name_ + ": the log ends before the record of the run that " +
+                              plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +
+                              std::to_string(waiting_.front().edge.tick.value) + " on are of; " + compared);
+    } else if (maker_) {
         const Tick expected = maker_->next()->tick;
         differ("axis " + name_ + ": the log has no more steps, though " + name_of(maker_->run()) +
                    " makes one at tick " + std::to_string(expected.value) + "; " + compared,

@@ -38,6 +38,12 @@ public:
     virtual void on_end() = 0;
 };
 
+/// What of an axis's record may lie outside the log.
+struct LogEdges {
+    bool begins_late = false;  // its process had published before
+    bool ends_early = false;   // it ends so soon behind the newest steps and runs that what belongs to them may follow
+};
+
 class AxisCheck final : public analysis::StepListener {
 public:
     /// What was in motion at a tick of a run, in words.
@@ -63,10 +69,10 @@ public:
     void device_lost() { device_lost_ = true; }
     /// From now on all messages of steps of that process from this number on are in the log.
     void expect_from(std::int64_t incarnation, std::int64_t number) { marked_.try_emplace(incarnation, number); }
-    /// A run that had begun before the log did: not all of its steps are there.
+    /// A run that had begun before the log did: its first steps may not be there. Before it is taken.
     void began_before_log(const Run& run);
     /// Call once, at the end of the log.
-    void finish(const HasEnded& has_ended);
+    void finish(const HasEnded& has_ended, LogEdges edges);
 
     void on_batch(const analysis::StepBatch& batch) override;
     void on_break(const analysis::Break& what) override;
@@ -74,15 +80,16 @@ public:
 private:
     void settle(bool log_ended);
     bool begin_next_run();
-    void skip_before_log();
-    void begin_behind(const Run& run, Tick tick);
+    bool is_before_log(const Run& run) const;
     bool is_before_log(const SeenStep& seen) const;
+    void leave_out_before_log(const Run& first);
+    void pass_before_log();
     void end_run();
     void pass_step(bool is_recorded);
     bool is_cut_here(const SeenStep* seen);
     void compare(const SeenStep& seen);
     void compare_time(const SeenStep& seen, const std::string& step);
-    void end_of_log();
+    void end_of_log(LogEdges edges);
     bool is_left_at_end(const HasEnded& has_ended);
     std::size_t birth_of(std::int64_t incarnation);
     bool is_of_older_process(const SeenStep& seen);
@@ -108,14 +115,14 @@ private:
     std::optional<Run> last_run_;                  // the one before it
     bool device_lost_ = false;                     // since the run before it
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be there
-    std::optional<std::pair<std::int64_t, std::int64_t>>
-        before_log_;  // the last run that began before it: process, number
-    std::optional<std::pair<std::int64_t, Tick>>
-        begins_;                     // the first whole run of a log that begins later: process, start
-    bool is_aligned_ = false;        // the first run compared was begun
-    std::int64_t unsaid_ = 0;        // steps that a process which ended had not said
-    std::int64_t steps_ = 0;         // compared and equal
-    std::optional<Tick> last_tick_;  // of these
+    // Where the log begins later than the process: device's time, and both of that process.
+    std::optional<std::pair<std::int64_t, std::int64_t>> before_log_;  // the last run begun before it: process, number
+    std::optional<std::pair<std::int64_t, Tick>> runs_from_;           // the start of the first run on record
+    std::optional<Tick> steps_from_;                                   // the first step on record
+    std::int64_t before_log_steps_ = 0;                                // on record, of runs that are not
+    std::int64_t unsaid_ = 0;                                          // steps that a process which ended had not said
+    std::int64_t steps_ = 0;                                           // compared and equal
+    std::optional<Tick> last_tick_;                                    // of these
 };
 
 }  // namespace lockstep::verification

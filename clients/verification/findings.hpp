@@ -30,12 +30,17 @@ struct Findings {
     Ticks clock_error;                      // ...which was known within; 0: one clock drives all devices
     std::optional<Difference> difference;   // the first
     std::optional<std::string> unreadable;  // what of the log's documents cannot be understood
+    std::vector<std::string> unknown;       // what cannot be told, since the log does not have it
     std::vector<std::string> notes;
     analysis::RecordEnd end;
 
-    bool is_exact() const { return !difference && end.missing.empty(); }
+    /// Of what the log has, and so much of it that there is something to tell.
+    bool is_exact() const { return !difference && unknown.empty() && end.missing.empty(); }
     /// Nothing is compared behind the first difference.
     bool going() const { return !difference && !unreadable; }
+    void cannot_tell(std::string what) {
+        if (going()) { unknown.push_back(std::move(what)); }
+    }
     void differ(Difference found) {
         if (going()) { difference = std::move(found); }
     }

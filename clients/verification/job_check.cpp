@@ -233,14 +233,7 @@ void JobCheck::break_off(std::size_t axis, const std::string& why) {
 
 void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
     leave_out_before_first_job();
-    if (begins_late_) {
-        findings_.notes.push_back(
-            first_job_
-                ? "the log begins later than the record: exact is meant from job " + std::to_string(*first_job_) +
-                      " on; what was run before is compared with its own record alone"
-                : "the log begins later than the record, and no job begins in it: what was run is compared with "
-                  "its own record alone");
-    }
+    if (begins_late_) { note_beginning(); }
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
     if (!waiting_.empty()) {
         const auto& [axis, run] = waiting_.front();
@@ -250,8 +243,20 @@ void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
     if (!job_ || !findings_.going()) { return; }
     if (at_rest) { return leave_job(has_ended); }
     const auto& last = findings_.last_tick;
-    differ("the log ends before " + job_->label + " does; the steps up to " +
-           (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
+    findings_.cannot_tell("the log ends before " + job_->label + " does; the steps up to " +
+                          (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
+}
+
+void JobCheck::note_beginning() {
+    const std::string late = "the log begins later than the record";
+    if (first_job_) {
+        findings_.notes.push_back(late + ": exact is meant from job " + std::to_string(*first_job_) +
+                                  " on; what was run before is compared with its own record alone");
+    } else if (left_out_ > 0) {
+        findings_.cannot_tell(late + ", and no job begins in it: what was run is compared with its own record alone");
+    } else {
+        findings_.notes.push_back(late + ", and no job begins in it");
+    }
 }
 
 /// A job without an end, though all axes have come to rest, or have ended themselves.
@@ -277,16 +282,25 @@ bool JobCheck::is_before_first_job(const Run& run) const {
 }
 
 /// They count as runs without a plan.
+void JobCheck::leave_out(std::size_t runs) {
+    left_out_ += runs;
+    findings_.local_runs += static_cast<std::int64_t>(runs);
+}
+
 void JobCheck::leave_out_before_first_job() {
     if (!begins_late_) { return; }
     const auto is_out = [&](const auto& waiting) { return is_before_first_job(waiting.second) || !first_epoch_; };
-    findings_.local_runs += static_cast<std::int64_t>(std::erase_if(waiting_, is_out));
+    leave_out(std::erase_if(waiting_, is_out));
 }
 
 void JobCheck::take(const std::string& axis, const Run& run) {
     if (!findings_.going()) { return; }
-    if (is_before_first_job(run)) { return void(++findings_.local_runs); }
+    if (is_before_first_job(run)) { return leave_out(1); }
     if (place(axis, run)) { return; }
+    if (waiting_.size() == kMaxWaiting && begun_.empty()) {  // each job is recorded before its runs
+        begins_late_ = true;
+        leave_out_before_first_job();
+    }
     if (waiting_.size() == kMaxWaiting) { return differ("axis " + axis + ": runs of an unknown epoch", axis, &run); }
     waiting_.emplace_back(axis, run);
 }

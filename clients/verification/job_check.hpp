@@ -95,6 +95,8 @@ private:
     std::string out_of_order(const Progress& axis, const Run& run) const;
     bool is_before_first_job(const Run& run) const;
     void leave_out_before_first_job();
+    void leave_out(std::size_t runs);
+    void note_beginning();
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 
     static constexpr std::size_t kLabelsKept = 16;
@@ -104,6 +106,7 @@ private:
     std::deque<std::pair<std::string, Run>> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     bool begins_late_ = false;
+    std::size_t left_out_ = 0;               // runs of such jobs
     std::optional<std::int64_t> first_job_;  // whose beginning is in the log
     std::optional<Epoch> first_epoch_;       // of a job whose beginning is
     std::optional<Job> job_;

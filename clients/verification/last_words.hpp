@@ -13,6 +13,12 @@ inline constexpr std::int64_t kSilence_us = 500'000;
 struct LastWord {
     std::int64_t incarnation = 0;
     std::int64_t said_us = 0;
+    std::int64_t moved_us = 0;  // when it last published steps or a run
+    bool is_moving = false;     // by its newest position
+    bool said_its_end = false;
+
+    /// Whether the log ends before all can have come that its newest steps and runs come with.
+    bool is_cut() const { return !said_its_end && (is_moving || said_us - moved_us <= kSilence_us); }
 };
 
 /// Of a machine: when anybody was last heard, and when they last told of steps or runs.

@@ -29,9 +29,9 @@ void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     if (!batch) { return on_damage(place, batch.error()); }
     Machine& of = machines_.find(message.machine)->second;
     end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
-    of.begin(message.axis, message.utime, message.sequence == 0);
+    to->begin(message.utime, message.sequence == 0);
     of.hear(*to, message.incarnation, message.utime);
-    of.last.moved_us = of.last.said_us;
+    of.hear_motion(*to);
     to->check.take(std::move(*batch));
 }
 
@@ -42,15 +42,9 @@ void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
     if (!run) { return on_damage(place, run.error()); }
     end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
     Machine& of = machines_.find(message.machine)->second;
-    of.last.moved_us = of.last.said_us;  // it is told of when it is over
-    // None: the run is the axis's first message, as it ended. Messages of one loop carry times that differ a little.
-    const auto first = of.first_us.find(message.axis);
-    const bool is_first = run->sequence > 0 && to->runs.is_empty();
-    if (is_first) { of.jobs.begins_late(); }
-    if (first == of.first_us.end() && run->sequence > 0) { of.late.insert(message.axis); }
-    if (of.late.contains(message.axis) && (first == of.first_us.end() || message.utime < first->second + kSilence_us)) {
-        to->check.began_before_log(*run);
-    }
+    of.hear_motion(*to);
+    if (run->sequence > 0 && to->runs.is_empty()) { of.jobs.begins_late(); }
+    if (to->began_before_log(message)) { to->check.began_before_log(*run); }
     to->runs.take(std::move(*run));
 }
 
@@ -75,7 +69,8 @@ void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     }
     Axis* of = axis(message.machine, message.process, place);
     if (of == nullptr) { return; }
-    machines_.find(message.machine)->second.begin(message.process, message.utime, message.positions == 0);
+    of->begin(message.utime, message.positions == 0);
+    of->last.said_its_end = message.ended != 0;
     of->runs.expect_from(message.incarnation, message.runs);
     of->check.expect_from(message.incarnation, message.steps);
 }
@@ -98,8 +93,8 @@ void LogCheck::note_beginning(Machine& machine, const job_t& message) {
 /// Of axes that have moved.
 void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace place) {
     if (analysis::is_countable(message.utime)) {
-        Machine* of = machine(message.machine, place);
-        if (of != nullptr) { of->begin(message.axis, message.utime, message.sequence == 0); }
+        Axis* of = axis(message.machine, message.axis, place);
+        if (of != nullptr) { of->begin(message.utime, message.sequence == 0); }
     }
     if (analysis::is_message_number(message.sequence)) {
         end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
@@ -109,6 +104,7 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     const auto said = of->second.axes.find(message.axis);
     if (said == of->second.axes.end()) { return; }
     of->second.hear(*said->second, message.incarnation, message.utime);
+    said->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { said->second->check.device_lost(); }
 }
 
@@ -162,15 +158,33 @@ LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::strin
     return found.get();
 }
 
-void LogCheck::Machine::begin(const std::string& axis, std::int64_t utime, bool is_its_first) {
-    const bool is_new = first_us.try_emplace(axis, utime).second;
-    if (is_new && !is_its_first) { late.insert(axis); }
+void LogCheck::Axis::begin(std::int64_t utime, bool is_its_first) {
+    if (first_us || !analysis::is_countable(utime)) { return; }
+    first_us = utime;
+    is_late = !is_its_first;
+}
+
+/// A run is published when it is over, with the time of its start. None is the first that a process publishes.
+bool LogCheck::Axis::began_before_log(const run_t& message) const {
+    return is_late && (!first_us || message.utime < *first_us + kStall_us);
 }
 
 void LogCheck::Machine::hear(Axis& axis, std::int64_t incarnation, std::int64_t utime) {
     if (!analysis::is_countable(utime)) { return; }
-    axis.last = {incarnation, utime};
+    axis.last.incarnation = incarnation;
+    axis.last.said_us = utime;
     last.said_us = utime;
+}
+
+/// A run is told of when it is over, with an older time.
+void LogCheck::Machine::hear_motion(Axis& axis) {
+    axis.last.moved_us = axis.last.said_us;
+    last.moved_us = last.said_us;
+}
+
+bool LogCheck::Machine::are_at_rest() const {
+    return last.are_at_rest() &&
+           std::ranges::none_of(axes, [](const auto& axis) { return axis.second->last.is_moving; });
 }
 
 /// One that said nothing is at its end as well.
@@ -181,9 +195,10 @@ bool LogCheck::Machine::has_ended(const std::string& axis) const {
 
 void LogCheck::Machine::finish() {
     for (auto& [name, axis] : axes) { axis->runs.finish(); }
-    jobs.finish(last.are_at_rest(), [this](const std::string& axis) { return has_ended(axis); });
+    jobs.finish(are_at_rest(), [this](const std::string& axis) { return has_ended(axis); });
     for (auto& [name, axis] : axes) {
-        axis->check.finish([&](std::int64_t incarnation) { return last.has_ended(axis->last, incarnation); });
+        axis->check.finish([&](std::int64_t incarnation) { return last.has_ended(axis->last, incarnation); },
+                           {.begins_late = axis->is_late, .ends_early = axis->last.is_cut()});
     }
 }
 

@@ -44,8 +44,17 @@ private:
     static constexpr std::size_t kMaxMachines = 64;
     static constexpr std::size_t kDamagesNoted = 5;
 
+    /// A process may stand still for so long between what it notes and what it publishes.
+    static constexpr std::int64_t kStall_us = 100'000;
+
     struct Axis {
         Axis(const std::string& name, Findings& findings, JobCheck* jobs);
+        /// A message of its own has come, with the time at which it was published; `is_its_first`: of those of its
+        /// kind.
+        void begin(std::int64_t utime, bool is_its_first);
+        bool began_before_log(const run_t& message) const;
+        std::optional<std::int64_t> first_us;  // when it was heard first
+        bool is_late = true;                   // the log lacks what it published first
         LastWord last;
         std::unique_ptr<RunFollower> follower;
         AxisCheck check;
@@ -55,15 +64,13 @@ private:
         explicit Machine(Findings& findings) : jobs(findings) {}
         bool has_ended(const std::string& axis) const;
         void hear(Axis& axis, std::int64_t incarnation, std::int64_t utime);
+        void hear_motion(Axis& axis);
+        bool are_at_rest() const;
         void finish();
         JobCheck jobs;
         LastWords last;
         analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
-        /// An axis's message has come; `is_its_first`: of those that its process numbers.
-        void begin(const std::string& axis, std::int64_t utime, bool is_its_first);
-        std::set<std::string> late;                        // axes of which the log lacks what they did first
-        std::map<std::string, std::int64_t> first_us;      // when an axis was heard first
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log
         bool has_jobs = false;
     };

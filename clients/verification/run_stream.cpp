@@ -26,8 +26,9 @@ void RunStream::take(Run run) {
 void RunStream::tell(std::size_t patience) {
     while (!waiting_.empty()) {
         const std::int64_t first = waiting_.begin()->first;
-        if (first != expected_.value_or(0) && waiting_.size() <= patience) { return; }
-        if (expected_ && first != *expected_) { on_missing_(*expected_, first); }
+        const bool is_next = !expected_ || first == *expected_;
+        if (!is_next && waiting_.size() <= patience) { return; }
+        if (!is_next) { on_missing_(*expected_, first); }
         expected_ = first + 1;
         on_run_(waiting_.extract(waiting_.begin()).mapped());
     }

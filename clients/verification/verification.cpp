@@ -47,6 +47,7 @@ proto::VerifyReport to_report(const Findings& findings) {
     if (findings.difference) { fill(*findings.difference, *report.mutable_first_difference()); }
     for (const std::string& note : findings.notes) { report.add_notes(note); }
     for (const std::string& line : analysis::missing_sentences(findings.end)) { report.add_missing_at_end(line); }
+    for (const std::string& line : findings.unknown) { report.add_missing_at_end(line); }
     return report;
 }
 
@@ -58,12 +59,17 @@ std::string to_text(const Findings& findings) {
             text += "  in motion: " + findings.difference->commanded + "\n";
         }
         text += "  compared before that and equal: " + counted(findings) + "\n";
+    } else if (findings.end.missing.empty() && !findings.unknown.empty()) {
+        text =
+            "unknown: not all of it is in the log; what the log has is what the programs give: " + counted(findings) +
+            "\n";
     } else if (!findings.end.missing.empty()) {
         text = "not exact: the log lacks the end of the record; what it has is what the programs give: " +
                counted(findings) + "\n";
     } else {
         text = "exact: " + counted(findings) + " are what the programs give, tick for tick\n";
     }
+    for (const std::string& line : findings.unknown) { text += "  unknown: " + line + "\n"; }
     for (const std::string& line : analysis::missing_sentences(findings.end)) { text += "  missing: " + line + "\n"; }
     if (!findings.end.missing.empty()) { text += "  note: " + std::string(analysis::kWhereTheRestIs) + "\n"; }
     for (const std::string& note : findings.notes) { text += "  note: " + note + "\n"; }

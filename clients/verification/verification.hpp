@@ -10,6 +10,9 @@
 // the plan allows it: its frames to come, and the tail of each; a note says which it was, and what is not on record. A
 // job without an end is held to its plan as far as it was run, if the axes have come to rest by then.
 //
+// A log may begin late and end early, at any message. What it has is compared: steps from the first message of steps
+// on, frames from the first job on that begins in it. Where it lacks what an answer needs, the answer is unknown.
+//
 // The log is read once, in memory that depends on the programs and not on the log's length.
 #pragma once
 

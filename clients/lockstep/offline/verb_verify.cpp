@@ -43,7 +43,10 @@ void add_verify(CLI::App& app, Action& action) {
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         "What a killed process left is held to all that the plan allows it; notes say what is not on record.\n"
-        "Exit 0: exact. 1: not exact; the first difference is said. 2: not a log, or nothing in it.\n" +
+        "A log that begins late or ends early is exact in what it has; where that does not suffice, it is unknown.\n"
+        "Exit 0: exact. 1: not exact, with the first difference; or unknown, with what the log lacks. 2: not a log, "
+        "or\n"
+        "nothing in it.\n" +
         footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n"));
     verb->callback([&action, options] { action = [options] { return verify(*options); }; });
 }

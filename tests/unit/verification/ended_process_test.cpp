@@ -72,7 +72,7 @@ TEST_F(EndedProcess, StepsThatLackTheirRunAreThoseOfThePlan) {
     check.take(frame(1));
     check.take(said(frame(2), 30));
     another_process_moves();
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 2 * kSteps + 30);
     EXPECT_THAT(notes(), HasSubstr("axis Y: 30 steps from tick"));
@@ -87,7 +87,7 @@ TEST_F(EndedProcess, StepsThatLackTheirRunAndAreNotThoseOfThePlanAreADifference)
     batch.steps[20].tick += Ticks{1};
     check.take(batch);
     another_process_moves();
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     ASSERT_TRUE(findings.difference);
     EXPECT_THAT(findings.difference->text, HasSubstr("they are not as planned"));
     EXPECT_EQ(findings.difference->tick_expected, batch.steps[20].tick - Ticks{1});
@@ -102,7 +102,7 @@ TEST_F(EndedProcess, TheStepsTellWhichOfThePlansCoursesWasTaken) {
     check.take(said(frame(2), kSteps));
     check.take(said(frame(3), 20));
     another_process_moves();
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 3 * kSteps + 20);
     EXPECT_THAT(notes(), HasSubstr("they are as planned: frame 2, frame 3; of their course at least 80 steps"));
@@ -113,7 +113,7 @@ TEST_F(EndedProcess, WhereTooFewStepsTellNoCourseIsNamedAlone) {
     check.take(said(frame(1), kSteps));
     check.take(frame(1));
     check.take(said(frame(2), 30));
-    check.finish([](std::int64_t) { return true; });
+    check.finish([](std::int64_t) { return true; }, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_THAT(notes(),
                 HasSubstr("they are as planned: tail of frame 1 or frame 2; of their course at least 20 steps"));
@@ -130,7 +130,7 @@ TEST_F(EndedProcess, StepsThatTheNextOneFoundInTheDeviceAreOfThePlanToo) {
     found.position_before_steps += 40;
     found.steps.erase(found.steps.begin(), found.steps.begin() + 40);
     check.take(found);
-    check.finish([](std::int64_t incarnation) { return incarnation == 7; });
+    check.finish([](std::int64_t incarnation) { return incarnation == 7; }, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, kSteps + 30 + 60);
     EXPECT_THAT(notes(), HasSubstr("90 steps from tick"));
@@ -140,7 +140,7 @@ TEST_F(EndedProcess, StepsThatTheNextOneFoundInTheDeviceAreOfThePlanToo) {
 TEST_F(EndedProcess, StepsOfAnOwnMoveThatLackTheirRunAreSaid) {
     check.take(said(frame(1), 30));
     another_process_moves();
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     EXPECT_FALSE(findings.difference);
     EXPECT_EQ(findings.steps, kSteps);
     EXPECT_THAT(notes(), HasSubstr("30 steps from tick"));
@@ -151,7 +151,7 @@ TEST_F(EndedProcess, StepsThatItDidNotComeToSayAreCounted) {
     check.take(said(frame(1), 60));
     check.take(frame(1));
     another_process_moves();
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 60 + kSteps);
     EXPECT_THAT(notes(), HasSubstr("axis Y: 40 steps after tick"));
@@ -161,7 +161,7 @@ TEST_F(EndedProcess, StepsThatItDidNotComeToSayAreCounted) {
 TEST_F(EndedProcess, NoProcessHoldsMoreStepsThanAMessageTakes) {
     for (std::int64_t number = 1; number <= 21; ++number) { check.take(frame(number)); }
     another_process_moves();
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     ASSERT_TRUE(findings.difference);
     EXPECT_THAT(findings.difference->text, HasSubstr("2100 steps after"));
 }
@@ -169,7 +169,7 @@ TEST_F(EndedProcess, NoProcessHoldsMoreStepsThanAMessageTakes) {
 TEST_F(EndedProcess, WithoutAnotherBehindItNothingExcusesAMissingStep) {
     check.take(said(frame(1), 60));
     check.take(frame(1));
-    check.finish(nobody_ended);
+    check.finish(nobody_ended, {});
     EXPECT_TRUE(findings.difference);
 }
 
