@@ -18,7 +18,7 @@ constexpr AxisSet axis_bit(std::size_t axis) { return AxisSet{1} << axis; }
 constexpr bool has_axis(AxisSet axes, std::size_t axis) { return (axes >> axis & 1) != 0; }
 constexpr AxisSet all_axes(std::size_t count) { return count == 0 ? 0 : ~AxisSet{0} >> (kMaxAxes - count); }
 
-/// How the steps of an axis's own moves are made (core/stepgen): homing, and moves from point to point by itself.
+/// How the steps of an axis's own moves are made (core/methods): homing, and moves from point to point by itself.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
 
 /// Where machine time comes from (core/clock). Shared: all processes read one host's clock. Network: axes estimate the

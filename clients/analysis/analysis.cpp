@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "clients/analysis/figures.hpp"
-#include "clients/analysis/late_meter.hpp"
+#include "clients/analysis/measure/late_meter.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "clients/analysis/recorder.hpp"
 #include "clients/analysis/sorter.hpp"

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
-#include "clients/analysis/damage.hpp"
 #include "clients/analysis/event_log.hpp"
-#include "clients/analysis/job_moves.hpp"
-#include "clients/analysis/record_end.hpp"
-#include "clients/analysis/skew.hpp"
+#include "clients/analysis/log/damage.hpp"
+#include "clients/analysis/log/record_end.hpp"
+#include "clients/analysis/measure/job_moves.hpp"
+#include "clients/analysis/measure/skew.hpp"
 #include "clients/drawing/svg.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"

@@ -9,13 +9,13 @@
 #include <span>
 #include <string>
 
-#include "clients/analysis/axis_statistics.hpp"
 #include "clients/analysis/csv.hpp"
-#include "clients/analysis/lateness.hpp"
-#include "clients/analysis/message_numbers.hpp"
-#include "clients/analysis/step_stream.hpp"
-#include "clients/analysis/tick_histogram.hpp"
-#include "clients/analysis/trace.hpp"
+#include "clients/analysis/log/message_numbers.hpp"
+#include "clients/analysis/log/step_stream.hpp"
+#include "clients/analysis/measure/axis_statistics.hpp"
+#include "clients/analysis/measure/lateness.hpp"
+#include "clients/analysis/measure/tick_histogram.hpp"
+#include "clients/analysis/measure/trace.hpp"
 
 namespace lockstep::analysis {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/log/step_stream.hpp"
 
 namespace lockstep::analysis {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/run.hpp"
+#include "clients/analysis/log/run.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::analysis {

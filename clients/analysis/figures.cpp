@@ -5,7 +5,7 @@
 #include "clients/analysis/curves.hpp"
 #include "clients/analysis/words.hpp"
 #include "clients/drawing/motion_figures.hpp"
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "clients/analysis/log/program_parts.hpp"
+#include "clients/analysis/log/run.hpp"
 #include "clients/analysis/plane_path.hpp"
-#include "clients/analysis/program_parts.hpp"
-#include "clients/analysis/run.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep::analysis {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/move_meter.hpp"
-#include "clients/analysis/sorted_log.hpp"
+#include "clients/analysis/measure/move_meter.hpp"
+#include "clients/analysis/measure/sorted_log.hpp"
+#include "clients/analysis/measure/step_merge.hpp"
 #include "clients/analysis/sorter.hpp"
-#include "clients/analysis/step_merge.hpp"
 
 namespace lockstep::analysis {
 

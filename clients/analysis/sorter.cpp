@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "clients/analysis/log_step.hpp"
+#include "clients/analysis/log/log_step.hpp"
 #include "services/documents/names.hpp"
 
 namespace lockstep::analysis {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/log_read.hpp"
-#include "clients/analysis/message_numbers.hpp"
-#include "clients/analysis/record_end.hpp"
-#include "clients/analysis/sorted_log.hpp"
+#include "clients/analysis/log/log_read.hpp"
+#include "clients/analysis/log/message_numbers.hpp"
+#include "clients/analysis/log/record_end.hpp"
+#include "clients/analysis/measure/sorted_log.hpp"
 
 namespace lockstep::analysis {
 

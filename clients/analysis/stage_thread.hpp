@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "clients/analysis/sorted_log.hpp"
+#include "clients/analysis/measure/sorted_log.hpp"
 
 namespace lockstep::analysis {
 

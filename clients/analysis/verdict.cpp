@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "clients/analysis/numbers.hpp"
 #include "clients/analysis/words.hpp"
+#include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
 
 namespace lockstep::analysis {

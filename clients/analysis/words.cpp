@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "clients/analysis/numbers.hpp"
 #include "clients/analysis/verdict.hpp"
+#include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
 
 namespace lockstep::analysis {

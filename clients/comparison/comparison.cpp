@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clients/analysis/speed_meter.hpp"
+#include "clients/analysis/measure/speed_meter.hpp"
 
 namespace lockstep::comparison {
 namespace {

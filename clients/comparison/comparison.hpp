@@ -1,7 +1,7 @@
 // One move through the published methods of step generation, and what came of it against the continuous ideal.
 //
 // Errors are step times minus the ideal's, in us, each in the method's own convention of where a step falls. Peaks are
-// measured from the steps as `lockstep analyze` measures them (clients/analysis/speed_meter.hpp), in whole us.
+// measured from the steps as `lockstep analyze` measures them (clients/analysis/measure/speed_meter.hpp), in whole us.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "clients/comparison/lines.hpp"
-#include "core/stepgen/ideal.hpp"
-#include "core/stepgen/methods.hpp"
+#include "core/methods/ideal.hpp"
+#include "core/methods/methods.hpp"
 
 namespace lockstep::comparison {
 

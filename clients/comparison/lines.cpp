@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/stepgen/lai.hpp"
+#include "core/methods/lai/lai.hpp"
 
 namespace lockstep::comparison {
 namespace {

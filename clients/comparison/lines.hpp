@@ -2,12 +2,12 @@
 //
 // Source: Lai, Chien, Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives Design", Figs.
 // 14 and 15: at most four pulses per period of 6.5 ms, one more or fewer each period, both compensations on, the short
-// axis rounded from the start (core/stepgen/lai_planner.hpp). A unit is 100 pulses.
+// axis rounded from the start (core/methods/lai/lai_planner.hpp). A unit is 100 pulses.
 #pragma once
 
 #include <vector>
 
-#include "core/stepgen/lai_dda.hpp"
+#include "core/methods/lai/lai_dda.hpp"
 
 namespace lockstep::comparison {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/stepgen/method.hpp"
+#include "core/methods/method.hpp"
 
 namespace lockstep::comparison {
 

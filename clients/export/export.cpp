@@ -3,11 +3,11 @@
 #include <memory>
 #include <utility>
 
-#include "clients/analysis/log_read.hpp"
-#include "clients/analysis/log_step.hpp"
+#include "clients/analysis/log/log_read.hpp"
+#include "clients/analysis/log/log_step.hpp"
 #include "clients/export/csv_table.hpp"
 #include "clients/export/mcap_file.hpp"
-#include "services/documents/unfinished_file.hpp"
+#include "services/files/unfinished_file.hpp"
 
 namespace lockstep::exporting {
 namespace {

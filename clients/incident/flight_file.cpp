@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "services/documents/machine_file.hpp"
-#include "services/wire/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep::incident {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/damage.hpp"
+#include "clients/analysis/log/damage.hpp"
 #include "services/flight/flight_messages.hpp"
 
 namespace lockstep::incident {

@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/text/voice.hpp"
 
 namespace {
 

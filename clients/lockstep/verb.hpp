@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "clients/lockstep/exit_code.hpp"
+#include "clients/text/exit_code.hpp"
 
 namespace CLI {
 class App;

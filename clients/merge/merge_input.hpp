@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/damage.hpp"
+#include "clients/analysis/log/damage.hpp"
 #include "clients/merge/message_id.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep::merge {
 

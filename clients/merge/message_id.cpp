@@ -1,8 +1,8 @@
 #include "clients/merge/message_id.hpp"
 
-#include "clients/analysis/log_step.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_decode.hpp"
+#include "clients/analysis/log/log_step.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep::merge {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep::merge {
 

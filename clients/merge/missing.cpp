@@ -1,7 +1,7 @@
 #include "clients/merge/missing.hpp"
 
-#include "clients/analysis/log_step.hpp"
-#include "services/wire/lcm_decode.hpp"
+#include "clients/analysis/log/log_step.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep::merge {
 

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/number_set.hpp"
-#include "clients/analysis/record_end.hpp"
-#include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/log/number_set.hpp"
+#include "clients/analysis/log/record_end.hpp"
+#include "clients/analysis/log/step_stream.hpp"
 #include "clients/merge/message_id.hpp"
-#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
 
 namespace lockstep::merge {
 

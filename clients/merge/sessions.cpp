@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "clients/analysis/record_end.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "clients/analysis/log/record_end.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep::merge {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "clients/analysis/numbers.hpp"
 #include "clients/merge/report.hpp"
+#include "clients/text/numbers.hpp"
 
 namespace lockstep::merge {
 namespace {

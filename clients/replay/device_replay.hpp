@@ -13,7 +13,7 @@
 #include <string>
 
 #include "clients/verification/axis_check.hpp"
-#include "core/axis/device.hpp"
+#include "core/axis/device/device.hpp"
 
 namespace lockstep::replay {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "clients/analysis/numbers.hpp"
 #include "clients/replay/device_replay.hpp"
 #include "clients/replay/replayed_log.hpp"
+#include "clients/text/numbers.hpp"
 #include "clients/verification/log_check.hpp"
 #include "clients/verification/verification.hpp"
 

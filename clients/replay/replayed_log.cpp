@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
 
 namespace lockstep::replay {
 

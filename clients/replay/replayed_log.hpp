@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "clients/analysis/log_read.hpp"
+#include "clients/analysis/log/log_read.hpp"
 #include "clients/replay/device_replay.hpp"
 #include "services/record/record_sink.hpp"
-#include "services/wire/step_batcher.hpp"
+#include "services/record/step_batcher.hpp"
 
 namespace lockstep::replay {
 

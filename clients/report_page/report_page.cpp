@@ -10,7 +10,7 @@
 #include "clients/report_page/page_parts.hpp"
 #include "clients/report_page/page_template.hpp"
 #include "services/documents/report_json.hpp"
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep::analysis {
 namespace {

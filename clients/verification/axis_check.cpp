@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "clients/analysis/words.hpp"
-#include "services/wire/step_batcher.hpp"
+#include "services/record/step_batcher.hpp"
 
 namespace lockstep::verification {
 namespace {

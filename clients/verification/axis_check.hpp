@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/run.hpp"
-#include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/log/run.hpp"
+#include "clients/analysis/log/step_stream.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/left_steps.hpp"
 #include "clients/verification/seen_step.hpp"

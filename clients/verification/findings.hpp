@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/record_end.hpp"
+#include "clients/analysis/log/record_end.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::verification {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "clients/analysis/program_parts.hpp"
+#include "clients/analysis/log/program_parts.hpp"
 #include "clients/verification/run_difference.hpp"
 #include "services/documents/machine_file.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/run.hpp"
+#include "clients/analysis/log/run.hpp"
 #include "clients/verification/epoch_replay.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/job_replay.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/run.hpp"
+#include "clients/analysis/log/run.hpp"
 #include "clients/verification/seen_step.hpp"
 
 namespace lockstep::verification {

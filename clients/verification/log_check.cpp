@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clients/analysis/log_step.hpp"
+#include "clients/analysis/log/log_step.hpp"
 #include "clients/analysis/words.hpp"
 #include "core/faults.hpp"
 

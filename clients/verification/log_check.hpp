@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "clients/analysis/log_read.hpp"
-#include "clients/analysis/message_numbers.hpp"
+#include "clients/analysis/log/log_read.hpp"
+#include "clients/analysis/log/message_numbers.hpp"
 #include "clients/verification/axis_check.hpp"
 #include "clients/verification/job_check.hpp"
 #include "clients/verification/last_words.hpp"

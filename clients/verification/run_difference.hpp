@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/analysis/run.hpp"
+#include "clients/analysis/log/run.hpp"
 
 namespace lockstep::verification {
 
@@ -24,9 +24,9 @@ std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen);
 /// rates of clocks, with some reserve.
 inline constexpr double kMostStretch = 2e-3;
 
-/// For a device with a clock of its own, whose run is `planned` retimed (core/axis/retime.hpp): commanded for the very
-/// times planned, at the end of each piece where the plan is within two ticks of it, at both ends of the run bit for
-/// bit, and of a length that clocks can differ by. `joins`: when the run before it ended, by the same clock.
+/// For a device with a clock of its own, whose run is `planned` retimed (core/axis/device/retime.hpp): commanded for
+/// the very times planned, at the end of each piece where the plan is within two ticks of it, at both ends of the run
+/// bit for bit, and of a length that clocks can differ by. `joins`: when the run before it ended, by the same clock.
 std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins);
 
 }  // namespace lockstep::verification

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "clients/analysis/run.hpp"
+#include "clients/analysis/log/run.hpp"
 
 namespace lockstep::verification {
 

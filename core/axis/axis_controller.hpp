@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "core/axis/device.hpp"
+#include "core/axis/device/device.hpp"
+#include "core/axis/device/position_claim.hpp"
+#include "core/axis/following/setpoint_follower.hpp"
 #include "core/axis/fsm.hpp"
-#include "core/axis/homing.hpp"
-#include "core/axis/own_move.hpp"
-#include "core/axis/position_claim.hpp"
-#include "core/axis/setpoint_follower.hpp"
+#include "core/axis/own_moves/homing.hpp"
+#include "core/axis/own_moves/own_move.hpp"
 #include "core/clock/clock_view.hpp"
 #include "core/protocol/client_memory.hpp"
 #include "core/protocol/second_hearing.hpp"

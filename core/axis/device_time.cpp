@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/axis/retime.hpp"
+#include "core/axis/device/retime.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,8 +4,8 @@
 // the network there are three clocks: the coordinator's (machine time), this process's, and the device's. The first is
 // estimated from exchanges of messages, the last from looks at the device; their rates and offsets may change at any
 // time, so each frame's end is mapped anew when the frame is loaded, and its start is where the frame before ended.
-// What has changed between two loads is made up for within the axis's limits (core/axis/frame_pace.hpp); what is left
-// counts as error until then.
+// What has changed between two loads is made up for within the axis's limits (core/axis/device/frame_pace.hpp); what is
+// left counts as error until then.
 //
 // An axis's own moves are not coordinated: they keep the device's ticks, so that each step is made at its method's own
 // tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time, with what it is
@@ -16,8 +16,8 @@
 #include <optional>
 
 #include "core/axis/axis_controller.hpp"
-#include "core/axis/device.hpp"
-#include "core/axis/frame_pace.hpp"
+#include "core/axis/device/device.hpp"
+#include "core/axis/device/frame_pace.hpp"
 #include "core/clock/machine_time.hpp"
 
 namespace lockstep {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/axis/own_pieces.hpp"
+#include "core/axis/own_moves/own_pieces.hpp"
 #include "core/coordinator/coordinator.hpp"
-#include "core/stepgen/ideal.hpp"
-#include "core/stepgen/suits.hpp"
+#include "core/methods/ideal.hpp"
+#include "core/methods/suits.hpp"
 
 namespace lockstep {
 

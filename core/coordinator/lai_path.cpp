@@ -5,9 +5,9 @@
 #include <optional>
 #include <tuple>
 
-#include "core/stepgen/lai_dda.hpp"
-#include "core/stepgen/lai_planner.hpp"
-#include "core/stepgen/number_text.hpp"
+#include "core/methods/lai/lai_dda.hpp"
+#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/number_text.hpp"
 
 namespace lockstep {
 namespace {

@@ -3,9 +3,10 @@
 // Where boards have clocks of their own (TimeSource::Network) frames are planned in machine time and made in the
 // device's, and there the axis's limits hold at every step. The two rates differ by ClockEstimator::kMaxRate at most,
 // and while a correction lasts by MachineTime::kMaxSlew more: 700 ppm in all. A correction that begins or ends is a
-// change of speed, made with kCorrectionShare of the axis's acceleration (core/axis/frame_pace.hpp). So the planner
-// keeps the reserves below, and an axis refuses frames that do not: plan, frame check, steps and their analysis go by
-// the same limits. Everywhere else, and in an axis's own moves, which keep the device's ticks, the reserves are 0.
+// change of speed, made with kCorrectionShare of the axis's acceleration (core/axis/device/frame_pace.hpp). So the
+// planner keeps the reserves below, and an axis refuses frames that do not: plan, frame check, steps and their analysis
+// go by the same limits. Everywhere else, and in an axis's own moves, which keep the device's ticks, the reserves are
+// 0.
 #pragma once
 
 #include <vector>

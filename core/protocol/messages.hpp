@@ -45,7 +45,7 @@ inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the p
 inline constexpr std::size_t kMaxTailPieces = 60;   // the planner keeps stops short enough
 
 /// One axis's share of a frame. The tail starts where the body ends. An axis may need a piece more for its device
-/// (core/axis/retime.hpp).
+/// (core/axis/device/retime.hpp).
 struct AxisTrack {
     Position from;
     StaticVector<Piece, kMaxBodyPieces + 1> body;

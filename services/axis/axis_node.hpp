@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/axis/axis_controller.hpp"
+#include "core/axis/device/device_watch.hpp"
 #include "core/axis/device_time.hpp"
-#include "core/axis/device_watch.hpp"
 #include "core/axis/health_meter.hpp"
 #include "core/flight/axis_flight.hpp"
 #include "services/axis/device_driver.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "core/axis/device.hpp"
+#include "core/axis/device/device.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {

@@ -5,9 +5,9 @@
 
 #include <utility>
 
-#include "services/documents/position_document.hpp"
-#include "services/documents/text_file.hpp"
-#include "services/runtime/directories.hpp"
+#include "services/axis/position_document.hpp"
+#include "services/files/directories.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {

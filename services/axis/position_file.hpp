@@ -1,5 +1,5 @@
-// Where an axis's position outlives its process: one small file, replaced whole after each run (core/axis/
-// position_claim.hpp says when the next process believes it).
+// Where an axis's position outlives its process: one small file, replaced whole after each run (core/
+// axis/device/position_claim.hpp says when the next process believes it).
 #pragma once
 
 #include <condition_variable>
@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "core/axis/position_claim.hpp"
+#include "core/axis/device/position_claim.hpp"
 
 namespace lockstep {
 

@@ -12,9 +12,9 @@
 
 #include "core/coordinator/coordinator.hpp"
 #include "services/runtime/clock.hpp"
-#include "services/wire/bus.hpp"
-#include "services/wire/clock_link.hpp"
-#include "services/wire/watched_link.hpp"
+#include "services/wire/bus/bus.hpp"
+#include "services/wire/bus/clock_link.hpp"
+#include "services/wire/dds/watched_link.hpp"
 
 namespace lockstep {
 

@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/methods/methods.hpp"
+#include "core/methods/suits.hpp"
 #include "core/program.hpp"
-#include "core/stepgen/methods.hpp"
-#include "core/stepgen/suits.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "services/documents/diagnostic.hpp"
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/text_source.hpp"
+#include "services/files/diagnostic.hpp"
 
 namespace lockstep {
 

@@ -5,8 +5,8 @@
 #include "services/documents/fnv.hpp"
 #include "services/documents/machine_errors.hpp"
 #include "services/documents/machine_proto.hpp"
-#include "services/documents/text_file.hpp"
 #include "services/documents/text_source.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 

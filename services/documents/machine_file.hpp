@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "core/machine.hpp"
-#include "services/documents/diagnostic.hpp"
+#include "services/files/diagnostic.hpp"
 
 namespace lockstep {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "services/documents/program_document.hpp"
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {

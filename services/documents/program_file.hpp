@@ -9,7 +9,7 @@
 #include "core/gcode/gcode.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
-#include "services/documents/diagnostic.hpp"
+#include "services/files/diagnostic.hpp"
 
 namespace lockstep {
 

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "services/documents/diagnostic.hpp"
+#include "services/files/diagnostic.hpp"
 
 namespace lockstep {
 

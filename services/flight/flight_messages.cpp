@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "services/documents/machine_file.hpp"
+#include "services/files/directories.hpp"
 #include "services/flight/incident_file.hpp"
 #include "services/runtime/clock.hpp"
-#include "services/runtime/directories.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/real_time.hpp"
 

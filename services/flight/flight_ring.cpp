@@ -12,9 +12,9 @@
 #include <cstring>
 #include <utility>
 
+#include "services/files/directories.hpp"
+#include "services/files/named_file.hpp"
 #include "services/flight/flight_messages.hpp"
-#include "services/runtime/directories.hpp"
-#include "services/runtime/named_file.hpp"
 #include "services/runtime/numbered_slot.hpp"
 
 namespace lockstep {

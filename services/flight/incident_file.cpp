@@ -6,11 +6,11 @@
 #include <ctime>
 
 #include "services/documents/machine_file.hpp"
-#include "services/documents/unfinished_file.hpp"
+#include "services/files/unfinished_file.hpp"
 #include "services/record/own_log.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_log.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 namespace {

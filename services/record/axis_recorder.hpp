@@ -8,9 +8,9 @@
 #include "core/axis/axis_controller.hpp"
 #include "services/record/record_sink.hpp"
 #include "services/record/record_witness.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/step_batcher.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/record/step_batcher.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 

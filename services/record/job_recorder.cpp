@@ -7,8 +7,8 @@
 
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 

@@ -10,7 +10,7 @@
 #include "core/protocol/axis_health.hpp"
 #include "services/record/record_sink.hpp"
 #include "services/record/record_witness.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 

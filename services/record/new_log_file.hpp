@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "services/documents/unfinished_file.hpp"
+#include "services/files/unfinished_file.hpp"
 #include "services/record/sinks.hpp"
 
 namespace lockstep {

@@ -2,11 +2,11 @@
 
 #include <lockstep/record_loss_t.hpp>
 
+#include "services/files/directories.hpp"
 #include "services/record/queued_sink.hpp"
 #include "services/record/rotating_log.hpp"
-#include "services/runtime/directories.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 namespace {

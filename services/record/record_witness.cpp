@@ -1,7 +1,7 @@
 #include "services/record/record_witness.hpp"
 
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 namespace {

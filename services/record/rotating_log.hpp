@@ -11,7 +11,7 @@
 
 #include "services/record/disk_room.hpp"
 #include "services/record/record_sink.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep {
 

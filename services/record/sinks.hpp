@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "services/record/record_sink.hpp"
-#include "services/wire/lcm_log.hpp"
-#include "services/wire/lcm_publisher.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
+#include "services/wire/lcm/lcm_publisher.hpp"
 
 namespace lockstep {
 

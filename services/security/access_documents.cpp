@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/wire/partitions.hpp"
+#include "services/wire/dds/partitions.hpp"
 
 namespace lockstep {
 namespace {

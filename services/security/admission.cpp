@@ -5,10 +5,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 #include "services/security/access_documents.hpp"
 #include "services/security/key_directory.hpp"
-#include "services/wire/security_properties.hpp"
+#include "services/wire/dds/security_properties.hpp"
 
 namespace lockstep {
 namespace {

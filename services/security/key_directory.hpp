@@ -12,7 +12,7 @@
 
 #include "core/machine.hpp"
 #include "services/security/rights.hpp"
-#include "services/wire/participant.hpp"
+#include "services/wire/dds/participant.hpp"
 
 namespace lockstep {
 

@@ -1,6 +1,6 @@
 #include "services/security/rights.hpp"
 
-#include "services/wire/topics.hpp"
+#include "services/wire/dds/topics.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,7 +1,7 @@
 // Who may write and who may read each topic: the one source of every member's permissions.
 //
 // DDS Security grants by topic and partition, not by key. So an axis writes in a partition of its own, and readers
-// believe what is said of an axis only if it comes from there (services/wire/endpoints.hpp).
+// believe what is said of an axis only if it comes from there (services/wire/bus/endpoints.hpp).
 #pragma once
 
 #include <cstdint>

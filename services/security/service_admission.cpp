@@ -2,7 +2,7 @@
 
 #include "services/runtime/log.hpp"
 #include "services/security/admission.hpp"
-#include "services/wire/dds_log.hpp"
+#include "services/wire/dds/dds_log.hpp"
 
 namespace lockstep {
 

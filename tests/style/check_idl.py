@@ -13,7 +13,7 @@ import re
 import sys
 
 RULES = {
-    ".idl": "processes of both versions no longer hear each other: raise kProtocol in services/wire/protocol_version.hpp",
+    ".idl": "processes of both versions no longer hear each other: raise kProtocol in services/wire/dds/protocol_version.hpp",
     ".lcm": "logs of before are no longer read: give the type a new name, unless no log of it was ever kept",
     ".proto": "check that no number got another meaning and that none was taken away: files of before are still read",
 }
@@ -25,7 +25,7 @@ def fingerprint(path):
 
 
 def protocol(root):
-    header = (root / "services/wire/protocol_version.hpp").read_text()
+    header = (root / "services/wire/dds/protocol_version.hpp").read_text()
     return re.search(r"kProtocol = (\d+);", header).group(1)
 
 

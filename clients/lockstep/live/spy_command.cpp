@@ -7,7 +7,7 @@
 #include <memory>
 #include <sstream>
 
-#include "clients/lockstep/live/program_folder.hpp"
+#include "clients/supervisor/program_folder.hpp"
 
 namespace lockstep {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/lockstep/live/failure.hpp"
+#include "clients/text/failure.hpp"
 
 namespace lockstep {
 

@@ -3,18 +3,18 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/machine_choice.hpp"
-#include "clients/lockstep/live/other_hosts.hpp"
-#include "clients/lockstep/live/session.hpp"
-#include "clients/lockstep/live/state_directory.hpp"
-#include "clients/lockstep/live/take_down.hpp"
-#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/session/session.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "clients/supervisor/other_hosts.hpp"
+#include "clients/supervisor/state_directory.hpp"
+#include "clients/supervisor/take_down.hpp"
+#include "clients/text/voice.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/documents/placement.hpp"
+#include "services/network/host_name.hpp"
 #include "services/runtime/clock.hpp"
-#include "services/runtime/host_name.hpp"
 
 namespace lockstep {
 namespace {

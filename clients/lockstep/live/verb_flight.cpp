@@ -3,11 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/flight_files.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/machine_choice.hpp"
-#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/supervisor/flight_files.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/voice.hpp"
 
 namespace lockstep {
 namespace {

@@ -6,10 +6,10 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live/keys_report.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/machine_choice.hpp"
-#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/voice.hpp"
 #include "services/security/key_directory.hpp"
 
 namespace lockstep {

@@ -6,15 +6,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/bring_up.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/other_hosts.hpp"
-#include "clients/lockstep/live/parts.hpp"
-#include "clients/lockstep/live/reports.hpp"
-#include "clients/lockstep/live/status_text.hpp"
-#include "clients/lockstep/live/take_down.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "services/runtime/host_name.hpp"
+#include "clients/session/parts.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/supervisor/bring_up.hpp"
+#include "clients/supervisor/other_hosts.hpp"
+#include "clients/supervisor/take_down.hpp"
+#include "services/network/host_name.hpp"
 
 namespace lockstep {
 namespace {

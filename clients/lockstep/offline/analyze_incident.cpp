@@ -4,11 +4,11 @@
 
 #include "clients/incident/incident_input.hpp"
 #include "clients/incident/incident_report.hpp"
-#include "clients/lockstep/colour.hpp"
-#include "clients/lockstep/live/voice.hpp"
 #include "clients/lockstep/offline/incident_text.hpp"
 #include "clients/report_page/incident_page.hpp"
 #include "clients/report_page/report_page.hpp"
+#include "clients/text/colour.hpp"
+#include "clients/text/voice.hpp"
 
 namespace lockstep {
 namespace {

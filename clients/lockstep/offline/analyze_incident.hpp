@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/lockstep/exit_code.hpp"
+#include "clients/text/exit_code.hpp"
 
 namespace lockstep {
 

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 

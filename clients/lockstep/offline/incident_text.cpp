@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "clients/incident/notes.hpp"
-#include "clients/lockstep/live/words.hpp"
+#include "clients/text/words.hpp"
 
 namespace lockstep::incident {
 namespace {

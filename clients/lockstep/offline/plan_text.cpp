@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "clients/lockstep/live/words.hpp"
+#include "clients/text/words.hpp"
 #include "core/axis_unit.hpp"
 
 namespace lockstep {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "clients/lockstep/live/machine_choice.hpp"
-#include "clients/lockstep/live/program_start.hpp"
+#include "clients/session/program_start.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "services/documents/program_file.hpp"
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 

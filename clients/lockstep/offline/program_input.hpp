@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/lockstep/live/failure.hpp"
 #include "clients/planning/plan_summary.hpp"
+#include "clients/text/failure.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 

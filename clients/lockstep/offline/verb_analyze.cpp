@@ -9,13 +9,13 @@
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/words.hpp"
-#include "clients/lockstep/colour.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
-#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/analyze_incident.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/report_page/report_page.hpp"
+#include "clients/text/colour.hpp"
+#include "clients/text/voice.hpp"
+#include "clients/text/words.hpp"
 
 namespace lockstep {
 namespace {

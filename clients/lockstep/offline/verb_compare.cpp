@@ -9,10 +9,10 @@
 #include "clients/comparison/move_text.hpp"
 #include "clients/comparison/report.hpp"
 #include "clients/comparison/words.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "services/documents/text_file.hpp"
+#include "clients/text/voice.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {

@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/export/export.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
-#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/text/voice.hpp"
+#include "clients/text/words.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {

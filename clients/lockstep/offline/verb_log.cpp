@@ -8,13 +8,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/colour.hpp"
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
-#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/merge/named_logs.hpp"
 #include "clients/merge/report.hpp"
+#include "clients/text/colour.hpp"
+#include "clients/text/voice.hpp"
+#include "clients/text/words.hpp"
 #include "services/record/new_log_file.hpp"
 
 namespace lockstep {

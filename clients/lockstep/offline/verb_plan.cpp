@@ -3,12 +3,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/figure_files.hpp"
 #include "clients/lockstep/offline/plan_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/planning/plan_figures.hpp"
+#include "clients/text/voice.hpp"
 
 namespace lockstep {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/voice.hpp"
-#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/verdict_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/replay/replay.hpp"
+#include "clients/text/voice.hpp"
+#include "clients/text/words.hpp"
 #include "services/record/new_log_file.hpp"
 
 namespace lockstep {

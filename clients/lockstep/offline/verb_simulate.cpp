@@ -3,13 +3,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "clients/lockstep/live/live_options.hpp"
-#include "clients/lockstep/live/reports.hpp"
-#include "clients/lockstep/live/voice.hpp"
-#include "clients/lockstep/live/words.hpp"
+#include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/program_input.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/session/reports.hpp"
 #include "clients/simulation/simulate.hpp"
+#include "clients/text/voice.hpp"
+#include "clients/text/words.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/new_log_file.hpp"
 #include "services/runtime/clock.hpp"

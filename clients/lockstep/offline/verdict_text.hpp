@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "clients/lockstep/colour.hpp"
+#include "clients/text/colour.hpp"
 
 namespace lockstep {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/machine.hpp"
-#include "services/wire/participant.hpp"
+#include "services/wire/dds/participant.hpp"
 
 namespace lockstep {
 

@@ -13,8 +13,8 @@
 
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
-#include "services/wire/bus.hpp"
-#include "services/wire/dds_log.hpp"
+#include "services/wire/bus/bus.hpp"
+#include "services/wire/dds/dds_log.hpp"
 #include "tests/benchmarks/wire/benchmark_keys.hpp"
 #include "tests/benchmarks/wire/frame_sizes.hpp"
 

@@ -1,7 +1,7 @@
 // What translating and checking a frame costs, without the network.
 #include <benchmark/benchmark.h>
 
-#include "services/wire/translate.hpp"
+#include "services/wire/translate/translate.hpp"
 #include "tests/benchmarks/wire/frame_sizes.hpp"
 
 namespace lockstep {

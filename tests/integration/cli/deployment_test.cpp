@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "services/documents/machine_file.hpp"
-#include "services/runtime/host_name.hpp"
+#include "services/network/host_name.hpp"
 #include "sim_fpga/registers.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"

@@ -4,8 +4,8 @@
 #include <signal.h>
 
 #include "idl/proto/position.pb.h"
-#include "services/documents/text_file.hpp"
-#include "services/runtime/directories.hpp"
+#include "services/files/directories.hpp"
+#include "services/files/text_file.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 

@@ -4,7 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "services/runtime/directories.hpp"
+#include "services/files/directories.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/lockstep/live/state_directory.hpp"
+#include "clients/supervisor/state_directory.hpp"
 #include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
 #include "tests/integration/cli/command.hpp"

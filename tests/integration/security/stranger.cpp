@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "services/security/key_directory.hpp"
-#include "services/wire/bus.hpp"
-#include "services/wire/dds_log.hpp"
-#include "services/wire/protocol_version.hpp"
+#include "services/wire/bus/bus.hpp"
+#include "services/wire/dds/dds_log.hpp"
+#include "services/wire/dds/protocol_version.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "services/documents/machine_file.hpp"
-#include "services/wire/protocol_version.hpp"
+#include "services/wire/dds/protocol_version.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 

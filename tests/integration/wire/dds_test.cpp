@@ -9,7 +9,7 @@
 #include <map>
 #include <numeric>
 
-#include "services/wire/bus.hpp"
+#include "services/wire/bus/bus.hpp"
 #include "tests/integration/wire/child.hpp"
 #include "tests/integration/wire/eventually.hpp"
 #include "tests/integration/wire/own_network.hpp"

@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
-#include "services/runtime/multicast.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/lcm_log.hpp"
-#include "services/wire/lcm_publisher.hpp"
-#include "services/wire/step_batcher.hpp"
+#include "services/network/multicast.hpp"
+#include "services/record/step_batcher.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
+#include "services/wire/lcm/lcm_publisher.hpp"
 #include "tests/integration/wire/child.hpp"
 #include "tests/integration/wire/eventually.hpp"
 #include "tests/integration/wire/own_network.hpp"

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "services/runtime/multicast.hpp"
+#include "services/network/multicast.hpp"
 
 namespace lockstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "services/wire/bus.hpp"
+#include "services/wire/bus/bus.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
 namespace lockstep {

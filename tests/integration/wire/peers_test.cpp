@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "services/wire/interface_sockets.hpp"
-#include "services/wire/participant.hpp"
-#include "services/wire/peer_discovery.hpp"
+#include "services/wire/dds/interface_sockets.hpp"
+#include "services/wire/dds/participant.hpp"
+#include "services/wire/dds/peer_discovery.hpp"
 #include "tests/integration/wire/eventually.hpp"
 #include "tests/integration/wire/own_network.hpp"
 

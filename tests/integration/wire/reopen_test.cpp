@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "services/wire/bus.hpp"
-#include "services/wire/reopenable.hpp"
+#include "services/wire/bus/bus.hpp"
+#include "services/wire/dds/reopenable.hpp"
 #include "tests/integration/wire/child.hpp"
 #include "tests/integration/wire/eventually.hpp"
 #include "tests/integration/wire/own_network.hpp"

@@ -1,11 +1,11 @@
 // With security, members exchange keys again after participants have left: what DDS keeps for these is dropped then.
 // The exchange itself needs no security, and is seen by a writer that every process may read.
-#include "services/wire/sent_keys.hpp"
+#include "services/wire/dds/sent_keys.hpp"
 
 #include <gtest/gtest.h>
 
-#include "services/wire/bus.hpp"
-#include "services/wire/topics.hpp"
+#include "services/wire/bus/bus.hpp"
+#include "services/wire/dds/topics.hpp"
 #include "tests/integration/wire/eventually.hpp"
 #include "tests/integration/wire/own_network.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/stepgen/carrica.hpp"
-#include "core/stepgen/ideal.hpp"
+#include "core/methods/carrica.hpp"
+#include "core/methods/ideal.hpp"
 
 namespace lockstep::stepgen {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/stepgen/lai.hpp"
-#include "core/stepgen/lai_dda.hpp"
+#include "core/methods/lai/lai.hpp"
+#include "core/methods/lai/lai_dda.hpp"
 
 namespace lockstep::stepgen {
 namespace {

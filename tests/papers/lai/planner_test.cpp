@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/stepgen/lai_planner.hpp"
+#include "core/methods/lai/lai_planner.hpp"
 
 namespace lockstep::stepgen {
 namespace {

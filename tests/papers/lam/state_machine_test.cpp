@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/stepgen/lam.hpp"
+#include "core/methods/lam.hpp"
 
 namespace lockstep::stepgen {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/stepgen/ideal.hpp"
-#include "core/stepgen/methods.hpp"
+#include "core/methods/ideal.hpp"
+#include "core/methods/methods.hpp"
 
 namespace lockstep::stepgen {
 namespace {

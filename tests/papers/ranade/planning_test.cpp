@@ -3,8 +3,8 @@
 // Fig. 3.
 #include <gtest/gtest.h>
 
+#include "core/methods/ranade.hpp"
 #include "core/motion/profile.hpp"
-#include "core/stepgen/ranade.hpp"
 
 namespace lockstep {
 namespace {

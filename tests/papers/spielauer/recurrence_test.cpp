@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/stepgen/ideal.hpp"
-#include "core/stepgen/spielauer.hpp"
+#include "core/methods/ideal.hpp"
+#include "core/methods/spielauer.hpp"
 
 namespace lockstep::stepgen {
 namespace {

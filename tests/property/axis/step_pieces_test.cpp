@@ -1,5 +1,5 @@
 // Pieces made for given ticks make each step at exactly that tick, forward and backward.
-#include "core/axis/step_pieces.hpp"
+#include "core/axis/own_moves/step_pieces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "core/methods/step_source.hpp"
 #include "core/step/engine.hpp"
-#include "core/stepgen/step_source.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,6 +1,6 @@
 // Random moves at an axis's limits, in frames of any length, while what is known of the clocks changes at random: by
 // the device's clock no step breaks a limit, none is lost, and errors go.
-#include "core/axis/frame_pace.hpp"
+#include "core/axis/device/frame_pace.hpp"
 
 #include <gtest/gtest.h>
 

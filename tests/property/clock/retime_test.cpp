@@ -1,5 +1,5 @@
 // Random motion for a device whose clock differs: every end is met bit for bit, each step within two ticks.
-#include "core/axis/retime.hpp"
+#include "core/axis/device/retime.hpp"
 
 #include <gtest/gtest.h>
 

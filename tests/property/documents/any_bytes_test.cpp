@@ -7,7 +7,7 @@
 #include "services/documents/machine_file.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/program_document.hpp"
-#include "services/documents/text_file.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {

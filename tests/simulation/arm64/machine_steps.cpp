@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/simulation/simtest/play.hpp"
+#include "tests/simulation/simtest/run/play.hpp"
 
 int main(int argc, char** argv) {
     using namespace lockstep::simtest;

@@ -1,9 +1,9 @@
 // The judge of owners objects: a takeover that is right is tampered with, one wrong at a time.
 #include <gtest/gtest.h>
 
-#include "tests/simulation/simtest/checks.hpp"
+#include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/judges_rig.hpp"
-#include "tests/simulation/simtest/play.hpp"
+#include "tests/simulation/simtest/run/play.hpp"
 
 namespace lockstep::simtest {
 namespace {

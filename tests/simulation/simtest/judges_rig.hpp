@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/simulation/simtest/scenario.hpp"
-#include "tests/simulation/simtest/violation.hpp"
+#include "tests/simulation/simtest/draw/scenario.hpp"
+#include "tests/simulation/simtest/record/violation.hpp"
 
 namespace lockstep::simtest {
 

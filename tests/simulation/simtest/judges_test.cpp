@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/simulation/simtest/checks.hpp"
-#include "tests/simulation/simtest/claims.hpp"
+#include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/judges_rig.hpp"
-#include "tests/simulation/simtest/play.hpp"
-#include "tests/simulation/simtest/run.hpp"
+#include "tests/simulation/simtest/record/claims.hpp"
+#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/run.hpp"
 
 namespace lockstep::simtest {
 namespace {

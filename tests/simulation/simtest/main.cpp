@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "tests/simulation/simtest/report.hpp"
+#include "tests/simulation/simtest/run/report.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // How far each move went from its line, from steps in the order of time, and from some that come late.
-#include "clients/analysis/job_moves.hpp"
+#include "clients/analysis/measure/job_moves.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,9 +14,9 @@
 #include "core/step/segment.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_log.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 #include "tests/unit/analysis/step_makers.hpp"
 
 namespace lockstep::test {

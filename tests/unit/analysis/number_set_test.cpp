@@ -1,4 +1,4 @@
-#include "clients/analysis/number_set.hpp"
+#include "clients/analysis/log/number_set.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

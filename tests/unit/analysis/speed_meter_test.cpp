@@ -1,10 +1,10 @@
-#include "clients/analysis/speed_meter.hpp"
+#include "clients/analysis/measure/speed_meter.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "clients/analysis/axis_statistics.hpp"
+#include "clients/analysis/measure/axis_statistics.hpp"
 #include "tests/unit/analysis/step_makers.hpp"
 
 namespace lockstep::analysis {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/log/step_stream.hpp"
 #include "core/step/segment.hpp"
 
 namespace lockstep::test {

@@ -1,5 +1,5 @@
 // Steps of several axes in the order of time, whoever tells late of them.
-#include "clients/analysis/step_merge.hpp"
+#include "clients/analysis/measure/step_merge.hpp"
 
 #include <gtest/gtest.h>
 

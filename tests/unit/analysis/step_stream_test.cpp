@@ -1,4 +1,4 @@
-#include "clients/analysis/step_stream.hpp"
+#include "clients/analysis/log/step_stream.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "clients/analysis/trace.hpp"
+#include "clients/analysis/measure/trace.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What cannot be a device: each contradiction, a clock that stands still, a run that does not end.
-#include "core/axis/device_watch.hpp"
+#include "core/axis/device/device_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The homing sequence by itself: what each move's end leads to.
 #include <gtest/gtest.h>
 
-#include "core/axis/homing.hpp"
+#include "core/axis/own_moves/homing.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,12 +1,12 @@
 // An own move's frames: they join each other, end on the last step, and from each of them the axis can rest.
-#include "core/axis/own_move.hpp"
+#include "core/axis/own_moves/own_move.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/axis/frame_check.hpp"
-#include "core/stepgen/methods.hpp"
+#include "core/axis/following/frame_check.hpp"
+#include "core/methods/methods.hpp"
 
 namespace lockstep {
 namespace {

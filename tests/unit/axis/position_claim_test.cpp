@@ -1,5 +1,5 @@
 // When a position that was kept at rest is believed, and which doubt is named where it is not.
-#include "core/axis/position_claim.hpp"
+#include "core/axis/device/position_claim.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <fstream>
 
-#include "services/documents/position_document.hpp"
-#include "services/documents/text_file.hpp"
+#include "services/axis/position_document.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,5 @@
 // One axis of two, by hand: what it holds, arms, vetoes and refuses.
-#include "core/axis/setpoint_follower.hpp"
+#include "core/axis/following/setpoint_follower.hpp"
 
 #include <gtest/gtest.h>
 

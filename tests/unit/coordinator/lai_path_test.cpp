@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "core/axis/frame_check.hpp"
+#include "core/axis/following/frame_check.hpp"
+#include "core/methods/lai/lai_planner.hpp"
 #include "core/motion/interpolate.hpp"
-#include "core/stepgen/lai_planner.hpp"
 
 namespace lockstep {
 namespace {

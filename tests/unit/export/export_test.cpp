@@ -10,7 +10,7 @@
 #include <random>
 #include <sstream>
 
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep::exporting {
 namespace {

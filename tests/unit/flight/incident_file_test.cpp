@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "services/flight/flight_recorder.hpp"
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 #include "tests/unit/flight/flight_makers.hpp"
 
 namespace lockstep {

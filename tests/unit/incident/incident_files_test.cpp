@@ -8,7 +8,7 @@
 #include "clients/incident/sentences.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/flight/incident_file.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep::incident {

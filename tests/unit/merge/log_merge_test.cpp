@@ -9,9 +9,9 @@
 
 #include "clients/merge/named_logs.hpp"
 #include "clients/merge/report.hpp"
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::merge {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/axis/frame_check.hpp"
+#include "core/axis/following/frame_check.hpp"
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "services/wire/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep {
 namespace {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "services/record/rotating_log.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep {
 namespace {

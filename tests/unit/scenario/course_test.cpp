@@ -1,5 +1,5 @@
 // What befalls a machine is due at its event, in the order written, and never before.
-#include "clients/scenario/course.hpp"
+#include "clients/scenario/model/course.hpp"
 
 #include "tests/unit/scenario/scenario_text.hpp"
 

@@ -1,5 +1,5 @@
 // Each expectation holds where it is true of the record, fails where it is not, and says what was found and where.
-#include "clients/scenario/judgement.hpp"
+#include "clients/scenario/model/judgement.hpp"
 
 #include <gmock/gmock.h>
 

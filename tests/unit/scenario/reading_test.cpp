@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "clients/scenario/words.hpp"
+#include "clients/scenario/model/words.hpp"
 #include "tests/unit/scenario/scenario_text.hpp"
 
 namespace lockstep::scenario {

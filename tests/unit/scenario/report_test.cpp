@@ -1,5 +1,5 @@
 // A verdict says what did not hold, to a person and in XML that others read.
-#include "clients/scenario/report.hpp"
+#include "clients/scenario/model/report.hpp"
 
 #include <gmock/gmock.h>
 #include <tinyxml2.h>

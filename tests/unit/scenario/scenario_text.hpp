@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "clients/scenario/scenario.hpp"
+#include "clients/scenario/model/scenario.hpp"
 
 namespace lockstep::scenario {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep::test {
 

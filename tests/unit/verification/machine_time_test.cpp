@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/log_read.hpp"
-#include "clients/analysis/log_step.hpp"
+#include "clients/analysis/log/log_read.hpp"
+#include "clients/analysis/log/log_step.hpp"
 #include "clients/analysis/words.hpp"
 #include "clients/verification/verification.hpp"
 #include "tests/unit/verification/altered_log.hpp"

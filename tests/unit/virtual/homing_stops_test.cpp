@@ -1,10 +1,10 @@
 // Homing is ended by a stop or a hold in any of its stages: soon, within the limits, at rest, and it can begin again.
 #include <set>
 
-#include "core/axis/homing.hpp"
-#include "core/stepgen/limit_watch.hpp"
-#include "core/stepgen/methods.hpp"
-#include "core/stepgen/suits.hpp"
+#include "core/axis/own_moves/homing.hpp"
+#include "core/methods/methods.hpp"
+#include "core/methods/suits.hpp"
+#include "core/motion/limit_watch.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 
 #include "clients/simulation/machine_recorder.hpp"
 #include "services/record/record_sink.hpp"
-#include "services/wire/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {

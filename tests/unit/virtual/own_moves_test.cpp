@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/stepgen/limit_watch.hpp"
-#include "core/stepgen/methods.hpp"
-#include "core/stepgen/ranade.hpp"
-#include "core/stepgen/step_source.hpp"
-#include "core/stepgen/suits.hpp"
+#include "core/methods/methods.hpp"
+#include "core/methods/ranade.hpp"
+#include "core/methods/step_source.hpp"
+#include "core/methods/suits.hpp"
+#include "core/motion/limit_watch.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "services/wire/cut_text.hpp"
+#include "services/wire/dds/cut_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/wire/domain.hpp"
-#include "services/wire/peer_discovery.hpp"
+#include "services/wire/dds/domain.hpp"
+#include "services/wire/dds/peer_discovery.hpp"
 
 namespace lockstep {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "services/wire/translate.hpp"
+#include "services/wire/translate/translate.hpp"
 #include "tests/unit/wire/random_messages.hpp"
 
 namespace lockstep {

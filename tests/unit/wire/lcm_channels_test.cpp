@@ -1,4 +1,4 @@
-#include "services/wire/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // The record's messages are decoded, or refused where a byte of their structure is wrong; never trusted.
-#include "services/wire/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "services/wire/translate_lcm.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 namespace {

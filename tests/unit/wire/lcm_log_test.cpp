@@ -1,5 +1,5 @@
 // A log is read to its end whatever happened to it, and what is missing is said.
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // What core says arrives as it was said, for every message.
 #include <gtest/gtest.h>
 
-#include "services/wire/translate.hpp"
+#include "services/wire/translate/translate.hpp"
 #include "tests/unit/wire/random_messages.hpp"
 
 namespace lockstep {

@@ -1,5 +1,5 @@
 // States by shared memory: all of them whole and in order, whoever is killed, late or lying.
-#include "services/wire/state_board.hpp"
+#include "services/wire/shared/state_board.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

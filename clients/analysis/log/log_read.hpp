@@ -1,0 +1,48 @@
+// A log's events, decoded and told one by one: nothing is kept.
+//
+// What cannot be read is told too, by its place in the file, and reading goes on behind it.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <functional>
+#include <lockstep/axis_health_t.hpp>
+#include <lockstep/axis_position_t.hpp>
+#include <lockstep/job_t.hpp>
+#include <lockstep/program_part_t.hpp>
+#include <lockstep/record_mark_t.hpp>
+#include <lockstep/run_t.hpp>
+#include <lockstep/step_batch_t.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clients/analysis/log/damage.hpp"
+
+namespace lockstep::analysis {
+
+/// `place` is that of the event in the file.
+class LogListener {
+public:
+    virtual ~LogListener() = default;
+    virtual void on_steps(const step_batch_t& message, LogPlace place) = 0;
+    virtual void on_position(const axis_position_t& message, LogPlace place) = 0;
+    virtual void on_run(const run_t& message, LogPlace place) = 0;
+    virtual void on_job(const job_t& message, LogPlace place) = 0;
+    virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
+    /// Jobs are given their programs (program_parts.hpp); this is for who counts the messages.
+    virtual void on_program_part(const program_part_t& /*message*/, LogPlace /*place*/) {}
+    virtual void on_mark(const record_mark_t& /*message*/, LogPlace /*place*/) {}
+    /// An event of a channel that is not Lockstep's.
+    virtual void on_foreign(std::string_view channel) = 0;
+    /// What is there cannot be read, or not understood.
+    virtual void on_damage(LogPlace place, std::string what) = 0;
+};
+
+/// The number of events read. `progress` hears 0 ... 1 now and then. The error is a sentence for the user: the file is
+/// missing, a directory, empty, or no log.
+std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& path, LogListener& listener,
+                                                   const std::function<void(double)>& progress = {});
+
+}  // namespace lockstep::analysis

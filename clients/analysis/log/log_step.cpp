@@ -1,0 +1,60 @@
+#include "clients/analysis/log/log_step.hpp"
+
+#include <cstdlib>
+
+namespace lockstep::analysis {
+namespace {
+
+bool is_countable_batch(const step_batch_t& m) {
+    return is_countable(m.first_tick) && is_countable(m.position_before) && is_message_number(m.sequence) &&
+           is_countable(m.ahead_first) && is_countable(m.ahead_last) && is_countable(m.clock_error) &&
+           m.clock_error >= 0;
+}
+
+/// Far within what keeps steps apart, which are two ticks from each other at least; beyond all quartzes.
+bool clocks_agree(const ClockStretch& time) {
+    constexpr std::int64_t kLeastPart = 100;
+    return std::abs((time.other_ticks - time.ticks).value) <= 2 + time.ticks.value / kLeastPart;
+}
+
+}  // namespace
+
+std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
+    if (!is_countable_batch(message)) {
+        return std::unexpected("a message of steps with numbers that no machine counts to");
+    }
+    StepBatch batch{.incarnation = message.incarnation,
+                    .sequence = message.sequence,
+                    .position_before_steps = message.position_before,
+                    .steps = {},
+                    .ahead_first = {message.ahead_first},
+                    .ahead_last = {message.ahead_last},
+                    .clock_error = {message.clock_error}};
+    batch.steps.reserve(message.delta_ticks.size());
+    Tick tick{message.first_tick};
+    for (std::size_t i = 0; i < message.delta_ticks.size(); ++i) {
+        const bool rises = i == 0 ? message.delta_ticks[i] == 0 : message.delta_ticks[i] > 0;
+        if (!rises) { return std::unexpected("the ticks of a message's steps do not rise"); }
+        const std::int8_t direction = message.direction[i];
+        if (direction != 1 && direction != -1) { return std::unexpected("a step is neither forward nor backward"); }
+        tick += Ticks{message.delta_ticks[i]};
+        batch.steps.push_back({tick, direction});
+    }
+    if (!batch.steps.empty() && !clocks_agree(batch.machine_time())) {
+        return std::unexpected("the clocks of a message of steps differ by more than clocks can");
+    }
+    return batch;
+}
+
+StepBatch in_machine_time(StepBatch batch) {
+    if (batch.steps.empty() || (batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{})) { return batch; }
+    const ClockStretch time = batch.machine_time();
+    for (StepEdge& step : batch.steps) {
+        batch.device_ticks.push_back(step.tick);
+        step.tick = time.at(step.tick);
+    }
+    batch.ahead_first = batch.ahead_last = {};
+    return batch;
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,164 @@
+#include "clients/analysis/log/record_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "clients/analysis/log/log_step.hpp"
+#include "clients/text/numbers.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+constexpr std::array<RecordKind, 6> kNumbered{RecordKind::Steps,  RecordKind::Run, RecordKind::Position,
+                                              RecordKind::Health, RecordKind::Job, RecordKind::ProgramPart};
+constexpr std::array<const char*, 6> kNames{"steps", "runs", "positions", "figures", "jobs", "programs"};
+
+std::size_t index_of(RecordKind kind) {
+    return static_cast<std::size_t>(std::ranges::find(kNumbered, kind) - kNumbered.begin());
+}
+
+std::string name_of(const RecordingProcess& process) {
+    return process.axis.empty() ? "coordinator" : "axis " + process.axis;
+}
+
+std::string time_text(std::int64_t us) { return fmt::format("machine time {:.3f} s", static_cast<double>(us) * 1e-6); }
+
+std::string sentence(const MissingEnd& missing) {
+    const auto& [from, end] = missing.numbers;
+    return fmt::format("{}: {} of {} missing at the end (numbers {} to {}), published by {}", name_of(missing.process),
+                       plural(end - from, "message"), kNames.at(index_of(missing.kind)), from, end - 1,
+                       time_text(missing.published_us));
+}
+
+std::string names_of(const std::vector<OpenEnd>& ends) {
+    constexpr std::size_t kMost = 8;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(ends.size(), kMost); ++i) {
+        text += (i == 0 ? "" : ", ") + name_of(ends[i].process);
+    }
+    return text + (ends.size() > kMost ? fmt::format(" and {} more", ends.size() - kMost) : "");
+}
+
+}  // namespace
+
+std::int64_t RecordEnd::missing_messages() const {
+    std::int64_t sum = 0;
+    for (const MissingEnd& one : missing) { sum += one.numbers.end - one.numbers.from; }
+    return sum;
+}
+
+bool RecordEnd::lacks_steps() const {
+    return std::ranges::any_of(missing, [](const MissingEnd& one) { return one.kind == RecordKind::Steps; });
+}
+
+RecordEndCheck::Counted* RecordEndCheck::of(const std::string& machine, const std::string& axis,
+                                            std::int64_t incarnation) {
+    const auto is_last = [&] {
+        return last_ != nullptr && last_process_->incarnation == incarnation && last_process_->axis == axis &&
+               last_process_->machine == machine;
+    };
+    if (is_last()) { return last_; }
+    if (processes_.size() == kMostProcesses) { return nullptr; }
+    const auto found = processes_.try_emplace({machine, axis, incarnation}).first;
+    last_process_ = &found->first;
+    return last_ = &found->second;
+}
+
+void RecordEndCheck::saw(RecordKind kind, const std::string& machine, const std::string& axis, std::int64_t incarnation,
+                         std::int64_t sequence) {
+    Counted* counted = of(machine, axis, incarnation);
+    if (counted == nullptr) { return; }
+    const std::size_t of_kind = index_of(kind);
+    std::optional<std::int64_t>& there = counted->there[of_kind];
+    there = std::exchange(counted->is_seen[of_kind], true) ? std::max(*there, sequence + 1) : sequence + 1;
+}
+
+namespace {
+
+std::array<std::int64_t, kNumbered.size()> counts_of(const record_mark_t& mark) {
+    return {mark.steps, mark.runs, mark.positions, mark.figures, mark.job_events, mark.program_parts};
+}
+
+}  // namespace
+
+void RecordEndCheck::take(const record_mark_t& mark) {
+    if (!is_countable(mark.utime) || !std::ranges::all_of(counts_of(mark), is_message_number)) { return; }
+    Counted* counted = of(mark.machine, mark.process, mark.incarnation);
+    if (counted == nullptr) { return; }
+    first_us_ = first_us_.value_or(mark.utime);
+    if (mark.witness == mark.process) { return hold_to(mark, *counted); }
+    newest_us_ = std::max(newest_us_, mark.utime);
+    counted->others.push_back(mark);
+    while (counted->others.front().utime <= newest_us_ - kOnItsWay_us) {
+        hold_to(counted->others.front(), *counted);
+        counted->others.pop_front();
+        if (counted->others.empty()) { return; }
+    }
+}
+
+/// Whether what is published behind that mark is published while this log is written.
+bool RecordEndCheck::is_of_this_log(const record_mark_t& mark) const {
+    return mark.witness == mark.process || mark.utime >= *first_us_ + kNoted_us;
+}
+
+void RecordEndCheck::hold_to(const record_mark_t& mark, Counted& counted) {
+    newest_us_ = std::max(newest_us_, mark.utime);
+    counted.ended = counted.ended || mark.ended != 0;
+    counted.marked_us = std::max(counted.marked_us.value_or(mark.utime), mark.utime);
+    const auto counts = counts_of(mark);
+    for (std::size_t i = 0; i < kKinds; ++i) {
+        if (!counted.there[i] && (counts.at(i) == 0 || is_of_this_log(mark))) { counted.there[i] = counts.at(i); }
+        if (counts.at(i) <= counted.published[i]) { continue; }
+        counted.published[i] = counts.at(i);
+        counted.published_us[i] = mark.utime;
+    }
+}
+
+RecordEnd RecordEndCheck::finish() {
+    RecordEnd end;
+    for (auto& [process, counted] : processes_) {
+        for (const record_mark_t& mark : counted.others) {
+            if (mark.utime <= newest_us_ - kOnItsWay_us) { hold_to(mark, counted); }
+        }
+        counted.others.clear();
+        for (std::size_t i = 0; i < kKinds; ++i) {
+            if (counted.published[i] <= counted.there[i].value_or(counted.published[i])) { continue; }
+            end.missing.push_back(
+                {process, kNumbered.at(i), {*counted.there[i], counted.published[i]}, counted.published_us[i]});
+        }
+        if (!counted.ended) { end.open.push_back({process, counted.marked_us}); }
+    }
+    return end;
+}
+
+std::vector<std::string> missing_sentences(const RecordEnd& end) {
+    std::vector<std::string> lines;
+    for (const MissingEnd& missing : end.missing) { lines.push_back(sentence(missing)); }
+    return lines;
+}
+
+std::vector<std::string> open_sentences(const RecordEnd& end) {
+    std::vector<OpenEnd> marked;
+    std::vector<OpenEnd> unmarked;
+    for (const OpenEnd& open : end.open) { (open.known_us ? marked : unmarked).push_back(open); }
+    std::vector<std::string> lines;
+    if (!marked.empty()) {
+        const auto first = std::ranges::min_element(marked, {}, &OpenEnd::known_us);
+        lines.push_back(
+            fmt::format("the record is known to be whole up to {}; the end of {} is not recorded: what was "
+                        "published after that may be missing",
+                        time_text(*first->known_us), names_of(marked)));
+    }
+    if (!unmarked.empty()) {
+        lines.push_back(
+            fmt::format("whether the end is missing cannot be known of {}: no mark says how much was "
+                        "published (an earlier version recorded this, or the log is cut)",
+                        names_of(unmarked)));
+    }
+    return lines;
+}
+
+}  // namespace lockstep::analysis

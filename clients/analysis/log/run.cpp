@@ -1,0 +1,107 @@
+#include "clients/analysis/log/run.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "clients/analysis/log/log_step.hpp"
+#include "core/step/executable.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+bool is_countable_run(const run_t& m) {
+    return is_message_number(m.sequence) && is_countable(m.start_tick) && is_countable(m.start_count) &&
+           is_countable(m.stop_count) && is_countable(m.zero_count) && is_countable(m.ahead) &&
+           is_countable(m.clock_error) && m.clock_error >= 0;
+}
+
+bool are_commanded(const run_t& m) {
+    const auto lasts = [](std::int64_t ticks) { return ticks > 0 && Ticks{ticks} <= kMaxPieceTicks; };
+    const bool fit = m.retimed == 0 || m.retimed == m.pieces || m.retimed + 1 == m.pieces;
+    return fit && std::ranges::all_of(m.commanded_ticks, lasts);
+}
+
+}  // namespace
+
+Position Run::to() const {
+    Position at = from;
+    for (const Piece& piece : pieces) { at = at + piece.covered(); }
+    return at;
+}
+
+Ticks Run::ticks() const { return total_ticks(pieces); }
+
+std::expected<Run, std::string> to_run(const run_t& message) {
+    if (!is_countable_run(message)) { return std::unexpected("a run with numbers that no machine counts to"); }
+    if (message.ticks.size() > kMaxBodyPieces + 1) {
+        return std::unexpected("a run of more pieces than a frame carries");
+    }
+    if (!are_commanded(message)) { return std::unexpected("a run commanded to last as nothing can"); }
+    Run run{.incarnation = message.incarnation,
+            .sequence = message.sequence,
+            .epoch = static_cast<Epoch>(message.epoch),
+            .frame = static_cast<FrameNumber>(message.frame),
+            .tail = message.tail != 0,
+            .start = {message.start_tick},
+            .from = Position::from_count(message.start_count, static_cast<std::uint64_t>(message.start_phase)),
+            .pieces = {},
+            .cut = message.cut != 0,
+            .stop_count = message.stop_count,
+            .zero_count = message.zero_count,
+            .ahead = {message.ahead},
+            .clock_error = {message.clock_error}};
+    for (const std::int64_t ticks : message.commanded_ticks) { run.commanded_ticks.push_back({ticks}); }
+    for (std::size_t i = 0; i < message.ticks.size(); ++i) {
+        run.pieces.push_back({{message.ticks[i]}, {message.velocity[i]}, {message.acceleration[i]}});
+        if (!executable(run.pieces.back())) { return std::unexpected("a run with a piece that no engine executes"); }
+    }
+    return run;
+}
+
+std::string name_of(const Run& run) {
+    const std::string frame = (run.tail ? "tail of frame " : "frame ") + std::to_string(run.frame);
+    if (run.epoch != 0) { return frame; }
+    return "run " + std::to_string(run.sequence) + ", " + frame + " of the axis's own move";
+}
+
+bool starts_from_rest(const Run& run) {
+    const std::int64_t count = run.from.count();
+    return run.from == rest_position(count, false) || run.from == rest_position(count, true);
+}
+
+bool is_next(const Run& before, const Run& run) {
+    return before.incarnation == run.incarnation && before.epoch == run.epoch && !before.cut && !before.tail &&
+           before.frame + (run.tail ? 0 : 1) == run.frame;
+}
+
+StepMaker::StepMaker(Run run) : run_(std::move(run)), engine_(run_.start, run_.from), count_(run_.from.count()) {
+    commanded_.other_from = run_.commanded_start();
+}
+
+void StepMaker::begin_piece() {
+    const std::size_t i = begun_++;
+    const std::size_t commanded = run_.commanded_ticks.size();
+    engine_.begin(run_.pieces[i]);
+    if (commanded > 0 && i == commanded) { return; }  // the rest of the one before
+    const bool split = i + 1 == commanded && commanded < run_.pieces.size();
+    const Ticks ticks = run_.pieces[i].ticks + (split ? run_.pieces[i + 1].ticks : Ticks{});
+    const Tick other_from = commanded_.other_from + commanded_.other_ticks;
+    commanded_ = {engine_.now(), ticks, other_from, commanded > 0 ? run_.commanded_ticks[i] : ticks};
+}
+
+void StepMaker::make_more() {
+    made_.clear();
+    passed_ = 0;
+    while (made_.empty()) {
+        if (engine_.idle()) {
+            if (begun_ == run_.pieces.size()) { return; }
+            begin_piece();
+        }
+        engine_.run(engine_.now() + engine_.remaining(), [this](StepEdge step) {
+            made_.push_back(step);
+            return made_.size() < kMadeAtOnce;
+        });
+    }
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,79 @@
+#include "clients/analysis/measure/axis_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace lockstep::analysis {
+
+void AxisStatistics::on_batch(const StepBatch& batch) {
+    if (batch.steps.empty()) { return; }
+    if (!first_) { begin(batch.steps.front(), batch.position_before_steps); }
+    std::int64_t position = batch.position_before_steps;
+    const auto measured = std::make_shared<MeasuredSteps>();
+    measured->steps.resize(batch.steps.size());
+    measured->clock_error = batch.clock_error;
+    for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+        const StepEdge edge = batch.steps[i];
+        position += edge.direction;
+        lowest_ = std::min(lowest_, position);
+        highest_ = std::max(highest_, position);
+        show_rest(edge.tick);
+        measure(edge, batch.device_tick(i), position, measured->steps[i]);
+        last_ = {edge.tick, position};
+    }
+    steps_ += static_cast<std::int64_t>(batch.steps.size());
+    clock_error_ = std::max(clock_error_, batch.clock_error);
+    if (listener_ != nullptr) { listener_->on_measured(lane_, measured); }
+}
+
+void AxisStatistics::on_break(const Break& what) {
+    meter_.interrupt();
+    ++break_count_;
+    if (what.missing_batches > 0) {
+        missing_batches_ += what.missing_batches;
+        missing_steps_ += std::abs(what.position_change);
+        joined_ = false;
+    }
+    if (breaks_.size() < kBreaksKept) { breaks_.push_back(what); }
+}
+
+void AxisStatistics::finish() {
+    meter_.interrupt();
+    if (last_) { stand_at(last_->tick); }
+}
+
+void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
+    first_ = StepPlace{edge.tick, position_before + edge.direction};
+    start_ = lowest_ = highest_ = position_before;
+    stand_at(edge.tick);
+}
+
+/// Speed and acceleration by the device's clock, which the motor follows, at their times on the machine's.
+void AxisStatistics::measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step) {
+    const auto speed = meter_.step({by_device, edge.direction});
+    const auto& acceleration = meter_.acceleration();
+    const Ticks ahead = edge.tick - by_device;
+    if (speed) { speed_.add({speed->at + ahead, speed->value}); }
+    if (acceleration) { acceleration_.add({acceleration->at + ahead, acceleration->value}); }
+    step.tick = edge.tick;
+    step.count = position;
+    step.direction = edge.direction;
+    step.steps_per_tick = speed ? static_cast<float>(std::abs(speed->value)) : 0;
+    step.steps_per_tick2 = acceleration ? static_cast<float>(std::abs(acceleration->value)) : 0;
+}
+
+void AxisStatistics::stand_at(Tick tick) {
+    speed_.add({tick, 0});
+    acceleration_.add({tick, 0});
+}
+
+/// A rest is 0 from its first instant to its last; where steps are missing nobody knows.
+void AxisStatistics::show_rest(Tick until) {
+    if (!std::exchange(joined_, true) || !last_ || until - last_->tick <= SpeedMeter::kRest) { return; }
+    stand_at(last_->tick);
+    stand_at(until);
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,79 @@
+// What one axis did, from its steps alone.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "clients/analysis/log/step_stream.hpp"
+#include "clients/analysis/measure/course.hpp"
+#include "clients/analysis/measure/measured_step.hpp"
+#include "clients/analysis/measure/speed_meter.hpp"
+
+namespace lockstep::analysis {
+
+/// A step's tick and the position after it.
+struct StepPlace {
+    Tick tick;
+    std::int64_t position_steps = 0;
+};
+
+class AxisStatistics final : public StepListener {
+public:
+    static constexpr std::size_t kBreaksKept = 1000;
+
+    /// Each step is told to `listener` too, with what was measured there.
+    void tell(MeasuredListener& listener, std::size_t lane) {
+        listener_ = &listener;
+        lane_ = lane;
+    }
+    void on_batch(const StepBatch& batch) override;
+    void on_break(const Break& what) override;
+    /// Call once, at the end.
+    void finish();
+
+    std::int64_t steps() const { return steps_; }
+    const std::optional<StepPlace>& first() const { return first_; }
+    const std::optional<StepPlace>& last() const { return last_; }
+    std::int64_t start_steps() const { return start_; }    // before the first step; 0 without steps
+    std::int64_t lowest_steps() const { return lowest_; }  // positions reached; 0 without steps
+    std::int64_t highest_steps() const { return highest_; }
+    double peak_steps_per_tick() const { return meter_.peak_steps_per_tick(); }
+    double peak_steps_per_tick2() const { return meter_.peak_steps_per_tick2(); }
+    std::vector<Sample> speed() const { return speed_.samples(); }                // steps per tick, signed
+    std::vector<Sample> acceleration() const { return acceleration_.samples(); }  // steps per tick^2, signed
+
+    const std::vector<Break>& breaks() const { return breaks_; }  // the first kBreaksKept
+    std::int64_t break_count() const { return break_count_; }
+    /// The steps' times are machine time within this.
+    Ticks clock_error() const { return clock_error_; }
+    std::int64_t missing_batches() const { return missing_batches_; }
+    /// At least so many steps are missing: what positions differ by, over all stretches of missing batches.
+    std::int64_t missing_steps() const { return missing_steps_; }
+
+private:
+    void begin(StepEdge edge, std::int64_t position_before);
+    void measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step);
+    void stand_at(Tick tick);
+    void show_rest(Tick until);
+
+    SpeedMeter meter_;
+    Course speed_;
+    Course acceleration_;
+    MeasuredListener* listener_ = nullptr;
+    std::size_t lane_ = 0;
+    std::int64_t steps_ = 0;
+    std::optional<StepPlace> first_;
+    std::optional<StepPlace> last_;
+    std::int64_t start_ = 0;
+    std::int64_t lowest_ = 0;
+    std::int64_t highest_ = 0;
+    Ticks clock_error_;
+    std::vector<Break> breaks_;
+    std::int64_t break_count_ = 0;
+    std::int64_t missing_batches_ = 0;
+    std::int64_t missing_steps_ = 0;
+    bool joined_ = true;  // the next step to the last one
+};
+
+}  // namespace lockstep::analysis

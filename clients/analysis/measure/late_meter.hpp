@@ -1,0 +1,36 @@
+// Finds how late each axis's steps were, and how far apart those of two axes: the stage between the axes' own figures
+// and the jobs'.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clients/analysis/measure/skew.hpp"
+#include "clients/analysis/measure/sorted_log.hpp"
+
+namespace lockstep::analysis {
+
+class LateMeter final : public SortedListener {
+public:
+    /// `next` is told all that this object is told, and of late steps.
+    explicit LateMeter(SortedListener& next) : next_(next) {}
+    LateMeter(const LateMeter&) = delete;
+    LateMeter& operator=(const LateMeter&) = delete;
+
+    void on_axis(const std::string& name) override;
+    void on_measured(std::size_t lane, const SharedSteps& steps) override;
+    void on_position(const axis_position_t& message) override { next_.on_position(message); }
+    void on_run(std::size_t lane, const Run& run) override;
+    void on_job(const job_t& message, LogPlace place) override { next_.on_job(message, place); }
+    void on_damage(LogPlace place, const std::string& what) override { next_.on_damage(place, what); }
+
+    /// Call once, at the end of the log. The pairs of axes that had frames together.
+    std::vector<PairSkew> finish() { return skew_.finish(); }
+
+private:
+    SortedListener& next_;
+    std::vector<std::string> axes_;  // by lane
+    SkewMeter skew_{[this](const std::string& axis, const SharedLate& steps) { next_.on_late(axis, steps); }};
+};
+
+}  // namespace lockstep::analysis

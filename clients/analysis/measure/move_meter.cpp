@@ -1,0 +1,73 @@
+#include "clients/analysis/measure/move_meter.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lockstep::analysis {
+
+std::optional<std::size_t> MoveMeter::Job::axis(const std::string& name) const {
+    const auto found = std::ranges::find(axes, name);
+    if (found == axes.end() || moves.asked().axes() == 0) { return std::nullopt; }
+    return static_cast<std::size_t>(found - axes.begin());
+}
+
+void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
+    if (lanes_.size() <= lane) { lanes_.resize(lane + 1); }
+    lanes_[lane].axis = axis;
+    if (axis == "X") { lanes_[lane].in_plane = 0; }
+    if (axis == "Y") { lanes_[lane].in_plane = 1; }
+    for (Job& job : jobs_) {
+        job.axis_of_lane.resize(lanes_.size());
+        job.axis_of_lane[lane] = job.axis(axis);
+    }
+}
+
+void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves) {
+    if (jobs_.size() == kJobsOpen) { end_first(); }
+    Job job{.number = number, .from = from, .axes = {}, .moves = std::move(moves), .axis_of_lane = {}};
+    for (const AxisConfig& axis : machine.axes) { job.axes.push_back(axis.name); }
+    for (const Lane& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane.axis)); }
+    jobs_.push_back(std::move(job));
+}
+
+void MoveMeter::take(std::size_t lane, const MeasuredStep& step) {
+    Job* job = job_at(step.tick);
+    trace(job, lane, step);
+    if (job == nullptr) {
+        ++steps_of_no_job_;
+        return;
+    }
+    if (const auto axis = job->axis_of_lane[lane]) { job->moves.take(*axis, step); }
+}
+
+void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step) {
+    const bool of_a_job = job != nullptr && job->moves.is_on_a_line();
+    if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
+    if (of_a_job != plane_is_of_jobs_) { return; }
+    if (const auto in_plane = lanes_[lane].in_plane) { plane_.step(*in_plane, step.count, step.direction); }
+}
+
+void MoveMeter::on_late(const std::string& axis, LateSteps late) {
+    while (!late.steps.empty()) {
+        const auto& steps = late.steps;
+        Job* job = job_at(steps.front().commanded);
+        const auto is_of_job = [&](const LateStep& step) { return job_at(step.commanded) == job; };
+        const auto end = is_of_job(steps.back()) ? steps.end() : std::ranges::find_if_not(steps, is_of_job);
+        const auto count = static_cast<std::size_t>(end - steps.begin());
+        const auto number = job != nullptr ? job->axis(axis) : std::nullopt;
+        if (number) { job->moves.take(*number, late.first(count)); }
+        late = late.behind(count);
+    }
+}
+
+void MoveMeter::end_first() {
+    Job& job = jobs_.front();
+    on_job_(job.number, job.axes, job.moves);
+    jobs_.erase(jobs_.begin());
+}
+
+void MoveMeter::finish() {
+    while (!jobs_.empty()) { end_first(); }
+}
+
+}  // namespace lockstep::analysis

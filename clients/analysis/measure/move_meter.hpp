@@ -1,0 +1,74 @@
+// Finds the job that each step belongs to, and measures the job's moves.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/measure/job_moves.hpp"
+#include "clients/analysis/measure/lateness.hpp"
+#include "clients/analysis/measure/measured_step.hpp"
+#include "clients/analysis/measure/plane_trace.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep::analysis {
+
+class MoveMeter {
+public:
+    /// So many jobs may still be told of: messages of the next come before the last steps of one.
+    static constexpr std::size_t kJobsOpen = 4;
+
+    /// Called with each job's moves when it is over, by the number that begin() was given, and its machine's axes.
+    using OnJob = std::function<void(std::size_t number, const std::vector<std::string>& axes, JobMoves&)>;
+    explicit MoveMeter(OnJob on_job) : on_job_(std::move(on_job)) {}
+
+    /// The name of the axis whose steps the lane of that number has.
+    void name_lane(std::size_t lane, const std::string& axis);
+    /// All steps from `from` on are the job's, until the next begins.
+    void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
+    /// Steps of all axes, in the order of their ticks.
+    void take(std::size_t lane, const MeasuredStep& step);
+    /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
+    const PlaneTrace& plane() const { return plane_; }
+    void on_late(const std::string& axis, LateSteps late);
+    /// Made before the first job began.
+    std::int64_t steps_of_no_job() const { return steps_of_no_job_; }
+    /// Call once, at the end.
+    void finish();
+
+private:
+    struct Lane {
+        std::string axis;
+        std::optional<std::size_t> in_plane;  // of PlaneTrace's two axes
+    };
+    struct Job {
+        std::size_t number = 0;
+        Tick from;
+        std::vector<std::string> axes;
+        JobMoves moves;
+        std::vector<std::optional<std::size_t>> axis_of_lane;
+
+        std::optional<std::size_t> axis(const std::string& name) const;
+    };
+
+    /// The latest one that has begun by then; null: none has.
+    Job* job_at(Tick tick) {
+        auto job = jobs_.rbegin();
+        while (job != jobs_.rend() && job->from > tick) { ++job; }
+        return job == jobs_.rend() ? nullptr : &*job;
+    }
+    void trace(const Job* job, std::size_t lane, const MeasuredStep& step);
+    void end_first();
+
+    OnJob on_job_;
+    std::vector<Lane> lanes_;
+    std::vector<Job> jobs_;  // as they began
+    PlaneTrace plane_;
+    bool plane_is_of_jobs_ = false;
+    std::int64_t steps_of_no_job_ = 0;
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,76 @@
+// Step skew between axes: how far apart the steps of two axes are from where one clock would have put both.
+//
+// An axis's steps are late by (tick made) - (tick commanded). The skew of a pair, at each step of either, is the
+// difference of how late the newest step of each is, among those of the same frame. Machine time, so that it is known
+// within what both axes' clocks are; 0 where one clock drives all devices.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clients/analysis/measure/lateness.hpp"
+
+namespace lockstep::analysis {
+
+/// Of one pair of axes. Amounts, without their signs.
+struct PairSkew {
+    std::string first;
+    std::string second;
+    std::int64_t steps = 0;  // at which it was taken
+    Ticks median;
+    Ticks p99;
+    Ticks largest;
+    Ticks error;  // every one is known within
+};
+
+class SkewMeter {
+public:
+    /// A frame waits until every axis has told of a later one; so many wait for an axis that tells of none.
+    static constexpr std::size_t kFramesWaiting = 64;
+
+    using OnLate = std::function<void(const std::string& axis, const SharedLate& steps)>;
+    /// `on_late` hears of the steps of each frame, axis by axis.
+    explicit SkewMeter(OnLate on_late) : on_late_(std::move(on_late)) {}
+
+    /// Call as soon as an axis is heard of.
+    void add(const std::string& axis) { lateness(axis); }
+    /// The next steps of an axis.
+    void take(const std::string& axis, SharedSteps steps) { lateness(axis).take(std::move(steps)); }
+    void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
+    /// Call once, at the end of the log. The pairs that had frames together.
+    std::vector<PairSkew> finish();
+
+private:
+    using Steps = std::map<std::string, SharedLate>;  // of one frame or tail, by axis
+    struct FrameKey {
+        Tick start;
+        Epoch epoch = 0;
+        auto operator<=>(const FrameKey&) const = default;
+    };
+
+    Lateness& lateness(const std::string& axis);
+    void on_run(const std::string& axis, const Run& run, SharedLate steps);
+    bool all_are_past_first_frame() const;
+    void take_first_frame();
+    /// How often each amount was seen, and the largest error.
+    struct Amounts {
+        std::map<Ticks, std::int64_t> times;
+        Ticks error;
+    };
+
+    static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
+    void take_pair(const Steps::value_type& first, const Steps::value_type& second);
+
+    OnLate on_late_;
+    std::map<std::string, std::unique_ptr<Lateness>> axes_;
+    std::map<std::string, FrameKey> latest_;  // that each axis has told of
+    std::map<FrameKey, Steps> frames_;
+    std::map<std::pair<std::string, std::string>, Amounts> skews_;
+};
+
+}  // namespace lockstep::analysis

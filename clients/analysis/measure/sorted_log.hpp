@@ -1,0 +1,31 @@
+// What a log holds once its messages are sorted: those of the machine analysed, whole, each axis's steps in order and
+// measured. Everything that looks at several axes, or at jobs, begins here.
+#pragma once
+
+#include <cstddef>
+#include <lockstep/axis_position_t.hpp>
+#include <lockstep/job_t.hpp>
+#include <string>
+
+#include "clients/analysis/log/damage.hpp"
+#include "clients/analysis/log/run.hpp"
+#include "clients/analysis/measure/lateness.hpp"
+#include "clients/analysis/measure/measured_step.hpp"
+
+namespace lockstep::analysis {
+
+/// Told in the order of the log. A lane is an axis, by number, from 0.
+class SortedListener : public MeasuredListener {
+public:
+    /// The next lane, before anything else of it.
+    virtual void on_axis(const std::string& name) = 0;
+    virtual void on_position(const axis_position_t& message) = 0;
+    virtual void on_run(std::size_t lane, const Run& run) = 0;
+    virtual void on_job(const job_t& message, LogPlace place) = 0;
+    /// What is there cannot be read, or not understood.
+    virtual void on_damage(LogPlace place, const std::string& what) = 0;
+    /// How late the steps of a run were: told by LateMeter, which is told all else.
+    virtual void on_late(const std::string& /*axis*/, const SharedLate& /*steps*/) {}
+};
+
+}  // namespace lockstep::analysis

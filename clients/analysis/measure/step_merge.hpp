@@ -1,0 +1,114 @@
+// The steps of several axes in the order of their ticks, from streams that each come in their own order.
+//
+// A step waits until no axis can still tell of an earlier one, and the log itself says how far each has told: up to
+// its newest step, and up to an instant at which it said to stand where its newest step left it. So an axis that is
+// late, since its process stalled or its messages did, is waited for, and one at rest is not. Memory is bounded: where
+// too many steps wait, who holds them up is waited for no longer, until it tells of steps again.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "clients/analysis/measure/step_queue.hpp"
+
+namespace lockstep::analysis {
+
+class StepMerge {
+public:
+    /// Clocks that are known better and better may put a step so far before the instant at which an axis stood still.
+    static constexpr Ticks kPatience{500'000};
+    /// 128 MB.
+    static constexpr std::size_t kMaxWaiting = std::size_t{1} << 22;
+
+    explicit StepMerge(std::size_t max_waiting = kMaxWaiting) : max_waiting_(max_waiting) {}
+
+    /// A lane for each axis. Its number.
+    std::size_t add_lane();
+    /// A lane's steps come in the order of their ticks.
+    void take(std::size_t lane, SharedSteps steps);
+    /// The axis says where it was at a tick.
+    void stands(std::size_t lane, Tick tick, std::int64_t count);
+    /// Messages of the axis are missing behind the last one: it may have moved away and back.
+    void lost(std::size_t lane) { lanes_[lane].lacks_steps = true; }
+    /// From when on, and until when, the log has all that the axis did, but for what is missing between.
+    Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
+    Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
+    /// Calls on_step(lane, step) for what need not wait any longer. Call now and then.
+    template <typename OnStep>
+    void settle(OnStep&& on_step) {
+        tell_before(settled_until(), on_step);
+        while (waiting_ > max_waiting_ && give_up_slowest()) { tell_before(settled_until(), on_step); }
+    }
+    /// The same for all.
+    template <typename OnStep>
+    void finish(OnStep&& on_step) {
+        tell_before(kNever, on_step);
+    }
+
+private:
+    static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
+
+    struct Lane {
+        StepQueue steps;
+        Tick told_until;  // the axis has told of all its steps before
+        Tick known_from = kNever;
+        Tick known_until;        // its newest step, or a later instant at which it stood where that step left it
+        std::int64_t count = 0;  // after its newest step; before its first, where it stood first
+        bool has_count = false;
+        bool has_steps = false;
+        bool lacks_steps = false;  // it stands elsewhere since its newest step, or may have moved
+        bool is_awaited = true;
+    };
+    struct Turn {
+        std::size_t lane = 0;
+        Tick until;  // the next step of any other
+    };
+
+    Tick settled_until() const;
+    bool give_up_slowest();
+    template <typename OnStep>
+    void tell_before(Tick end, OnStep& on_step);
+    void look_at(std::size_t lane, Tick end);
+    Turn next_turn() const;
+
+    std::size_t max_waiting_;
+    std::size_t waiting_ = 0;
+    std::vector<Lane> lanes_;
+    std::vector<Tick> next_;  // the next step of each lane; kNever: none before the end
+};
+
+/// The lane whose next step is first is told up to the next step of any other.
+template <typename OnStep>
+void StepMerge::tell_before(Tick end, OnStep& on_step) {
+    for (std::size_t i = 0; i < lanes_.size(); ++i) { look_at(i, end); }
+    if (lanes_.empty()) { return; }
+    for (Turn turn = next_turn(); next_[turn.lane] != kNever; turn = next_turn()) {
+        StepQueue& steps = lanes_[turn.lane].steps;
+        do {
+            on_step(turn.lane, steps.front());
+            steps.pop();
+            --waiting_;
+            look_at(turn.lane, end);
+        } while (next_[turn.lane] < turn.until);
+    }
+}
+
+inline void StepMerge::look_at(std::size_t lane, Tick end) {
+    const StepQueue& steps = lanes_[lane].steps;
+    next_[lane] = !steps.empty() && steps.front().tick < end ? steps.front().tick : kNever;
+}
+
+inline StepMerge::Turn StepMerge::next_turn() const {
+    std::size_t first = 0;
+    Tick until = kNever;
+    for (std::size_t i = 1; i < next_.size(); ++i) {
+        const bool is_first = next_[i] < next_[first];
+        until = std::min(until, is_first ? next_[first] : next_[i]);
+        first = is_first ? i : first;
+    }
+    return {first, until};
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,109 @@
+#include "clients/analysis/measure/trace.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace lockstep::analysis {
+namespace {
+
+// An interval so many times the one before holds a rest.
+constexpr std::int64_t kRestRatio = 4;
+
+double ticks_between(Tick from, Tick to) { return static_cast<double>(to.value - from.value); }
+
+}  // namespace
+
+void Trace::on_batch(const StepBatch& batch) {
+    position_ = batch.position_before_steps;
+    for (const StepEdge& edge : batch.steps) {
+        step(edge, position_);
+        position_ += edge.direction;
+    }
+}
+
+void Trace::on_break(const Break&) { finish(); }
+
+void Trace::finish() {
+    if (last_step_) {
+        point(*last_step_ + Ticks{std::max<std::int64_t>(1, last_interval_.value / 2)}, static_cast<double>(position_));
+    }
+    end_line();
+    joined_ = false;
+    last_step_.reset();
+    last_interval_ = {};
+}
+
+void Trace::step(StepEdge edge, std::int64_t position_before) {
+    if (last_step_) {
+        const Ticks interval = edge.tick - *last_step_;
+        const bool rested = last_interval_.value >= 2 && interval >= last_interval_ * kRestRatio;
+        if (rested) { rest(edge.tick, position_before); }
+        last_interval_ = rested ? Ticks{} : interval;
+    }
+    point(edge.tick, static_cast<double>(position_before) + edge.direction * 0.5);
+    last_step_ = edge.tick;
+}
+
+/// The axis rested on a whole step before it stepped at `until`: two points say when.
+void Trace::rest(Tick until, std::int64_t position) {
+    const Ticks half{last_interval_.value / 2};
+    point(*last_step_ + half, static_cast<double>(position));
+    point(until - half, static_cast<double>(position));
+}
+
+void Trace::point(Tick tick, double position) {
+    if (!std::exchange(joined_, true)) {
+        keep({tick, position, false});
+        return;
+    }
+    const Knot& anchor = knots_.back();
+    const double time = ticks_between(anchor.tick, tick);
+    const double slope = (position - anchor.position_steps) / time;
+    if (newest_ && (slope < low_slope_ || slope > high_slope_)) {
+        end_line();
+        point(tick, position);
+        return;
+    }
+    const double half_angle = tolerance_ / time;
+    low_slope_ = newest_ ? std::max(low_slope_, slope - half_angle) : slope - half_angle;
+    high_slope_ = newest_ ? std::min(high_slope_, slope + half_angle) : slope + half_angle;
+    newest_ = Knot{tick, position};
+}
+
+void Trace::end_line() {
+    if (newest_) { keep(*std::exchange(newest_, std::nullopt)); }
+}
+
+void Trace::keep(Knot knot) {
+    knots_.push_back(knot);
+    if (knots_.size() >= max_knots_) { thin_out(); }
+}
+
+/// The same again over the knots, with twice the tolerance; the errors add up.
+void Trace::thin_out() {
+    Trace coarser(std::numeric_limits<std::size_t>::max());
+    coarser.tolerance_ = tolerance_ * 2;
+    for (const Knot& knot : knots_) {
+        if (!knot.joined) {
+            coarser.end_line();
+            coarser.joined_ = false;
+        }
+        coarser.point(knot.tick, knot.position_steps);
+    }
+    coarser.end_line();
+    knots_ = std::move(coarser.knots_);
+    tolerance_ = coarser.tolerance_;
+    error_ += tolerance_;
+}
+
+double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place) {
+    while (place + 1 < knots.size() && knots[place + 1].tick <= tick) { ++place; }
+    const Knot& before = knots[place];
+    if (place + 1 == knots.size() || tick <= before.tick || !knots[place + 1].joined) { return before.position_steps; }
+    const Knot& after = knots[place + 1];
+    const double share = ticks_between(before.tick, tick) / ticks_between(before.tick, after.tick);
+    return before.position_steps + share * (after.position_steps - before.position_steps);
+}
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,114 @@
+#include "clients/lockstep/job/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "clients/session/move_program.hpp"
+
+namespace lockstep {
+namespace {
+
+using Point = std::vector<double>;
+
+std::expected<std::vector<Lift>, std::string> lifts_named(const MachineConfig& machine, const std::string& option) {
+    std::vector<Lift> lifts;
+    std::istringstream words(option);
+    for (std::string word; std::getline(words, word, ',');) {
+        const auto target = parse_target(word);
+        if (!target) { return std::unexpected(target.error()); }
+        const auto axis = find_axis(machine, target->axis);
+        if (!axis) { return std::unexpected(axis.error()); }
+        const AxisConfig& config = machine.axes[*axis];
+        if (target->mm < config.position_min_mm || target->mm > config.position_max_mm) {
+            return std::unexpected(word + " is outside the axis's travel; name a place within it");
+        }
+        lifts.push_back({*axis, target->mm, true});
+    }
+    return lifts;
+}
+
+/// On a whole step. An axis homes away from the work.
+double clear_place(const AxisConfig& axis, const Lift& lift, double at_mm, double to_mm) {
+    const double place = lockstep::to_mm(axis, static_cast<double>(to_steps(axis, lift.mm)));
+    if (lift.is_asked) { return place; }
+    return axis.homing.toward_min ? std::min({place, at_mm, to_mm}) : std::max({place, at_mm, to_mm});
+}
+
+double distance(const Point& from, const Point& to) {
+    double squares = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) { squares += (to[i] - from[i]) * (to[i] - from[i]); }
+    return std::sqrt(squares);
+}
+
+}  // namespace
+
+std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& machine, const std::string& option) {
+    if (!option.empty()) { return lifts_named(machine, option); }
+    int first = machine.axes.front().homing.sequence;
+    int last = first;
+    for (const AxisConfig& axis : machine.axes) {
+        first = std::min(first, axis.homing.sequence);
+        last = std::max(last, axis.homing.sequence);
+    }
+    if (first == last) {
+        return std::unexpected(
+            "all axes home together, so nothing tells which one lifts; say which leaves the work first, and where it "
+            "is "
+            "clear of it: --lift Z=40; or --straight, to go there in one line");
+    }
+    std::vector<Lift> lifts;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const HomingConfig& homing = machine.axes[i].homing;
+        if (homing.sequence == first) { lifts.push_back({i, homing.park_mm}); }
+    }
+    return lifts;
+}
+
+std::vector<double> place_before(const Program& program, std::int32_t line) {
+    Point place = program.start_mm;
+    for (const Block& block : program.blocks) {
+        if (block.line >= line) { break; }
+        if (const auto* move = std::get_if<LinearMove>(&block.action)) { place = move->target_mm; }
+    }
+    return place;
+}
+
+double feed_before(const Program& program, std::int32_t line) {
+    double feed_mm_s = 0;
+    for (const Block& block : program.blocks) {
+        if (block.line >= line && feed_mm_s > 0) { break; }
+        const auto* move = std::get_if<LinearMove>(&block.action);
+        if (move != nullptr && !move->rapid) { feed_mm_s = move->feed_mm_s; }
+    }
+    return feed_mm_s;
+}
+
+std::vector<ApproachMove> straight_approach(const Point& at_mm, const Point& to_mm) {
+    return {{"goes straight", {.target_mm = to_mm, .rapid = true}, distance(at_mm, to_mm)}};
+}
+
+std::vector<ApproachMove> approach(const MachineConfig& machine, const std::vector<Lift>& lifts, const Point& at_mm,
+                                   const Point& to_mm, double feed_mm_s) {
+    std::vector<ApproachMove> moves;
+    if (at_mm == to_mm) { return moves; }
+    Point lifted = at_mm;
+    Point crossed = to_mm;
+    double feed = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s;
+    for (const Lift& lift : lifts) {
+        const AxisConfig& axis = machine.axes[lift.axis];
+        lifted[lift.axis] = clear_place(axis, lift, at_mm[lift.axis], to_mm[lift.axis]);
+        crossed[lift.axis] = lifted[lift.axis];
+        if (feed_mm_s == 0) { feed = std::min(feed, axis.start_velocity_mm_s); }
+    }
+    const auto go = [&](const char* what, const Point& from, const Point& to, bool rapid) {
+        if (to == from) { return; }
+        moves.push_back({what, {.target_mm = to, .feed_mm_s = rapid ? 0 : feed, .rapid = rapid}, distance(from, to)});
+    };
+    go("lifts", at_mm, lifted, true);
+    go("crosses", lifted, crossed, true);
+    go("goes down", crossed, to_mm, false);
+    return moves;
+}
+
+}  // namespace lockstep

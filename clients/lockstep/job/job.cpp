@@ -1,0 +1,184 @@
+#include "clients/lockstep/job/job.hpp"
+
+#include <algorithm>
+
+#include "clients/lockstep/job/job_watch.hpp"
+#include "clients/session/record_loss.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/text/words.hpp"
+#include "core/coordinator/program_plan.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kFinalStatePatience = 1s;  // for the axes' word of where they came to rest
+
+std::string outcome_name(JobVerdict verdict) {
+    switch (verdict) {
+        case JobVerdict::Done: return "done";
+        case JobVerdict::Stopped: return "stopped";
+        case JobVerdict::Held: return "held";
+        case JobVerdict::Failed: return "failed";
+        case JobVerdict::CutShort: return "cut-short";
+        case JobVerdict::InProgress: return "begun";
+        case JobVerdict::Lost: break;
+    }
+    return "lost";
+}
+
+/// The axes' states reach a client by themselves: waits for ones said after the job's end.
+void add_final_positions(Session& session, proto::RunReport& report) {
+    const nanoseconds end = monotonic_now();
+    const MachineConfig& machine = session.config();
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const auto rests = [&] {
+            return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
+        };
+        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.listen(10ms); }
+        if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
+    }
+}
+
+std::string title(const Job& job) {
+    return job.name.empty() || job.name == job.kind ? job.kind : job.kind + " " + job.name;
+}
+
+std::string cut_short_text(const proto::RunReport& report) {
+    const std::string text = "the coordinator fell silent and another has taken over; the axes rest on the path";
+    if (!report.has_line()) { return text; }
+    const std::string line = std::to_string(report.line());
+    return text + " near line " + line + "; the rest of the job: lockstep run FILE --from-line " + line;
+}
+
+std::string stopped_text(const Job& job, const Session& session) {
+    if (job.command != CommandKind::Home) { return "stopped on the path; the rest of the job is dropped"; }
+    return unhomed_text(status_report(session));
+}
+
+void say_end(const Session& session, const Job& job, const proto::RunReport& report, Voice& voice) {
+    const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
+    const std::string place = report.final_positions().empty() ? "where its axes stand is not known: none is heard"
+                                                               : "at " + places_text(report);
+    voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; " + place, 80, "  "));
+    if (report.has_fault()) { voice.say(fault_text(report.fault())); }
+    if (report.outcome() == "stopped") { voice.say(stopped_text(job, session)); }
+    if (report.outcome() == "held") { voice.say("go on with: lockstep resume; end the job with: lockstep stop"); }
+    if (report.outcome() == "cut-short") { voice.say(wrapped(cut_short_text(report), 80, "  ")); }
+    if (report.outcome() == "lost") {
+        voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status");
+    }
+}
+
+ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Voice& voice) {
+    report.set_outcome("refused");
+    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    voice.report(report);
+    if (!voice.json()) { voice.warn(title(job) + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
+    return kExitFailed;
+}
+
+proto::RunReport new_report(const Job& job) {
+    proto::RunReport report;
+    report.set_kind(job.kind);
+    report.set_name(job.name);
+    if (job.planned_s) { report.set_planned_s(*job.planned_s); }
+    return report;
+}
+
+std::expected<Reply, Failure> begin(Session& session, const Job& job, const StopSignal& stop) {
+    std::uint64_t program = 0;
+    if (job.program) {
+        const auto sent = session.send(*job.program, &stop);
+        if (!sent) { return std::unexpected(sent.error()); }
+        program = *sent;
+    }
+    const Command command{.kind = job.command, .axes = job.axes, .program = program, .ticks = job.ticks};
+    auto reply = session.command(command, &stop);
+    if (reply || !stop.requested()) { return reply; }
+    (void)session.command({.kind = CommandKind::Stop});
+    return std::unexpected(
+        failed("interrupted before the coordinator answered: whether the job was begun is not "
+               "known, and a stop was sent; see: lockstep status"));
+}
+
+ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {
+    report.set_outcome(outcome_name(verdict));
+    if (verdict == JobVerdict::Failed) {
+        if (auto fault = fault_of(session.state()->state, session.config())) {
+            *report.mutable_fault() = *std::move(fault);
+        }
+    }
+    const std::int32_t line = session.state()->state.line;
+    if (verdict == JobVerdict::CutShort && line > 0) { report.set_line(line); }
+    if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
+    voice.report(report);
+    if (verdict == JobVerdict::InProgress) {
+        voice.say(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
+        return kExitDone;
+    }
+    say_end(session, job, report, voice);
+    return verdict == JobVerdict::Done ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+ExitCode run_job(Session& session, const Job& job, Voice& voice) {
+    if (session.config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    const StopSignal stop;
+    const HangUp hang_up;
+    proto::RunReport report = new_report(job);
+    const std::uint64_t lost = lost_records(status_report(session));
+    const auto reply = begin(session, job, stop);
+    if (!reply) { return voice.fail(reply.error()); }
+    if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, voice); }
+    report.set_job(reply->job);
+    if (job.detach) { return end(session, job, JobVerdict::InProgress, report, voice); }
+    voice.say(title(job) + ": job " + std::to_string(reply->job) +
+              (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
+    const nanoseconds begun = monotonic_now();
+    const auto verdict = JobWatch(session, reply->job, job.command, voice, stop, hang_up).wait();
+    if (!verdict) { return voice.fail(verdict.error()); }
+    report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
+    report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
+    if (report.lost_records() > 0) { voice.warn(record_loss_text(status_report(session))); }
+    return end(session, job, *verdict, report, voice);
+}
+
+std::expected<std::vector<double>, Failure> start_places(Session& session) {
+    if (auto reached = session.reach_axes(); !reached) { return std::unexpected(reached.error()); }
+    std::vector<double> start_mm;
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const auto count = static_cast<double>(session.axis(i)->state.position.count());
+        start_mm.push_back(to_mm(session.config().axes[i], count));
+    }
+    return start_mm;
+}
+
+std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
+                                               const std::vector<double>& start_mm) {
+    const MachineConfig& machine = session.config();
+    const Overrides overrides = session.state() ? session.state()->state.overrides : Overrides{};
+    AxisCounts start;
+    for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
+    const ProgramPlanner planner(machine);
+    auto legs = planner.plan(program, start);
+    if (!legs) {
+        return std::unexpected(
+            bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
+    }
+    double ticks = 0;
+    for (Leg& leg : *legs) {
+        if (leg.moves.empty()) { continue; }
+        ticks +=
+            static_cast<double>(planner.path(std::move(leg.moves), {}, overrides).duration().value) / kSubticksPerTick;
+    }
+    return ticks / machine.ticks_per_second();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,35 @@
+// A job from the command that begins it to its end: what home, move and run have in common.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "clients/session/session.hpp"
+#include "clients/text/voice.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+struct Job {
+    CommandKind command = CommandKind::Run;
+    std::string kind;                     // "home", "move", "run", "own-move"
+    std::string name;                     // of the program
+    AxisSet axes = 0;                     // home: which; none: all
+    std::optional<Program> program = {};  // move, run, own move
+    Ticks ticks = {};                     // own move: how long it lasts; 0: as fast as allowed
+    std::optional<double> planned_s = {};
+    bool detach = false;  // ends when the job has begun
+};
+
+/// Begins it, shows its progress, waits for its end, reports. SIGINT and SIGTERM stop the machine on its path first;
+/// SIGHUP, a closed terminal, holds it. Both end this within some 15 s, whatever the machine does.
+ExitCode run_job(Session& session, const Job& job, Voice& voice);
+
+/// Where every axis stands, in mm and to the step. Error: an axis is not heard.
+std::expected<std::vector<double>, Failure> start_places(Session& session);
+
+/// How long a program takes from there with the session's overrides, s. Error: why it cannot be planned.
+std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
+                                               const std::vector<double>& start_mm);
+
+}  // namespace lockstep

@@ -1,0 +1,104 @@
+#include "clients/lockstep/job/job_watch.hpp"
+
+#include "clients/session/reports.hpp"
+#include "clients/session/status_text.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kGlance{100};  // how soon a signal is noticed
+/// For the machine to come to rest after a stop: a healthy one takes the frames that are under way, about a second, and
+/// its tail.
+constexpr std::chrono::seconds kRestPatience{10};
+
+}  // namespace
+
+JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop,
+                   const HangUp& hang_up)
+    : session_(session),
+      number_(number),
+      command_(command),
+      voice_(voice),
+      stop_(stop),
+      hang_up_(hang_up),
+      asked_(session.state()->state.term),
+      runs_it_(asked_) {}
+
+std::expected<JobVerdict, Failure> JobWatch::wait() {
+    for (;;) {
+        session_.listen(kGlance);
+        if (session_.is_silent()) { return std::unexpected(silent()); }
+        const MachineState& state = session_.state()->state;
+        const JobVerdict verdict = judge(state, number_, asked_, runs_it_);
+        if (verdict != JobVerdict::InProgress) { return verdict; }
+        const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+        if (hang_up_.came() && rests && state.job == number_) { return JobVerdict::Held; }
+        if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
+        if (rest_asked_ && monotonic_now() - *rest_asked_ > kRestPatience) { return std::unexpected(restless()); }
+        if (state.job == number_) { tell(state); }
+    }
+}
+
+Failure JobWatch::silent() const {
+    Failure failure = session_.silent();
+    std::string& message = failure.errors.front().message;
+    message = "the coordinator fell silent; the axes come to rest on the path by themselves. " + message;
+    return failure;
+}
+
+Failure JobWatch::restless() const {
+    return failed("the job has not ended within " + std::to_string(kRestPatience.count()) +
+                  " s of the stop; the machine may be in motion: lockstep status; to cease all pulses: lockstep estop");
+}
+
+std::expected<void, Failure> JobWatch::follow_signals() {
+    if (hang_up_.came() && !hold_sent_) { return send_hold(); }
+    if (stop_.requested() && !stop_sent_) { return send_stop(); }
+    return {};
+}
+
+std::expected<void, Failure> JobWatch::send_hold() {
+    hold_sent_ = true;
+    rest_asked_ = monotonic_now();
+    const auto reply = session_.command({.kind = CommandKind::Hold});
+    if (!reply) { return std::unexpected(reply.error()); }
+    return reply->status == ReplyStatus::Accepted ? std::expected<void, Failure>{} : send_stop();
+}
+
+std::expected<void, Failure> JobWatch::send_stop() {
+    stop_sent_ = true;
+    rest_asked_ = monotonic_now();
+    voice_.say(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
+    const auto reply = session_.command({.kind = CommandKind::Stop});
+    if (!reply) { return std::unexpected(reply.error()); }
+    const bool has_ended = reply->fault == static_cast<std::uint16_t>(FaultCode::NothingToDo);
+    if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
+    return std::unexpected(
+        failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
+}
+
+void JobWatch::tell(const MachineState& state) {
+    if (state.line > 0) { line_ = state.line; }
+    if (state.term != runs_it_ && state.phase != MachinePhase::Waiting) {
+        runs_it_ = state.term;
+        voice_.say("another coordinator has taken over and goes on with the job" +
+                   (line_ > 0 ? " at line " + std::to_string(line_) : ""));
+    }
+    const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+    if (rests && state.phase != told_) {
+        const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
+        const std::string where = line_ > 0 ? " at line " + std::to_string(line_) : "";
+        voice_.say(how + where + ": go on with lockstep resume, or end it with lockstep stop");
+    }
+    told_ = state.phase;
+    if (!rests) { tell_progress(); }
+}
+
+void JobWatch::tell_progress() {
+    const proto::StatusReport status = status_report(session_);
+    if (command_ == CommandKind::Home) { return voice_.progress(homing_text(status)); }
+    voice_.progress(voice_.is_terminal() ? progress_bar(status) : progress_text(status));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,54 @@
+// lockstep home
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/job/job.hpp"
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/move_program.hpp"
+
+namespace lockstep {
+namespace {
+
+struct HomeOptions : LiveOptions {
+    std::vector<std::string> axes;
+    bool detach = false;
+};
+
+std::expected<AxisSet, Failure> axes_of(const MachineConfig& machine, const std::vector<std::string>& names) {
+    AxisSet axes = 0;
+    for (const std::string& name : names) {
+        const auto axis = find_axis(machine, name);
+        if (!axis) { return std::unexpected(bad_input(axis.error())); }
+        axes |= axis_bit(*axis);
+    }
+    return axes;
+}
+
+ExitCode home(const HomeOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    const auto axes = axes_of(machine->config, options.axes);
+    if (!axes) { return voice.fail(axes.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return voice.fail(session.error()); }
+    const Job job{.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes, .detach = options.detach};
+    return run_job(*session, job, voice);
+}
+
+}  // namespace
+
+void add_home(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("home", "find the zero of all axes, or of those named, by their home switches");
+    const auto options = std::make_shared<HomeOptions>();
+    verb->add_option("axes", options->axes, "the axes' names; all where none is named");
+    add_detach(*verb, options->detach);
+    add_live_options(*verb, *options);
+    verb->footer(
+        "Ctrl-C, a closed terminal (SIGHUP), lockstep stop and lockstep hold end homing at rest: axes without\n"
+        "their zero stay unhomed. With --detach, or under nohup, homing goes on by itself.\n" +
+        footer("  lockstep home\n  lockstep home X Y\n"));
+    verb->callback([&action, options] { action = [options] { return home(*options); }; });
+}
+
+}  // namespace lockstep

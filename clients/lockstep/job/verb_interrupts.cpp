@@ -1,0 +1,120 @@
+// lockstep hold, resume, stop, estop, reset
+#include <array>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/command_effect.hpp"
+#include "clients/session/refusal.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/session/session.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/text/voice.hpp"
+#include "clients/text/words.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+namespace {
+
+struct Interrupt {
+    const char* name;
+    CommandKind command;
+    const char* what;
+    const char* then;  // what a person may do next
+};
+
+constexpr std::array kInterrupts{
+    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed",
+              "go on with: lockstep resume; end the job with: lockstep stop"},
+    Interrupt{"resume", CommandKind::Resume, "go on with a job that is held or paused",
+              "watch it with: lockstep watch"},
+    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", ""},
+    Interrupt{"estop", CommandKind::EmergencyStop,
+              "cease all pulses at once, also without a coordinator; positions are kept, homing is suspect",
+              "when it is safe: lockstep reset, lockstep home"},
+    Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", ""},
+};
+
+constexpr std::chrono::seconds kStopPatience{3};
+
+/// A hold ends homing, which cannot be resumed.
+std::string next_text(const Session& session, const Interrupt& interrupt, MachinePhase phase) {
+    if (interrupt.command != CommandKind::Hold || phase == MachinePhase::Holding || phase == MachinePhase::Paused) {
+        return interrupt.then;
+    }
+    return unhomed_text(status_report(session));
+}
+
+ExitCode say_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Voice& voice) {
+    if (reply.status == ReplyStatus::Refused) { return say_refusal(reply, voice); }
+    const auto phase = await_effect(session, interrupt.command);
+    if (!phase) { return voice.fail(failed(std::string(interrupt.name) + ": accepted, but " + phase.error())); }
+    proto::CommandReport report;
+    report.set_accepted(true);
+    report.set_text("the machine is " + std::string(name_of(*phase)));
+    voice.report(report);
+    const std::string then = next_text(session, interrupt, *phase);
+    voice.say(std::string(interrupt.name) + ": accepted; " + report.text() + (then.empty() ? "" : "\n" + then));
+    return kExitDone;
+}
+
+ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrupt) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return voice.fail(session.error()); }
+    const auto reply = session->command({.kind = interrupt.command});
+    if (!reply) { return voice.fail(reply.error()); }
+    return say_outcome(*session, interrupt, *reply, voice);
+}
+
+/// Which axes stand and which do not, where nobody speaks for the machine.
+ExitCode say_axes(const Session& session, Voice& voice) {
+    std::string at_rest;
+    std::string other;
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const bool rests = session.axis_present(i) && session.axis(i)->state.at_rest;
+        std::string& list = rests ? at_rest : other;
+        list += (list.empty() ? "" : ", ") + session.config().axes[i].name;
+    }
+    if (at_rest.empty()) { return voice.fail(session.silent()); }
+    proto::CommandReport report;
+    report.set_accepted(other.empty());
+    report.set_text("no coordinator answers; at rest by themselves: " + at_rest +
+                    (other.empty() ? "" : "; in motion or not heard: " + other));
+    voice.report(report);
+    voice.say("estop: " + report.text() + "\nsee: lockstep status; take the machine down: lockstep down");
+    return other.empty() ? kExitDone : kExitFailed;
+}
+
+/// The axes hear it themselves: it needs no coordinator.
+ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::join(*machine, Purpose::Command);
+    if (!session) { return voice.fail(session.error()); }
+    const auto reply = session->stop_at_once(kStopPatience);
+    return reply ? say_outcome(*session, interrupt, *reply, voice) : say_axes(*session, voice);
+}
+
+}  // namespace
+
+void add_interrupts(CLI::App& app, Action& action) {
+    for (const Interrupt& interrupt : kInterrupts) {
+        CLI::App* verb = app.add_subcommand(interrupt.name, interrupt.what);
+        const auto options = std::make_shared<LiveOptions>();
+        add_live_options(*verb, *options);
+        verb->footer(footer(std::string("  lockstep ") + interrupt.name + "\n"));
+        verb->callback([&action, &interrupt, options] {
+            action = [&interrupt, options] {
+                const bool at_once = interrupt.command == CommandKind::EmergencyStop;
+                return at_once ? stop_at_once(*options, interrupt) : interrupt_machine(*options, interrupt);
+            };
+        });
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,81 @@
+// lockstep move
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/job/job.hpp"
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/move_program.hpp"
+
+namespace lockstep {
+namespace {
+
+struct MoveVerbOptions : LiveOptions {
+    MoveOptions move;
+    bool detach = false;
+};
+
+ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, bool detach,
+                       Voice& voice) {
+    const auto planned_s = planned_seconds(session, program, start_mm);
+    if (!planned_s) { return voice.fail(planned_s.error()); }
+    const Job job{.command = CommandKind::Move,
+                  .kind = "move",
+                  .name = program.name,
+                  .program = program,
+                  .planned_s = *planned_s,
+                  .detach = detach};
+    return run_job(session, job, voice);
+}
+
+ExitCode move_own(Session& session, const MoveVerbOptions& options, const Program& program, Voice& voice) {
+    const Job job{.command = CommandKind::MoveOwn,
+                  .kind = "own-move",
+                  .name = "own-move",
+                  .program = program,
+                  .ticks = ticks_of(session.config(), options.move),
+                  .planned_s = options.move.in_s,
+                  .detach = options.detach};
+    return run_job(session, job, voice);
+}
+
+ExitCode move(const MoveVerbOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    // Names and numbers are judged before anybody is asked; a relative place once it is known where the axes stand.
+    const std::vector<double> anywhere(machine->config.axes.size());
+    if (auto program = move_program(machine->config, anywhere, options.move); !program && !options.move.relative) {
+        return voice.fail(bad_input(program.error()));
+    }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return voice.fail(session.error()); }
+    const auto start_mm = start_places(*session);
+    if (!start_mm) { return voice.fail(start_mm.error()); }
+    auto program = move_program(machine->config, *start_mm, options.move);
+    if (!program) { return voice.fail(bad_input(program.error())); }
+    return options.move.own ? move_own(*session, options, *program, voice)
+                            : move_together(*session, *program, *start_mm, options.detach, voice);
+}
+
+}  // namespace
+
+void add_move(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "move", "move axes to a place in machine coordinates: together, in a straight line, or each on its own");
+    const auto options = std::make_shared<MoveVerbOptions>();
+    verb->add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes not named stay")->required();
+    verb->add_option("--feed", options->move.feed_mm_min,
+                     "speed along the line, mm/min; as fast as allowed where not given");
+    verb->add_flag("--relative", options->move.relative, "targets are from where each axis stands");
+    verb->add_flag("--own", options->move.own,
+                   "each axis on its own, by the method its configuration names; they arrive when they arrive");
+    verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
+    add_detach(*verb, options->detach);
+    add_live_options(*verb, *options);
+    verb->footer(kInterrupted + footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
+                                       "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
+                                       "  lockstep move --own X=20 --in 0.5\n"));
+    verb->callback([&action, options] { action = [options] { return move(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,66 @@
+// lockstep override
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/refusal.hpp"
+#include "clients/session/session.hpp"
+#include "clients/text/voice.hpp"
+#include "core/motion/overrides.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+namespace {
+
+struct OverrideOptions : LiveOptions {
+    int feed_percent = 0;
+    int rapid_percent = 0;
+};
+
+std::string text_of(const Overrides& overrides) {
+    return "feed " + std::to_string(overrides.feed_percent) + " %, rapid " + std::to_string(overrides.rapid_percent) +
+           " %";
+}
+
+ExitCode turn(const OverrideOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return voice.fail(session.error()); }
+    Overrides overrides = session->state()->state.overrides;
+    if (options.feed_percent != 0) { overrides.feed_percent = options.feed_percent; }
+    if (options.rapid_percent != 0) { overrides.rapid_percent = options.rapid_percent; }
+    if (options.feed_percent != 0 || options.rapid_percent != 0) {
+        const auto reply = session->command({.kind = CommandKind::Override,
+                                             .feed_percent = options.feed_percent,
+                                             .rapid_percent = options.rapid_percent});
+        if (!reply) { return voice.fail(reply.error()); }
+        if (reply->status == ReplyStatus::Refused) { return say_refusal(*reply, voice); }
+    }
+    proto::CommandReport report;
+    report.set_accepted(true);
+    report.set_text(text_of(overrides));
+    voice.report(report);
+    voice.say("override: " + report.text());
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_override(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "override",
+        "turn feed and rapid, in percent of what is programmed, also while a job runs: on its path, within every "
+        "limit; kept until turned again, or told where nothing is given. Homing and moves of axes on their own are not "
+        "touched");
+    const auto options = std::make_shared<OverrideOptions>();
+    const CLI::Range range(Overrides::kLeast, Overrides::kMost);
+    verb->add_option("--feed", options->feed_percent, "of programmed feeds")->check(range);
+    verb->add_option("--rapid", options->rapid_percent, "of what the axes allow; above 100 is as 100")->check(range);
+    add_live_options(*verb, *options);
+    verb->footer(footer("  lockstep override --feed 60\n  lockstep override --feed 100 --rapid 25\n"));
+    verb->callback([&action, options] { action = [options] { return turn(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,149 @@
+// lockstep run
+#include <unistd.h>
+
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/job/approach_text.hpp"
+#include "clients/lockstep/job/job.hpp"
+#include "clients/lockstep/job/restart.hpp"
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/program_start.hpp"
+#include "clients/text/words.hpp"
+#include "idl/proto/report.pb.h"
+#include "services/documents/program_file.hpp"
+#include "services/files/text_file.hpp"
+
+namespace lockstep {
+namespace {
+
+struct RunOptions : LiveOptions {
+    std::string file;
+    GcodeSwitches switches;
+    bool dry_run = false;
+    RestartOptions restart;
+    std::string started_at;  // where the machine stood when it ran from its beginning
+    bool yes = false;        // nobody is asked
+    bool detach = false;
+
+    bool is_restart() const { return restart.from_line > 0; }
+};
+
+ExitCode say_dry_run(const Job& job, const std::vector<ApproachMove>& approach, Voice& voice) {
+    proto::RunReport report;
+    report.set_kind(job.kind);
+    report.set_name(job.name);
+    report.set_outcome("dry-run");
+    report.set_planned_s(*job.planned_s);
+    fill_approach(*job.program, approach, report);
+    voice.report(report);
+    voice.say(job.name + ": would run " + std::to_string(job.program->blocks.size()) + " blocks in " +
+              duration_text(*job.planned_s) + " from where the machine stands; nothing was sent");
+    return kExitDone;
+}
+
+/// All of it, made for where the machine stands; to go on from a line, for where it stood when it ran first.
+std::expected<Program, Failure> read(const RunOptions& options, const MachineConfig& machine,
+                                     const std::vector<double>& stands_mm) {
+    const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
+    if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
+    auto program = load_gcode_file(options.file, machine, *started, options.switches);
+    if (!program) { return std::unexpected(bad_file(options.file, program.error())); }
+    return *std::move(program);
+}
+
+/// The program that is to run: all of it, or an approach and the rest, which a person is told of.
+std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
+                                    const std::vector<double>& stands_mm, Voice& voice) {
+    auto program = read(options, machine, stands_mm);
+    if (!program) { return std::unexpected(program.error()); }
+    if (!options.is_restart()) { return Rest{*std::move(program), {}, {}}; }
+    const GcodeSetup setup = gcode_setup(machine, program->start_mm, program->name, options.switches);
+    auto rest = rest_of(*program, text, setup, options.restart, machine, stands_mm);
+    if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
+    voice.say("from line " + std::to_string(options.restart.from_line) + ":\n" +
+              approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
+    return *std::move(rest);
+}
+
+/// A restart moves the machine before the program does: a person has seen how, or a script says --yes.
+std::expected<void, Failure> confirm(const RunOptions& options, const Voice& voice) {
+    if (options.yes || !options.is_restart()) { return {}; }
+    if (options.json || !voice.is_terminal() || isatty(STDIN_FILENO) != 1) {
+        return std::unexpected(
+            bad_input("--from-line first moves the machine to where that line begins, and without a terminal nobody "
+                      "can be asked: look at it with --dry-run, then say --yes"));
+    }
+    std::cout << "begin? [y/N] " << std::flush;
+    std::string answer;
+    std::getline(std::cin, answer);
+    if (answer == "y" || answer == "yes") { return {}; }
+    return std::unexpected(failed("nothing was begun; to begin, answer y, or say --yes"));
+}
+
+ExitCode run(const RunOptions& options) {
+    Voice voice(options.json);
+    const auto text = read_text_file(options.file);
+    if (!text) { return voice.fail(bad_file(options.file, {text.error()})); }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return voice.fail(session.error()); }
+    const auto start_mm = start_places(*session);
+    if (!start_mm) { return voice.fail(start_mm.error()); }
+    auto chosen = choose(options, *text, machine->config, *start_mm, voice);
+    if (!chosen) { return voice.fail(chosen.error()); }
+    const auto planned_s = planned_seconds(*session, chosen->program, *start_mm);
+    if (!planned_s) { return voice.fail(bad_file(options.file, planned_s.error().errors)); }
+    const Job job{.command = CommandKind::Run,
+                  .kind = "run",
+                  .name = chosen->program.name,
+                  .program = std::move(chosen->program),
+                  .planned_s = *planned_s,
+                  .detach = options.detach};
+    if (options.dry_run) { return say_dry_run(job, chosen->approach, voice); }
+    if (const auto confirmed = confirm(options, voice); !confirmed) { return voice.fail(confirmed.error()); }
+    return run_job(*session, job, voice);
+}
+
+void add_restart_options(CLI::App& verb, RunOptions& options) {
+    CLI::Option* from_line =
+        verb.add_option("--from-line", options.restart.from_line,
+                        "only from this line on: lifts, crosses to where it begins, goes down with the program's feed; "
+                        "shows this and asks; to see it only: --dry-run")
+            ->check(CLI::Range(1, 100'000'000));
+    CLI::Option* lift = verb.add_option("--lift", options.restart.lift,
+                                        "with --from-line: which axes leave the work first, and where they are clear "
+                                        "of it, in mm, Z=40; else those that home first, to where they are parked");
+    CLI::Option* straight = verb.add_flag("--straight", options.restart.straight,
+                                          "with --from-line: go there in one line, as fast as the axes can");
+    CLI::Option* yes = verb.add_flag("--yes", options.yes, "with --from-line: do not ask");
+    for (CLI::Option* option : {lift, straight, yes}) { option->needs(from_line); }
+    straight->excludes(lift);
+    verb.add_option("--started-at", options.started_at,
+                    "with --from-line: where the program's first run started, in mm, X=10,Y=5; those not named were "
+                    "parked");
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("run", "run a G-code file from where the machine stands, and wait for its end");
+    const auto options = std::make_shared<RunOptions>();
+    verb->add_option("file", options->file, "the G-code file")->required();
+    verb->add_flag("--dry-run", options->dry_run, "read, check and plan it for where the machine stands; move nothing");
+    add_restart_options(*verb, *options);
+    add_detach(*verb, options->detach);
+    verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
+    add_live_options(*verb, *options);
+    verb->footer(kInterrupted +
+                 footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
+                        "  lockstep run plate.gcode --from-line 120 --dry-run\n"
+                        "  lockstep run plate.gcode --from-line 120 --lift Z=40 --yes\n"
+                        "  lockstep run plate.gcode --detach\n  lockstep run plate.gcode --json > report.json\n"));
+    verb->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace lockstep

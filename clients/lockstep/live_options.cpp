@@ -1,0 +1,24 @@
+#include "clients/lockstep/live_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace lockstep {
+
+void add_live_options(CLI::App& verb, LiveOptions& options) {
+    verb.add_option(
+        "--machine", options.machine_file,
+        "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
+        "/etc/lockstep/machine.textproto");
+    verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
+}
+
+void add_detach(CLI::App& verb, bool& detach) {
+    verb.add_flag("--detach", detach, "return with the job's number once it has begun; it goes on by itself");
+}
+
+std::string footer(const std::string& examples) {
+    return "Examples:\n" + examples +
+           "Exit codes: 0 done, 1 failed or refused, 2 bad usage or input (nothing was done), 3 machine not reachable";
+}
+
+}  // namespace lockstep

@@ -1,0 +1,170 @@
+// lockstep scenario
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/scenario/model/report.hpp"
+#include "clients/scenario/model/words.hpp"
+#include "clients/scenario/runner/season.hpp"
+#include "clients/text/colour.hpp"
+#include "clients/text/voice.hpp"
+#include "services/files/text_file.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using scenario::Scenario;
+
+struct ScenarioOptions {
+    std::vector<std::string> files;
+    std::string place;  // empty: each scenario's own
+    std::string image = scenario::SeasonOptions{}.image;
+    int at_a_time = 1;
+    std::string keep;
+    std::string junit;
+    bool story = false;
+    bool json = false;
+};
+
+/// One failure of several files.
+Failure as_one(const std::vector<Failure>& failures) {
+    if (failures.size() == 1) { return failures.front(); }
+    Failure all{.exit = kExitBadInput};
+    for (const Failure& failure : failures) {
+        for (const Diagnostic& error : failure.errors) {
+            all.errors.push_back({.message = to_text(failure.file, error)});
+        }
+    }
+    return all;
+}
+
+std::optional<scenario::Asked::Place> place_of(const ScenarioOptions& options) {
+    scenario::Asked::Place place{};
+    if (!scenario::Asked::Place_Parse(options.place, &place)) { return std::nullopt; }
+    return place;
+}
+
+/// Nothing where a file is wrong: all that is wrong with all of them has been said.
+std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Voice& voice) {
+    std::vector<Scenario> scenarios;
+    std::vector<Failure> failures;
+    for (const std::string& file : options.files) {
+        auto scenario = scenario::load_scenario(file, place_of(options));
+        if (scenario) {
+            scenarios.push_back(*std::move(scenario));
+        } else {
+            failures.push_back(bad_file(file, scenario.error()));
+        }
+    }
+    if (failures.empty()) { return scenarios; }
+    (void)voice.fail(as_one(failures));
+    return std::nullopt;
+}
+
+std::string coloured(const proto::ScenarioReport& report, bool story) {
+    const std::string text = scenario::to_text(report, story);
+    if (!wants_colour()) { return text; }
+    const std::size_t end = text.find('\n');
+    return painted(text.substr(0, end), report.held() ? kGood : kBad) + (end == text.npos ? "" : text.substr(end));
+}
+
+ExitCode end(const ScenarioOptions& options, const proto::ScenarioRunReport& report, Voice& voice) {
+    voice.report(report);
+    voice.say(std::to_string(report.held()) + " of " + std::to_string(report.scenarios_size()) + " scenarios hold");
+    const auto written = options.junit.empty() ? std::expected<void, std::string>{}
+                                               : write_text_file(options.junit, scenario::junit_xml(report));
+    if (!written) { voice.warn("no JUnit file: " + written.error()); }
+    return written && report.failed() == 0 ? kExitDone : kExitFailed;
+}
+
+ExitCode run(const ScenarioOptions& options) {
+    Voice voice(options.json);
+    const auto scenarios = read_all(options, voice);
+    if (!scenarios) { return kExitBadInput; }
+    const StopSignal stop;
+    scenario::SeasonOptions season{.at_a_time = options.at_a_time, .image = options.image};
+    if (!options.keep.empty()) { season.keep = options.keep; }
+    season.progress = [&](const std::string& line) { voice.progress(line); };
+    season.played = [&](const proto::ScenarioReport& report) { voice.say(coloured(report, options.story)); };
+    season.interrupted = [&] { return stop.requested(); };
+    const auto report = scenario::play_all(*scenarios, season);
+    if (!report) { return voice.fail(bad_input(report.error())); }
+    if (stop.requested()) { voice.warn("interrupted: what was playing is taken down"); }
+    return end(options, *report, voice);
+}
+
+ExitCode check(const ScenarioOptions& options) {
+    Voice voice(options.json);
+    const auto scenarios = read_all(options, voice);
+    if (!scenarios) { return kExitBadInput; }
+    proto::ScenarioRunReport report;
+    for (const Scenario& one : *scenarios) {
+        std::string text = scenario::outline(one);
+        text.pop_back();
+        voice.say(text);
+        report.add_scenarios()->set_file(one.file.string());
+        report.mutable_scenarios()->rbegin()->set_shows(one.asked.shows());
+    }
+    voice.report(report);
+    return kExitDone;
+}
+
+CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
+                   const std::shared_ptr<ScenarioOptions>& options) {
+    CLI::App* part = verb.add_subcommand(name, what);
+    part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
+    part->add_option("--place", options->place, "play all there, wherever they say: PROCESS, NAMESPACE or CONTAINER")
+        ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
+    part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    return part;
+}
+
+void add_scenario_run(CLI::App& verb, Action& action) {
+    const auto options = std::make_shared<ScenarioOptions>();
+    CLI::App* part = add_part(verb, "run", "play scenarios on machines of real processes, and judge them", options);
+    part->add_option("--jobs", options->at_a_time, "so many at a time")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    part->add_option("--image", options->image, "podman's image for containers, of deploy/Dockerfile")
+        ->capture_default_str();
+    part->add_option("--keep", options->keep,
+                     "keep the logs of each, and a page of it, whole.html, in a directory of its name in this one");
+    part->add_option("--junit", options->junit, "write the verdict as JUnit's XML into this file, too");
+    part->add_flag("--story", options->story, "tell what happened when, too");
+    part->footer(
+        "Each is played in network, process and mount namespaces of its own, which takes root and leaves nothing "
+        "behind.\n"
+        "Examples:\n  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
+        "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
+        "  lockstep scenario run mine.textproto --story --keep logs\n"
+        "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n"
+        "Exit codes: 0 all hold, 1 one does not, or could not be played; 2 bad usage or a scenario that cannot be "
+        "read:\n"
+        "nothing was played");
+    part->callback([&action, options] { action = [options] { return run(*options); }; });
+}
+
+void add_scenario_check(CLI::App& verb, Action& action) {
+    const auto options = std::make_shared<ScenarioOptions>();
+    CLI::App* part = add_part(verb, "check", "read scenarios and say what would be done; nothing runs", options);
+    part->footer(
+        "Examples:\n  lockstep scenario check deploy/scenarios/axis-killed.textproto\n"
+        "Exit codes: 0 they can be played, 2 bad usage or a scenario that cannot be read");
+    part->callback([&action, options] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace
+
+void add_scenario(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "scenario", "scripted tests of a whole machine: what it does, what befalls it, what must be true");
+    verb->require_subcommand(1);
+    verb->footer("What a scenario may say: idl/proto/scenario.proto. Some to begin with: deploy/scenarios/.");
+    add_scenario_run(*verb, action);
+    add_scenario_check(*verb, action);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,72 @@
+#include "clients/lockstep/status/alarms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clients/session/record_loss.hpp"
+#include "clients/text/words.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kStepSlack_us = 2;  // what is left of mapping a frame onto another clock
+
+std::string sentence(const proto::FaultReport& fault) {
+    const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
+    return axis + fault.name() + " (" + std::to_string(fault.number()) + "): " + fault.cause() + "; " + fault.remedy();
+}
+
+std::string refusals(const proto::HealthReport& health) {
+    std::string text;
+    const auto say = [&](std::uint64_t count, const char* what) {
+        if (count > 0) { text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what; }
+    };
+    say(health.refused_frames(), "frames refused");
+    say(health.refused_commands(), "commands refused");
+    say(health.refused_messages(), "messages not believed");
+    say(health.refused_orders(), "orders refused by the device");
+    say(health.lost_captures(), "steps without their time");
+    return text;
+}
+
+void add_health_alarms(const proto::AxisStatus& axis, const SlackScale& scale, std::vector<std::string>& alarms) {
+    const proto::HealthReport& health = axis.health();
+    const std::string who = "axis " + axis.name() + ": ";
+    const double slack_ms = health.setpoint_slack_ms().min();
+    if (health.has_setpoint_slack_ms() && slack_ms < scale.deadline_ms) {
+        alarms.push_back(who + "a setpoint came " + fixed(slack_ms, 0) + " ms before its start, and is needed " +
+                         fixed(scale.deadline_ms, 0) + " ms before: look for what stalls the coordinator");
+    }
+    const proto::Spread& late = health.step_lateness_us();
+    const double furthest_us = std::max(std::abs(late.min()), std::abs(late.max()));
+    if (furthest_us > health.clock_error_us() + kStepSlack_us) {
+        alarms.push_back(who + "a step was " + fixed(furthest_us, 0) + " us beside its time");
+    }
+    if (const std::string refused = refusals(health); !refused.empty()) {
+        alarms.push_back(who + "since it started: " + refused + "; see its log");
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> alarms_of(const proto::StatusReport& status, const SlackScale& scale) {
+    std::vector<std::string> alarms;
+    const auto add = [&](const std::string& alarm) {
+        if (std::ranges::find(alarms, alarm) == alarms.end()) { alarms.push_back(alarm); }
+    };
+    if (status.has_fault()) { add(sentence(status.fault())); }
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (axis.has_fault()) { add(sentence(axis.fault())); }
+        if (!axis.present()) { add("axis " + axis.name() + " is not heard: is its process running? lockstep status"); }
+    }
+    if (status.has_fault() && status.has_incidents()) {
+        add("what led to it: lockstep analyze --incident " + status.incidents().directory());
+    }
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (axis.has_health()) { add_health_alarms(axis, scale, alarms); }
+    }
+    if (const std::string lost = record_loss_text(status); !lost.empty()) { add(lost); }
+    return alarms;
+}
+
+}  // namespace lockstep

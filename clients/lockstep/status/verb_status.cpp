@@ -1,0 +1,46 @@
+// lockstep status
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/parts.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/session/session.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/text/voice.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+ExitCode status(const LiveOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Look);
+    if (!session) { return voice.fail(session.error()); }
+    session->await_axes();
+    session->await_healths(1s);
+    if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    proto::StatusReport report = status_report(*session);
+    add_incidents(session->config(), report);
+    add_awaited(*session, report);
+    voice.report(report);
+    if (!voice.json()) { std::cout << status_text(report) << awaited_text(report) << std::flush; }
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("status", "what the machine does and where its axes are");
+    const auto options = std::make_shared<LiveOptions>();
+    add_live_options(*verb, *options);
+    verb->footer(footer("  lockstep status\n  lockstep status --json | jq .phase\n"));
+    verb->callback([&action, options] { action = [options] { return status(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,86 @@
+// lockstep watch
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/status/screen.hpp"
+#include "clients/lockstep/status/watch_text.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/session/session.hpp"
+#include "clients/text/colour.hpp"
+#include "clients/text/voice.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kRedrawPeriod = 100ms;  // on a terminal
+constexpr nanoseconds kLinePeriod = 1s;       // elsewhere
+
+/// With the incident files where there is a fault that they may explain.
+proto::StatusReport watched(const Session& session) {
+    proto::StatusReport report = status_report(session);
+    if (report.has_fault()) { add_incidents(session.config(), report); }
+    return report;
+}
+
+/// Both go on while nobody speaks, which the age then shows.
+void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
+    const SlackScale scale = slack_scale(session.config().timing);
+    Screen screen;
+    while (!stop.requested() && !screen.pressed('q')) {
+        screen.draw(watch_text(watched(session), scale, ink) + "\nq or Ctrl-C leaves; the machine goes on\n");
+        const nanoseconds next = monotonic_now() + kRedrawPeriod;
+        while (!stop.requested() && monotonic_now() < next) { session.listen(next - monotonic_now()); }
+    }
+}
+
+void watch_in_lines(Session& session, const StopSignal& stop, Voice& voice) {
+    const SlackScale scale = slack_scale(session.config().timing);
+    while (!stop.requested()) {
+        const proto::StatusReport report = watched(session);
+        voice.report(report);
+        voice.say(watch_line(report, scale));
+        const nanoseconds next = monotonic_now() + kLinePeriod;
+        while (!stop.requested() && monotonic_now() < next) {
+            session.listen(std::min(kRedrawPeriod, next - monotonic_now()));
+        }
+    }
+}
+
+ExitCode watch(const LiveOptions& options) {
+    Voice voice(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return voice.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Look);
+    if (!session) { return voice.fail(session.error()); }
+    if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    session->await_axes();
+    session->await_healths(300ms);
+    const StopSignal stop;
+    if (voice.is_terminal() && !voice.json()) {
+        watch_on_screen(*session, stop, wants_colour() ? Ink::Colour : Ink::Plain);
+    } else {
+        watch_in_lines(*session, stop, voice);
+    }
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "watch", "the machine at a glance, ten times a second; where there is no terminal, a line a second");
+    const auto options = std::make_shared<LiveOptions>();
+    add_live_options(*verb, *options);
+    verb->footer(
+        footer("  lockstep watch\n  lockstep watch | tee watched.txt\n"
+               "  lockstep watch --json | jq -c '.axes[] | [.name, .health.setpoint_slack_ms.min]'\n"));
+    verb->callback([&action, options] { action = [options] { return watch(*options); }; });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,126 @@
+#include "clients/lockstep/status/watch_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "clients/lockstep/status/alarms.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/text/colour.hpp"
+#include "clients/text/words.hpp"
+#include "core/axis_unit.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kColumns = 80;
+constexpr std::size_t kBarWidth = 13;
+
+std::string painted(const std::string& text, std::string_view colour, Ink ink) {
+    return ink == Ink::Plain ? text : lockstep::painted(text, colour);
+}
+
+std::string padded(const std::string& text, int width) {
+    std::array<char, 128> out{};
+    std::snprintf(out.data(), out.size(), "%*s", width, text.c_str());
+    return out.data();
+}
+
+std::string cut(const std::string& text, std::size_t width) {
+    return text.size() <= width ? text : text.substr(0, width - 1) + "~";
+}
+
+/// Left and right in one line.
+std::string spread(const std::string& left, const std::string& right) {
+    const std::size_t gap = left.size() + right.size() < kColumns ? kColumns - left.size() - right.size() : 1;
+    return left + std::string(gap, ' ') + right;
+}
+
+std::size_t cells(double part, double whole) {
+    return static_cast<std::size_t>(std::lround(std::clamp(part / whole, 0.0, 1.0) * kBarWidth));
+}
+
+std::string slack_bar(const proto::HealthReport& health, const SlackScale& scale, Ink ink) {
+    const bool known = health.has_setpoint_slack_ms();
+    const double slack_ms = health.setpoint_slack_ms().min();
+    const std::size_t filled = known ? cells(slack_ms, scale.ahead_ms) : 0;
+    std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+    bar[std::min(cells(scale.deadline_ms, scale.ahead_ms), kBarWidth - 1)] = '|';
+    const bool near = slack_ms < (scale.deadline_ms + scale.ahead_ms) / 2;
+    const std::string_view colour = !known ? kFaint : slack_ms < scale.deadline_ms ? kBad : near ? kWarning : kGood;
+    return "[" + painted(bar, colour, ink) + "]" + padded(known ? fixed(slack_ms, 0) : "-", 5);
+}
+
+/// The one furthest from its time; after its time, above 0.
+std::string lateness(const proto::HealthReport& health) {
+    if (!health.has_step_lateness_us()) { return "-"; }
+    const proto::Spread& late = health.step_lateness_us();
+    return fixed(std::abs(late.min()) > std::abs(late.max()) ? late.min() : late.max(), 0);
+}
+
+std::string_view colour_of(const proto::AxisStatus& axis) {
+    if (axis.has_fault() || axis.state() == "Fault") { return kBad; }
+    return axis.at_rest() ? kFaint : kGood;
+}
+
+std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink ink) {
+    std::array<char, 128> name{};
+    std::snprintf(name.data(), name.size(), "%-10s", cut(axis_label(axis.name()), 10).c_str());
+    if (!axis.present()) { return name.data() + painted("   not heard", kBad, ink); }
+    std::array<char, 32> state{};
+    std::snprintf(state.data(), state.size(), "%-10s", axis.state().c_str());
+    const std::string place = axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
+    const std::string row = name.data() + padded(place, 12) + padded(fixed(axis.velocity_mm_s(), 2), 9) + "  " +
+                            painted(state.data(), colour_of(axis), ink);
+    if (!axis.has_health()) { return row; }
+    return row + " " + slack_bar(axis.health(), scale, ink) + padded(lateness(axis.health()), 8) +
+           padded(fixed(axis.health().loop_p99_us(), 0), 8);
+}
+
+std::string place_text(const proto::AxisStatus& axis) {
+    if (!axis.present()) { return "not heard"; }
+    return axis.homed() ? fixed(axis.position_mm(), 3) + " " + std::string(unit_of(axis.name())) + " " + axis.state()
+                        : "not homed";
+}
+
+std::string title_row() { return "axis       position mm     mm/s  state      setpoint slack    ms late us loop us"; }
+
+std::string job_row(const proto::StatusReport& status, Ink ink) {
+    if (!status.has_progress()) { return painted("no job in motion", kFaint, ink); }
+    return progress_bar(status);
+}
+
+}  // namespace
+
+SlackScale slack_scale(const ProtocolTiming& timing) {
+    const double slot_ms = static_cast<double>(timing.slot_us) * 1e-3;
+    return {.ahead_ms = timing.send_ahead_slots * slot_ms, .deadline_ms = timing.check_slots() * slot_ms};
+}
+
+std::string watch_text(const proto::StatusReport& status, const SlackScale& scale, Ink ink) {
+    const std::string phase = status.phase().empty() ? "unknown" : status.phase();
+    const std::string job = status.has_job() ? ", job " + std::to_string(status.job()) : "";
+    const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
+    std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" +
+                       painted(overrides_text(status), kWarning, ink) + "\n" + painted(title_row(), kFaint, ink) + "\n";
+    for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis, scale, ink) + "\n"; }
+    const auto alarms = alarms_of(status, scale);
+    text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");
+    for (const std::string& alarm : alarms) { text += painted(wrapped(alarm, kColumns, "  "), kBad, ink) + "\n"; }
+    return text;
+}
+
+std::string watch_line(const proto::StatusReport& status, const SlackScale& scale) {
+    std::string text = status.machine() + ": " + progress_text(status);
+    for (const proto::AxisStatus& axis : status.axes()) {
+        text += "; " + axis.name() + " ";
+        text += place_text(axis);
+        const auto& health = axis.health();
+        if (health.has_setpoint_slack_ms()) { text += " slack " + fixed(health.setpoint_slack_ms().min(), 0) + " ms"; }
+    }
+    for (const std::string& alarm : alarms_of(status, scale)) { text += "; " + alarm; }
+    return text;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,62 @@
+// Collects what is wrong with a scenario, each with the place of the key in the text.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "clients/scenario/model/scenario.hpp"
+#include "core/gcode/number_text.hpp"
+#include "services/documents/text_source.hpp"
+
+namespace lockstep::scenario {
+
+/// "X, Y, Z"
+inline std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) { text += (text.empty() ? "" : ", ") + word; }
+    return text;
+}
+
+class Complaints {
+public:
+    explicit Complaints(const TextSource& source) : source_(source) {}
+
+    void add(const std::string& path, const std::string& message) {
+        const auto place = source_.place_of(*Asked::descriptor(), path);
+        errors_.push_back({place.line, place.column, message});
+    }
+
+    void require(bool holds, const std::string& path, const std::string& message) {
+        if (!holds) { add(path, message); }
+    }
+
+    /// `block` and `key` make the path.
+    void require_range(const std::string& block, const std::string& key, double value, double min, double max) {
+        require(value >= min && value <= max, block + "." + key,
+                key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
+    }
+
+    void require_one_of(const std::string& path, const std::string& name, const std::vector<std::string>& names,
+                        const std::string& what) {
+        require(std::ranges::find(names, name) != names.end(), path,
+                "there is no " + what + " '" + name + "'; there are: " + listed(names));
+    }
+
+    /// In the order of the text.
+    Diagnostics take() {
+        std::ranges::stable_sort(errors_, {}, [](const Diagnostic& d) { return std::tuple(d.line, d.column); });
+        return std::move(errors_);
+    }
+
+private:
+    const TextSource& source_;
+    Diagnostics errors_;
+};
+
+/// "step" and 2: "step[2]"
+inline std::string nth(const std::string& key, int index) { return key + "[" + std::to_string(index) + "]"; }
+
+}  // namespace lockstep::scenario

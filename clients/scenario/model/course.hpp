@@ -1,0 +1,46 @@
+// When what is to befall a machine during a job is due, by what the machine says of itself. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/scenario/model/scenario.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep::scenario {
+
+/// What is known of the machine at one time.
+struct Moment {
+    double since_begun_s = 0;  // of the job
+    MachinePhase phase = MachinePhase::Waiting;
+    std::int32_t line = 0;                     // of the G-code in motion
+    std::vector<std::optional<double>> at_mm;  // of each axis; nothing: not heard
+};
+
+class Course {
+public:
+    /// `axes`: the names of those in Moment::at_mm. `step` outlives this.
+    Course(const Asked::Step& step, std::vector<std::string> axes) : step_(step), axes_(std::move(axes)) {}
+
+    /// The next that is due now; null: none is, yet. Call it until it is null.
+    const Asked::During* next(const Moment& now);
+
+    /// How many have come to pass.
+    int done() const { return done_; }
+
+private:
+    bool has_happened(const Asked::During& during, const Moment& now) const;
+    bool passes(const Asked::Target& place, const Moment& now) const;
+
+    const Asked::Step& step_;
+    std::vector<std::string> axes_;
+    int done_ = 0;
+    std::optional<double> event_at_s_;  // of the one that is next; since the job's beginning
+    std::optional<Moment> before_;
+};
+
+/// Whether the machine is in the phase that is asked for.
+bool is_in(Asked::Phase asked, MachinePhase phase);
+
+}  // namespace lockstep::scenario

@@ -1,0 +1,189 @@
+#include "clients/scenario/model/judgement.hpp"
+
+#include <algorithm>
+
+#include "clients/scenario/model/complaints.hpp"
+#include "clients/scenario/model/words.hpp"
+#include "clients/text/words.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::string mm_text(double mm) { return fixed(mm, 4) + " mm"; }
+
+std::string nobody_or(const Names& names) { return names.empty() ? "nobody" : listed(names); }
+
+class Judge {
+public:
+    Judge(const Scenario& scenario, const Seen& seen, const Evidence& evidence)
+        : machine_(scenario.machine), expect_(scenario.asked.expect()), seen_(seen), evidence_(evidence) {}
+
+    std::vector<Check> checks() {
+        for (const AwaitedRest& rest : seen_.rests) { check_rest(rest); }
+        for (const auto& end : expect_.final()) { check_final(end); }
+        if (expect_.has_path_within_mm()) { check_path(); }
+        if (expect_.has_interruptions()) { check_interruptions(); }
+        if (expect_.together_size() > 0) { check_together(); }
+        if (expect_.has_vetoes()) { check_vetoes(); }
+        if (expect_.has_cause()) { check_cause(); }
+        for (const auto& end : expect_.axis()) { check_axis(end); }
+        if (expect_.has_phase()) { check_phase(); }
+        if (!expect_.has_exact() || expect_.exact()) { check_exact(); }
+        if (!expect_.has_complete() || expect_.complete()) { check_complete(); }
+        return std::move(checks_);
+    }
+
+private:
+    void add(const std::string& asked, const std::string& found, const std::string& where, bool held) {
+        checks_.push_back(check_of(asked, found, where, held));
+    }
+
+    void check_rest(const AwaitedRest& rest) {
+        const std::string asked =
+            rest.act + ": " + listed(rest.axes) + " at rest within " + std::to_string(rest.within_frames) + " frames";
+        if (rest.axes.empty()) { return add(asked, "no axis's process ran any more", kAsPlayed, false); }
+        const auto at = evidence_.record.all_at_rest(rest.axes, rest.at);
+        if (!at) { return add(asked, "the record knows of no rest after it", kWholeLog, false); }
+        const double frames =
+            static_cast<double>((*at - rest.at).value) / static_cast<double>(machine_.frame_ticks().value);
+        add(asked, "after " + fixed(frames, 2) + " frames", place_at(*at), frames <= rest.within_frames);
+    }
+
+    /// Where the processes' notes are, of what --keep keeps.
+    std::string notes() const { return "state/" + machine_.name + "/record/incidents"; }
+
+    static std::string place_at(Tick tick) { return std::string(kWholeLog) + ", tick " + std::to_string(tick.value); }
+
+    const proto::AxisAnalysis* analysis_of(const std::string& name) const {
+        if (!evidence_.analysis) { return nullptr; }
+        const auto& axes = evidence_.analysis->axes();
+        const auto found = std::ranges::find_if(axes, [&](const auto& axis) { return axis.name() == name; });
+        return found == axes.end() ? nullptr : &*found;
+    }
+
+    void check_final(const Asked::Final& end) {
+        const std::string asked = end.axis() + " at " + mm_text(end.mm()) +
+                                  (end.has_within_mm() ? " within " + mm_text(end.within_mm()) : " to the step");
+        const proto::AxisAnalysis* axis = analysis_of(end.axis());
+        if (axis == nullptr || !axis->has_position_end_mm()) {
+            return add(asked, "the record does not say", kWholeLog, false);
+        }
+        const double found = axis->position_end_mm();
+        const auto config = std::ranges::find(machine_.axes, end.axis(), &AxisConfig::name);
+        const bool held = end.has_within_mm() ? std::abs(found - end.mm()) <= end.within_mm()
+                                              : to_steps(*config, found) == to_steps(*config, end.mm());
+        add(asked, "at " + mm_text(found), place_at({axis->last_tick()}) + ", the last step of " + end.axis(), held);
+    }
+
+    void check_path() {
+        const std::string asked = "every step within " + mm_text(expect_.path_within_mm()) + " of the line asked";
+        if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
+        if (!evidence_.analysis->has_largest_distance_mm()) {
+            return add(asked, "the record does not say", kWholeLog, false);
+        }
+        const double found = evidence_.analysis->largest_distance_mm();
+        add(asked, mm_text(found) + " at most", kWholeLog, found <= expect_.path_within_mm());
+    }
+
+    void check_interruptions() {
+        const std::string asked = std::to_string(expect_.interruptions()) + " interruptions of jobs";
+        if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
+        std::int64_t found = 0;
+        for (const auto& job : evidence_.analysis->jobs()) { found += job.interruptions(); }
+        add(asked, std::to_string(found), std::string(kWholeLog) + ", jobs", found == expect_.interruptions());
+    }
+
+    void check_together() {
+        const Names axes{expect_.together().begin(), expect_.together().end()};
+        const auto parting = evidence_.record.parting(axes);
+        const auto epochs = evidence_.record.epochs_of(axes);
+        add(listed(axes) + " ended each epoch with the same frame",
+            parting ? *parting : "the same in all " + std::to_string(epochs) + " epochs",
+            std::string(kWholeLog) + ", runs", !parting && epochs > 0);
+    }
+
+    void check_vetoes() {
+        Names asked{expect_.vetoes().by().begin(), expect_.vetoes().by().end()};
+        std::ranges::sort(asked);
+        const Names found{evidence_.vetoed_by.begin(), evidence_.vetoed_by.end()};
+        const bool held = std::ranges::includes(asked, found) && found.empty() == asked.empty();
+        add("vetoes by " + nobody_or(asked), "by " + nobody_or(found), notes(), held);
+    }
+
+    void check_cause() {
+        const Asked::Cause& cause = expect_.cause();
+        const auto is_asked = [&](const FoundCause& found) {
+            return found.kind == cause.kind() && (!cause.has_process() || found.process == cause.process());
+        };
+        std::string found;
+        for (const FoundCause& one : evidence_.causes) {
+            found += (found.empty() ? "" : "; ") + one.kind + ": " + one.text;
+        }
+        add("cause " + cause.kind() + (cause.has_process() ? " of " + cause.process() : ""),
+            found.empty() ? "no incident was noted" : found, notes(), std::ranges::any_of(evidence_.causes, is_asked));
+    }
+
+    void check_axis(const Asked::AxisEnd& end) {
+        const auto& axes = seen_.status.axes();
+        const auto axis = std::ranges::find_if(axes, [&](const auto& one) { return one.name() == end.name(); });
+        const bool is_heard = axis != axes.end() && axis->present();
+        const auto yes_no = [&](bool asked, bool found, const std::string& what) {
+            add(end.name() + (asked ? " " : " not ") + what, found ? what : "not " + what, "status at the end",
+                asked == found);
+        };
+        if (end.has_heard()) { yes_no(end.heard(), is_heard, "heard"); }
+        if (end.has_homed()) { yes_no(end.homed(), is_heard && axis->homed(), "homed"); }
+        if (!end.has_fault()) { return; }
+        const std::string fault = !is_heard ? "not heard" : axis->has_fault() ? axis->fault().name() : "none";
+        add(end.name() + " has fault " + end.fault(), fault, "status at the end", fault == end.fault());
+    }
+
+    void check_phase() {
+        const std::string found = seen_.status.phase();
+        const std::string asked = text_of(expect_.phase());
+        add("the machine is " + asked + " at the end", found.empty() ? "not heard" : found, "status at the end",
+            expect_.phase() == Asked::ANY || found == asked);
+    }
+
+    void check_exact() {
+        const std::string asked = "every step as planned";
+        if (!evidence_.verified) { return add(asked, evidence_.verified.error(), kWholeLog, false); }
+        const proto::VerifyReport& report = *evidence_.verified;
+        const std::string found = report.exact()
+                                      ? std::to_string(report.steps_compared()) + " steps compared, none differs"
+                                      : report.first_difference().text();
+        add(asked, found, kWholeLog, report.exact());
+    }
+
+    void check_complete() {
+        const std::string asked = "nothing missing in the record";
+        if (!evidence_.merged) { return add(asked, evidence_.merged.error(), kWholeLog, false); }
+        const proto::MergeReport& report = *evidence_.merged;
+        std::string found = std::to_string(report.messages()) + " messages, none missing";
+        if (!report.complete()) {
+            found = "missing:";
+            for (const auto& axis : report.axes()) {
+                found += " " + axis.axis() + " " + std::to_string(axis.missing_step_messages()) + " of steps, " +
+                         std::to_string(axis.missing_runs()) + " of runs;";
+            }
+            found += " " + std::to_string(report.missing_job_events()) + " of jobs";
+        }
+        add(asked, found, kWholeLog, report.complete());
+    }
+
+    const MachineConfig& machine_;
+    const Asked::Expect& expect_;
+    const Seen& seen_;
+    const Evidence& evidence_;
+    std::vector<Check> checks_;
+};
+
+}  // namespace
+
+std::vector<Check> judge(const Scenario& scenario, const Seen& seen, const Evidence& evidence) {
+    return Judge(scenario, seen, evidence).checks();
+}
+
+}  // namespace lockstep::scenario

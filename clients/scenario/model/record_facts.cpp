@@ -1,0 +1,85 @@
+#include "clients/scenario/model/record_facts.hpp"
+
+#include <algorithm>
+
+#include "clients/analysis/log/log_read.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+using analysis::LogPlace;
+
+class FactListener final : public analysis::LogListener {
+public:
+    RecordFacts facts;
+
+    void on_position(const axis_position_t& message, LogPlace /*place*/) override {
+        const bool rests = message.velocity_steps_per_s == 0;
+        auto& spans = facts.rests[message.axis];
+        if (rests && !was_at_rest_[message.axis]) { spans.push_back({{message.tick}, {message.tick}}); }
+        if (rests) { spans.back().to = {message.tick}; }
+        was_at_rest_[message.axis] = rests;
+    }
+    void on_run(const run_t& message, LogPlace /*place*/) override {
+        if (message.epoch == 0) { return; }  // the axis's own
+        facts.epochs[static_cast<Epoch>(message.epoch)][message.axis] = {static_cast<FrameNumber>(message.frame),
+                                                                         message.tail != 0};
+    }
+    void on_steps(const step_batch_t& /*message*/, LogPlace /*place*/) override {}
+    void on_job(const job_t& /*message*/, LogPlace /*place*/) override {}
+    void on_foreign(std::string_view /*channel*/) override {}
+    void on_damage(LogPlace /*place*/, std::string /*what*/) override {}
+
+private:
+    std::map<std::string, bool> was_at_rest_;
+};
+
+std::string text_of(const std::string& axis, const EpochEnd& end) {
+    return axis + " with " + (end.tail ? "the tail of " : "") + "frame " + std::to_string(end.frame);
+}
+
+}  // namespace
+
+std::optional<Tick> RecordFacts::all_at_rest(const std::vector<std::string>& axes, Tick since) const {
+    for (Tick at = since;;) {
+        const Tick tried = at;
+        for (const std::string& axis : axes) {
+            const auto spans = rests.find(axis);
+            if (spans == rests.end()) { return std::nullopt; }
+            const auto span = std::ranges::find_if(spans->second, [&](const RestSpan& rest) { return rest.to >= at; });
+            if (span == spans->second.end()) { return std::nullopt; }
+            at = std::max(at, span->from);
+        }
+        if (at == tried) { return at; }
+    }
+}
+
+std::ptrdiff_t RecordFacts::epochs_of(const std::vector<std::string>& axes) const {
+    return std::ranges::count_if(epochs, [&](const auto& epoch) {
+        return std::ranges::count_if(axes, [&](const auto& axis) { return epoch.second.contains(axis); }) >= 2;
+    });
+}
+
+std::optional<std::string> RecordFacts::parting(const std::vector<std::string>& axes) const {
+    for (const auto& [epoch, ends] : epochs) {
+        std::optional<std::pair<std::string, EpochEnd>> first;
+        for (const auto& [axis, end] : ends) {
+            if (std::ranges::find(axes, axis) == axes.end()) { continue; }
+            if (!first) { first = {axis, end}; }
+            if (end != first->second) {
+                return "epoch " + std::to_string(epoch) + ": " + text_of(first->first, first->second) + ", " +
+                       text_of(axis, end);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+std::expected<RecordFacts, std::string> record_facts(const std::filesystem::path& log) {
+    FactListener listener;
+    const auto read = analysis::read_log(log, listener);
+    if (!read) { return std::unexpected(read.error()); }
+    return std::move(listener.facts);
+}
+
+}  // namespace lockstep::scenario

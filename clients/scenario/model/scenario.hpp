@@ -1,0 +1,50 @@
+// A scenario as it was read: what is asked (idl/proto/scenario.proto), and the machine that is to do it.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/program.hpp"
+#include "idl/proto/scenario.pb.h"
+#include "services/files/diagnostic.hpp"
+
+namespace lockstep::scenario {
+
+using Asked = proto::Scenario;
+
+struct Scenario {
+    std::filesystem::path file;
+    Asked asked;
+    MachineConfig machine;  // as it runs in the scenario
+
+    /// The file's name without its ending.
+    std::string name() const { return file.stem().string(); }
+    std::filesystem::path folder() const { return file.parent_path(); }
+};
+
+/// `file`: names the scenario, and its folder is where other files are looked for. `place`: in place of its own.
+/// Errors: everything that is wrong with it, in the order of the text.
+std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const std::filesystem::path& file,
+                                                    std::optional<Asked::Place> place = {});
+std::expected<Scenario, Diagnostics> load_scenario(const std::filesystem::path& file,
+                                                   std::optional<Asked::Place> place = {});
+
+/// Whether each process has a link of its own to the others.
+bool has_links(Asked::Place place);
+
+/// The processes of the machine, by the names that `lockstep up` gives them.
+std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine);
+
+/// A step's program for a machine that stands there. Errors: places in the program.
+std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
+                                               const MachineConfig& machine, const std::vector<double>& start_mm);
+
+/// The machine of a scenario is whole on this host, apart from all others, and keeps its record where it is told to.
+MachineConfig staged(MachineConfig machine, Asked::Place place);
+
+}  // namespace lockstep::scenario

@@ -1,0 +1,20 @@
+// What a scenario asks, in words: for what `check` says it would do, for the story, and for what is judged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clients/scenario/model/scenario.hpp"
+
+namespace lockstep::scenario {
+
+std::string text_of(const Asked::Act& act);        // "kill axis-Y"
+std::string text_of(const Asked::During& during);  // "at line 2, 0.1 s later: kill axis-Y"
+std::string text_of(const Asked::Step& step);      // "run gcode"
+std::string text_of(Asked::Step::Ending ending);   // "done"
+std::string text_of(Asked::Phase phase);           // "Idle", as MachinePhase is called
+
+/// One line for each: the machine, where it runs, what it does, what befalls it, what must be true.
+std::string outline(const Scenario& scenario);
+
+}  // namespace lockstep::scenario

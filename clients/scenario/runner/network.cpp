@@ -1,0 +1,111 @@
+#include "clients/scenario/runner/network.hpp"
+
+#include "core/gcode/number_text.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+constexpr const char* kBridge = "eth0";  // by the same name everywhere: the machine's file names one interface
+constexpr const char* kMtu = "65535";    // no datagram in pieces: a firewall knows the first piece's port alone
+constexpr const char* kRecordPort = "7667";
+constexpr const char* kMulticast = "224.0.0.0/4";
+
+Words joined(Words first, const Words& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+}  // namespace
+
+std::expected<Network, std::string> Network::make(Asked::Place place, const std::vector<std::string>& processes,
+                                                  const std::filesystem::path& log) {
+    Network network(log);
+    if (const auto made = network.make_loopback(); !made) { return std::unexpected(made.error()); }
+    if (!has_links(place)) {
+        const auto routed = network.run_all({words_of(std::string("ip route add ") + kMulticast + " dev lo")});
+        if (!routed) { return std::unexpected(routed.error()); }
+        return network;
+    }
+    if (const auto made = network.make_bridge(); !made) { return std::unexpected(made.error()); }
+    int number = 2;  // the bridge's own end is 1
+    for (const std::string& process : processes) {
+        if (process.starts_with("fpga-")) { continue; }  // reached by memory
+        if (const auto added = network.add(process, number++); !added) { return std::unexpected(added.error()); }
+    }
+    return network;
+}
+
+std::expected<void, std::string> Network::make_loopback() {
+    return run_all({words_of("ip link set lo up multicast on")});
+}
+
+std::expected<void, std::string> Network::make_bridge() {
+    const std::string bridge = kBridge;
+    return run_all({words_of("ip link add " + bridge + " type bridge mcast_snooping 0"),
+                    words_of("ip link set " + bridge + " mtu " + kMtu + " up"),
+                    words_of("ip addr add 10.9.0.1/24 dev " + bridge),
+                    words_of(std::string("ip route add ") + kMulticast + " dev " + bridge)});
+}
+
+std::expected<void, std::string> Network::add(const std::string& process, int number) {
+    const std::string bridge = kBridge;
+    const std::string link = "to-" + std::to_string(number);
+    const std::string on = "ip -n " + process + " ";
+    namespaces_[process] = process;
+    return run_all({words_of("ip netns add " + process),
+                    words_of("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
+                    words_of("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
+                    words_of(on + "link set lo up"), words_of(on + "link set " + bridge + " mtu " + kMtu + " up"),
+                    words_of(on + "addr add 10.9.0." + std::to_string(number) + "/24 dev " + bridge),
+                    words_of(on + "route add " + kMulticast + " dev " + bridge)});
+}
+
+std::expected<void, std::string> Network::run_all(const std::vector<Words>& commands) const {
+    for (const Words& command : commands) {
+        if (const auto ran = run_program(command, log_); !ran) { return ran; }
+    }
+    return {};
+}
+
+std::string Network::namespace_of(const std::string& process) const {
+    const auto found = namespaces_.find(process);
+    return found == namespaces_.end() ? "" : found->second;
+}
+
+Words Network::entry(const std::string& process) const {
+    const std::string name = namespace_of(process);
+    if (name.empty()) { return {}; }
+    return {"nsenter", "--net=/run/netns/" + name};
+}
+
+std::expected<void, std::string> Network::lose(const std::string& process, double percent, Asked::Way way) {
+    const bool all = percent >= 100;
+    const std::string chance = all ? "" : " -m statistic --mode random --probability " + number_text(percent / 100);
+    std::vector<Words> commands;
+    for (const bool hears : {true, false}) {
+        if (way == (hears ? Asked::SAYS : Asked::HEARS)) { continue; }
+        const std::string chain = hears ? "INPUT -i " : "OUTPUT -o ";
+        commands.push_back(joined(entry(process), words_of("iptables -w -A " + chain + kBridge + " -p udp ! --dport " +
+                                                           kRecordPort + chance + " -j DROP")));
+    }
+    return run_all(commands);
+}
+
+std::expected<void, std::string> Network::heal(const std::string& process) {
+    return run_all({joined(entry(process), words_of("iptables -w -F"))});
+}
+
+std::expected<void, std::string> Network::heal_all() {
+    for (const std::string& process : linked()) {
+        if (const auto healed = heal(process); !healed) { return healed; }
+    }
+    return {};
+}
+
+std::vector<std::string> Network::linked() const {
+    std::vector<std::string> names;
+    for (const auto& [process, name] : namespaces_) { names.push_back(process); }
+    return names;
+}
+
+}  // namespace lockstep::scenario

@@ -1,0 +1,290 @@
+#include "clients/scenario/runner/player.hpp"
+
+#include "clients/lockstep/job/job.hpp"
+#include "clients/scenario/model/words.hpp"
+#include "clients/session/move_program.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/text/words.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+using Step = Asked::Step;
+
+constexpr nanoseconds kGlance = 5ms;
+constexpr nanoseconds kWaitPatience = 30s;
+constexpr nanoseconds kJobPatience = 180s;
+constexpr nanoseconds kSettlePatience = 5s;
+
+nanoseconds to_time(double seconds) {
+    return std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(seconds));
+}
+
+double to_seconds(nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
+
+Step::Ending ending_of(JobVerdict verdict) {
+    switch (verdict) {
+        case JobVerdict::Done: return Step::DONE;
+        case JobVerdict::Stopped: return Step::STOPPED;
+        case JobVerdict::CutShort: return Step::CUT_SHORT;
+        case JobVerdict::Lost: return Step::LOST;
+        default: return Step::FAILED;
+    }
+}
+
+CommandKind command_of(const Step& step) {
+    return step.has_home() ? CommandKind::Home : step.has_run() ? CommandKind::Run : CommandKind::Move;
+}
+
+std::vector<std::string> axis_names(const MachineConfig& machine) {
+    std::vector<std::string> names;
+    for (const AxisConfig& axis : machine.axes) { names.push_back(axis.name); }
+    return names;
+}
+
+std::string text_of(const Failure& failure) { return to_text(failure.file, failure.errors); }
+
+}  // namespace
+
+Player::Player(const Scenario& scenario, Session& session, Cast& cast, Acts& acts)
+    : scenario_(scenario),
+      session_(session),
+      cast_(cast),
+      acts_(acts),
+      clock_(scenario.machine.tick_ns, scenario.machine.timing.time_source),
+      start_(clock_.now()) {}
+
+void Player::play() {
+    start_ = clock_.now();
+    for (const Step& step : scenario_.asked.step()) {
+        ++step_;
+        play_step(step);
+        if (!seen_.broken.empty()) { return; }
+    }
+    settle();
+}
+
+void Player::play_step(const Step& step) {
+    if (step.has_wait()) { return play_wait(step); }
+    if (!step.has_act()) { return play_job(step); }
+    tell(text_of(step.act()));
+    const auto done = acts_.act(step.act());
+    add_check(title(step), done ? "done" : done.error(), done.has_value());
+}
+
+void Player::play_wait(const Step& step) {
+    const Asked::Wait& wait = step.wait();
+    if (wait.has_phase()) {
+        const bool is_there = wait_for(wait.phase());
+        if (!is_there) { seen_.broken = title(step) + ": in vain, it is " + status_report(session_).phase(); }
+        tell(title(step) + (is_there ? ": it is" : ": in vain"));
+    }
+    const nanoseconds until = monotonic_now() + to_time(wait.seconds());
+    while (monotonic_now() < until) { glance(); }
+    if (step.has_fault()) { check_found(step); }
+}
+
+void Player::check_found(const Step& step) {
+    const auto fault = session_.state() ? fault_of(session_.state()->state, scenario_.machine) : std::nullopt;
+    const std::string found = fault ? fault->name() : "none";
+    add_check(title(step) + ": the fault is " + step.fault(), found, found == step.fault());
+}
+
+bool Player::wait_for(Asked::Phase phase) {
+    const nanoseconds deadline = monotonic_now() + kWaitPatience;
+    const nanoseconds since = monotonic_now();
+    const auto is_there = [&] {
+        const auto& heard = session_.state();
+        return heard && heard->time > since && is_in(phase, heard->state.phase) && hears_all(since);
+    };
+    while (!is_there() && monotonic_now() < deadline) { glance(); }
+    return is_there();
+}
+
+bool Player::hears_all(nanoseconds since) {
+    const auto& axes = scenario_.machine.axes;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const bool is_heard =
+            session_.axis(i) && session_.axis(i)->time > since && has_axis(session_.state()->state.axes_present, i);
+        if (cast_.is_acting("axis-" + axes[i].name) && !is_heard) { return false; }
+    }
+    return true;
+}
+
+void Player::play_job(const Step& step) {
+    tell(text_of(step));
+    const Term asked = session_.state() ? session_.state()->state.term : Term{};
+    const auto reply = begin(step);
+    Course course(step, axis_names(scenario_.machine));
+    if (!reply) {
+        seen_.broken = title(step) + ": " + reply.error();
+        return;
+    }
+    std::optional<Ended> end;
+    if (reply->status == ReplyStatus::Refused) {
+        end = Ended{Step::REFUSED, std::string(name_of(static_cast<FaultCode>(reply->fault)))};
+    } else {
+        end = watch({reply->job, asked, asked}, course);
+    }
+    if (!end) {
+        seen_.broken = title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
+        return check_left(step, course, "the job has not ended");
+    }
+    tell(text_of(step) + ": " + text_of(end->ending) + (end->fault.empty() ? "" : ", " + end->fault));
+    check_left(step, course, "the job ended before (" + text_of(end->ending) + ")");
+    check_ending(step, *end);
+}
+
+std::expected<Reply, std::string> Player::begin(const Step& step) {
+    Command command{.kind = command_of(step)};
+    for (const std::string& name : step.home().axis()) {
+        command.axes |= axis_bit(find_axis(scenario_.machine, name).value_or(0));
+    }
+    if (!step.has_home()) {
+        const auto program = send(step);
+        if (!program) { return std::unexpected(program.error()); }
+        command.program = *program;
+    }
+    auto reply = session_.command(command);
+    if (!reply) { return std::unexpected(text_of(reply.error())); }
+    return *std::move(reply);
+}
+
+std::expected<std::uint64_t, std::string> Player::send(const Step& step) {
+    const auto start_mm = start_places(session_);
+    if (!start_mm) { return std::unexpected(text_of(start_mm.error())); }
+    const auto program = program_of_step(step, *start_mm);
+    if (!program) { return std::unexpected(program.error()); }
+    const auto sent = session_.send(*program);
+    if (!sent) { return std::unexpected(text_of(sent.error())); }
+    return *sent;
+}
+
+std::expected<Program, std::string> Player::program_of_step(const Step& step, const std::vector<double>& start_mm) {
+    if (step.has_run()) {
+        auto program = program_of(step.run(), scenario_.folder(), scenario_.machine, start_mm);
+        if (!program) { return std::unexpected(to_text("the program", program.error())); }
+        return *std::move(program);
+    }
+    MoveOptions options{.targets = {step.move().to().begin(), step.move().to().end()}};
+    if (step.move().has_feed_mm_min()) { options.feed_mm_min = step.move().feed_mm_min(); }
+    return move_program(scenario_.machine, start_mm, options);
+}
+
+std::optional<Player::Ended> Player::watch(Watched watched, Course& course) {
+    const nanoseconds since = monotonic_now();
+    while (monotonic_now() - since < kJobPatience) {
+        befall(course, since);
+        if (const auto end = ended(watched)) { return end; }
+        glance();
+    }
+    return std::nullopt;
+}
+
+std::optional<Player::Ended> Player::ended(Watched& watched) {
+    if (session_.is_silent()) { return all_heard_rest() ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt; }
+    const MachineState& state = session_.state()->state;
+    const JobVerdict verdict = lockstep::judge(state, watched.job, watched.asked, watched.runs_it);
+    if (verdict == JobVerdict::InProgress) {
+        if (state.phase != MachinePhase::Waiting) { watched.runs_it = state.term; }
+        return std::nullopt;
+    }
+    const auto fault = fault_of(state, scenario_.machine);
+    return Ended{ending_of(verdict), fault ? fault->name() : ""};
+}
+
+/// Who has not been heard of late is not asked.
+bool Player::all_heard_rest() const {
+    for (std::size_t i = 0; i < scenario_.machine.axes.size(); ++i) {
+        if (session_.axis_present(i) && !session_.axis(i)->state.at_rest) { return false; }
+    }
+    return true;
+}
+
+Moment Player::moment(nanoseconds begun) const {
+    Moment now{.since_begun_s = to_seconds(monotonic_now() - begun)};
+    if (session_.state()) {
+        now.phase = session_.state()->state.phase;
+        now.line = session_.state()->state.line;
+    }
+    for (std::size_t i = 0; i < scenario_.machine.axes.size(); ++i) {
+        const auto& axis = session_.axis(i);
+        now.at_mm.push_back(axis ? std::optional(to_mm(scenario_.machine.axes[i], axis->state.position.as_steps()))
+                                 : std::nullopt);
+    }
+    return now;
+}
+
+void Player::befall(Course& course, nanoseconds begun) {
+    while (const Asked::During* during = course.next(moment(begun))) {
+        const Tick at = clock_.now();
+        tell(text_of(*during), at);
+        const auto done = acts_.act(during->act());
+        add_check(text_of(*during), done ? "done at " + fixed(at_s(at), 3) + " s" : done.error(), done.has_value());
+        if (!during->has_rests_within_frames()) { continue; }
+        AwaitedRest rest{text_of(during->act()), at, during->rests_within_frames(), {}};
+        for (const AxisConfig& axis : scenario_.machine.axes) {
+            if (cast_.is_acting("axis-" + axis.name)) { rest.axes.push_back(axis.name); }
+        }
+        seen_.rests.push_back(std::move(rest));
+    }
+}
+
+void Player::glance() {
+    undo_due();
+    session_.listen(kGlance);
+}
+
+void Player::undo_due() {
+    while (const auto act = acts_.take_due()) {
+        tell(text_of(*act));
+        const auto done = acts_.act(*act);
+        if (!done) { add_check(text_of(*act), done.error(), false); }
+    }
+}
+
+void Player::check_left(const Step& step, const Course& course, const std::string& because) {
+    for (int i = course.done(); i < step.during_size(); ++i) {
+        add_check(text_of(step.during(i)), "never came to pass: " + because, false);
+    }
+}
+
+void Player::check_ending(const Step& step, const Ended& found) {
+    const auto with = [](const std::string& fault) { return fault.empty() ? "" : " with " + fault; };
+    const bool held = found.ending == step.ends() && (!step.has_fault() || step.fault() == found.fault);
+    add_check(title(step) + ": ends " + text_of(step.ends()) + with(step.fault()),
+              text_of(found.ending) + with(found.fault), held);
+}
+
+/// What was to be undone is; and each axis that acts, and none other, counts as heard.
+void Player::settle() {
+    const nanoseconds since = monotonic_now();
+    const auto is_settled = [&] {
+        const auto& axes = scenario_.machine.axes;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (session_.axis_present(i) != cast_.is_acting("axis-" + axes[i].name)) { return false; }
+        }
+        return !acts_.has_more_to_undo();
+    };
+    while (acts_.has_more_to_undo() || (!is_settled() && monotonic_now() - since < kSettlePatience)) { glance(); }
+    seen_.status = status_report(session_);
+}
+
+std::string Player::title(const Step& step) const { return "step " + std::to_string(step_) + ", " + text_of(step); }
+
+double Player::at_s(Tick tick) const { return scenario_.machine.microseconds(tick - start_) * 1e-6; }
+
+void Player::tell(const std::string& what, Tick at) {
+    proto::ScenarioHappening& happening = seen_.story.emplace_back();
+    happening.set_tick(at.value);
+    happening.set_at_s(at_s(at));
+    happening.set_what(what);
+}
+
+void Player::add_check(const std::string& asked, const std::string& found, bool held) {
+    seen_.checks.push_back(check_of(asked, found, kAsPlayed, held));
+}
+
+}  // namespace lockstep::scenario

@@ -1,0 +1,153 @@
+#include "clients/scenario/runner/season.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+
+#include "clients/scenario/runner/control_groups.hpp"
+#include "clients/scenario/runner/stage.hpp"
+#include "clients/scenario/runner/world.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kGlance_ms = 100;
+
+/// A new directory for a scenario's logs, open.
+std::expected<int, std::string> open_folder(const fs::path& path) {
+    std::error_code error;
+    if (fs::exists(path, error)) {
+        return std::unexpected(path.string() + ": is there already; name a new directory for the logs");
+    }
+    fs::create_directories(path, error);
+    const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) { return std::unexpected(path.string() + ": cannot be made; name another directory for the logs"); }
+    return folder;
+}
+
+class Season {
+public:
+    Season(const std::vector<Scenario>& scenarios, const SeasonOptions& options)
+        : scenarios_(scenarios), options_(options), reports_(scenarios.size()) {}
+    ~Season() {
+        for (const int folder : folders_) { close(folder); }
+        worlds_.clear();
+        if (containers_) { remove_control_groups(); }
+    }
+    Season(const Season&) = delete;
+    Season& operator=(const Season&) = delete;
+
+    std::expected<proto::ScenarioRunReport, std::string> play() {
+        if (const auto found = find_image(); !found) { return std::unexpected(found.error()); }
+        if (const auto opened = open_folders(); !opened) { return std::unexpected(opened.error()); }
+        while (next_ < scenarios_.size() || !worlds_.empty()) {
+            if (options_.interrupted && options_.interrupted()) { break; }
+            if (const auto begun = begin_some(); !begun) { return std::unexpected(begun.error()); }
+            wait();
+            take();
+        }
+        worlds_.clear();
+        return report();
+    }
+
+private:
+    /// All before the first is played.
+    std::expected<void, std::string> open_folders() {
+        for (const Scenario& scenario : scenarios_) {
+            if (!options_.keep) { break; }
+            const auto folder = open_folder(*options_.keep / scenario.name());
+            if (!folder) { return std::unexpected(folder.error()); }
+            folders_.push_back(*folder);
+        }
+        return {};
+    }
+
+    std::expected<void, std::string> find_image() {
+        const auto in_containers = [](const Scenario& scenario) { return scenario.asked.place() == Asked::CONTAINER; };
+        if (std::ranges::none_of(scenarios_, in_containers)) { return {}; }
+        auto containers = Containers::of(options_.image);
+        if (!containers) { return std::unexpected(containers.error()); }
+        containers_ = *std::move(containers);
+        return {};
+    }
+
+    std::expected<void, std::string> begin_some() {
+        while (next_ < scenarios_.size() && worlds_.size() < static_cast<std::size_t>(options_.at_a_time)) {
+            const Scenario& scenario = scenarios_[next_];
+            const int folder = options_.keep ? folders_[next_] : -1;
+            auto world =
+                World::begin([&] { return scenario::play(scenario, containers_, folder).SerializeAsString(); });
+            if (!world) { return std::unexpected(world.error()); }
+            worlds_.emplace(next_++, *std::move(world));
+        }
+        return {};
+    }
+
+    void wait() {
+        std::vector<pollfd> ends;
+        std::string names;
+        for (const auto& [index, world] : worlds_) {
+            ends.push_back({world.readable(), POLLIN, 0});
+            names += (names.empty() ? "" : ", ") + scenarios_[index].name();
+        }
+        if (options_.progress) { options_.progress("playing " + names); }
+        poll(ends.data(), ends.size(), kGlance_ms);
+        for (auto end = ends.begin(); auto& [index, world] : worlds_) {
+            if ((end++)->revents != 0 && world.take()) { ended_.push_back(index); }
+        }
+    }
+
+    void take() {
+        for (const std::size_t index : ended_) {
+            const auto result = worlds_.at(index).result();
+            proto::ScenarioReport& report = reports_[index];
+            if (!result || !report.ParseFromString(*result)) {
+                fill_broken(index, result ? "its report is damaged" : result.error());
+            }
+            if (options_.keep) { report.set_kept((*options_.keep / scenarios_[index].name()).string()); }
+            if (options_.played) { options_.played(report); }
+            worlds_.erase(index);
+        }
+        ended_.clear();
+    }
+
+    void fill_broken(std::size_t index, const std::string& why) {
+        reports_[index].Clear();
+        reports_[index].set_file(scenarios_[index].file.string());
+        reports_[index].set_shows(scenarios_[index].asked.shows());
+        reports_[index].set_broken(why);
+    }
+
+    proto::ScenarioRunReport report() {
+        proto::ScenarioRunReport all;
+        for (std::size_t i = 0; i < reports_.size(); ++i) {
+            if (reports_[i].file().empty()) { fill_broken(i, "interrupted before its end"); }
+            *all.add_scenarios() = reports_[i];
+            reports_[i].held() ? all.set_held(all.held() + 1) : all.set_failed(all.failed() + 1);
+        }
+        return all;
+    }
+
+    const std::vector<Scenario>& scenarios_;
+    const SeasonOptions& options_;
+    std::vector<proto::ScenarioReport> reports_;
+    std::vector<int> folders_;  // of the scenarios, open
+    std::optional<Containers> containers_;
+    std::map<std::size_t, World> worlds_;  // by the scenario's place
+    std::vector<std::size_t> ended_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::expected<proto::ScenarioRunReport, std::string> play_all(const std::vector<Scenario>& scenarios,
+                                                              const SeasonOptions& options) {
+    return Season(scenarios, options).play();
+}
+
+}  // namespace lockstep::scenario

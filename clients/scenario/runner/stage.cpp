@@ -1,0 +1,218 @@
+#include "clients/scenario/runner/stage.hpp"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "clients/analysis/analysis.hpp"
+#include "clients/report_page/report_page.hpp"
+#include "clients/scenario/model/judgement.hpp"
+#include "clients/scenario/runner/evidence.hpp"
+#include "clients/scenario/runner/player.hpp"
+#include "clients/scenario/runner/world.hpp"
+#include "clients/supervisor/flight_files.hpp"
+#include "clients/supervisor/program_folder.hpp"
+#include "clients/text/words.hpp"
+#include "core/gcode/number_text.hpp"
+#include "services/axis/device_window.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/files/text_file.hpp"
+#include "services/network/host_name.hpp"
+
+namespace lockstep::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr const char* kStandby = "coordinator-2";
+constexpr auto kStartPatience = 10s;
+
+std::string clock_error_text(const Asked::WrongClock& clock) {
+    std::string text = "offset=" + number_text(clock.offset_s()) + ",ppm=" + number_text(clock.ppm());
+    if (clock.has_step_s()) { text += ",step=" + number_text(clock.step_s()) + "@" + number_text(clock.step_at_s()); }
+    return text;
+}
+
+/// The command lines of all processes, each begun where its network is, or in its container.
+std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const Containers* containers,
+                                  const StateDirectory& state) {
+    const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
+                        scenario.asked.continues()};
+    const fs::path programs = containers == nullptr ? program_folder() : "";
+    auto lines = service_lines(scenario.machine, placed_on(scenario.machine, host_name()), layout, programs, state);
+    for (ServiceLine& line : lines) {
+        for (const auto& clock : scenario.asked.wrong_clock()) {
+            if (line.name != "axis-" + clock.axis()) { continue; }
+            line.words.insert(line.words.end(), {"--clock-error", clock_error_text(clock)});
+        }
+        const Words entry = containers == nullptr ? network.entry(line.name)
+                                                  : containers->entry(line.name, network.namespace_of(line.name));
+        line.words.insert(line.words.begin(), entry.begin(), entry.end());
+    }
+    return lines;
+}
+
+/// lcm-logger, for as long as it lives.
+class Logger {
+public:
+    Logger(const std::string& lcm_url, const fs::path& folder)
+        : pid_(
+              start_program({"lcm-logger", "--quiet", "--force", "--lcm-url=" + lcm_url, (folder / "run.lcm").string()},
+                            folder / "lcm-logger.log")) {}
+    ~Logger() {
+        if (!pid_) { return; }
+        kill(*pid_, SIGTERM);
+        waitpid(*pid_, nullptr, 0);
+    }
+    Logger(const Logger&) = delete;
+    Logger& operator=(const Logger&) = delete;
+    const std::expected<pid_t, std::string>& pid() const { return pid_; }
+
+private:
+    std::expected<pid_t, std::string> pid_;
+};
+
+/// Each until it can be attached to: a scenario's time does not begin with waiting for devices.
+std::expected<void, std::string> start_devices(const Scenario& scenario, Cast& cast) {
+    for (const AxisConfig& axis : scenario.machine.axes) {
+        const std::string name = "fpga-" + axis.name;
+        if (const auto started = cast.start(name); !started) { return started; }
+        const auto deadline = monotonic_now() + kStartPatience;
+        for (auto window = open_window(shared_device(scenario.machine, axis)); !window;
+             window = open_window(shared_device(scenario.machine, axis))) {
+            if (monotonic_now() > deadline) { return std::unexpected(name + ": " + window.error()); }
+            std::this_thread::sleep_for(5ms);
+        }
+    }
+    return {};
+}
+
+/// Error: with the end of the process's log.
+std::expected<void, std::string> bring_up(const Scenario& scenario, Cast& cast, Session& session, Player& player,
+                                          const StateDirectory& state) {
+    if (scenario.asked.separate_devices()) {
+        if (const auto started = start_devices(scenario, cast); !started) { return started; }
+    }
+    for (const std::string& name : processes_of(scenario.asked, scenario.machine)) {
+        if (name == kStandby || name.starts_with("fpga-")) { continue; }
+        if (const auto started = cast.start(name); !started) { return started; }
+    }
+    if (!player.wait_for(Asked::IDLE)) {
+        return std::unexpected("the machine does not become Idle; the coordinator said last:\n" +
+                               tail_of(state.log_file("coordinator"), 4));
+    }
+    if (!scenario.asked.standby()) { return {}; }
+    if (const auto started = cast.start(kStandby); !started) { return started; }
+    const auto deadline = monotonic_now() + kStartPatience;
+    while (!session.has_standby()) {
+        if (monotonic_now() > deadline) { return std::unexpected("the coordinator that is to stand by is not heard"); }
+        session.listen(50ms);
+    }
+    return {};
+}
+
+/// Nothing to be judged: why it could not even begin.
+Seen broken(const std::string& why) {
+    Seen seen;
+    seen.broken = why;
+    return seen;
+}
+
+/// A clock is set only if its process lives for so long.
+void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, Seen& seen) {
+    const double lived_s = static_cast<double>(lived.count()) * 1e-9;
+    for (const auto& clock : scenario.asked.wrong_clock()) {
+        if (!clock.has_step_s()) { continue; }
+        const bool was_set = lived_s > clock.step_at_s();
+        seen.checks.push_back(
+            check_of("the clock of " + clock.axis() + " is set by " + number_text(clock.step_s()) + " s, " +
+                         number_text(clock.step_at_s()) + " s after its process started",
+                     was_set ? "it was" : "never came to pass: all ended after " + fixed(lived_s, 1) + " s", kAsPlayed,
+                     was_set));
+    }
+}
+
+Seen play_with(const Scenario& scenario, const ChosenMachine& machine, Cast& cast, Network& network,
+               const StateDirectory& state) {
+    auto session = Session::join(machine, Purpose::Command);
+    if (!session) { return broken(to_text("", session.error().errors)); }
+    Acts acts(cast, network, *session);
+    Player player(scenario, *session, cast, acts);
+    const auto begun = monotonic_now();
+    if (const auto up = bring_up(scenario, cast, *session, player, state); !up) { return broken(up.error()); }
+    player.play();
+    (void)write_flight_files(scenario.machine);
+    Seen seen = player.seen();
+    add_clock_checks(scenario, monotonic_now() - begun, seen);
+    return seen;
+}
+
+/// Brings it up, plays, takes it down.
+Seen put_on(const Scenario& scenario, const Containers* containers, const fs::path& folder) {
+    if (containers != nullptr) { umask(0); }  // a container's user writes what root has made, too
+    const StateDirectory state(scenario.machine.name);
+    const fs::path file = folder / "machine.textproto";
+    const auto made = state.make();
+    if (!made) { return broken(made.error()); }
+    for (const fs::path& path : {file, state.machine_file()}) {
+        const auto written = write_text_file(path, machine_text(scenario.machine));
+        if (!written) { return broken(written.error()); }
+    }
+    auto network =
+        Network::make(scenario.asked.place(), processes_of(scenario.asked, scenario.machine), folder / "network.log");
+    if (!network) { return broken(network.error()); }
+    const Logger logger(scenario.machine.network.lcm_url, folder);
+    if (!logger.pid()) { return broken(logger.pid().error()); }
+    Cast cast(lines_of(scenario, *network, containers, state), state,
+              containers == nullptr ? fs::path() : Containers::numbers());
+    Seen seen = play_with(scenario, {file, scenario.machine, config_hash(scenario.machine)}, cast, *network, state);
+    seen.checks.push_back(cast.ends_check());
+    cast.end_all();
+    return seen;
+}
+
+/// With a page of the run.
+void keep_logs(const fs::path& folder, int directory) {
+    if (const auto found = analysis::analyze_log(folder / kWholeLog)) {
+        (void)analysis::write_html(*found, folder / "whole.html");
+    }
+    std::error_code error;
+    fs::copy(folder, "/proc/self/fd/" + std::to_string(directory), fs::copy_options::recursive, error);
+}
+
+proto::ScenarioReport report_of(const Scenario& scenario, const Seen& seen, const std::vector<Check>& judged) {
+    proto::ScenarioReport report;
+    report.set_file(scenario.file.string());
+    report.set_shows(scenario.asked.shows());
+    report.set_broken(seen.broken);
+    report.mutable_story()->Add(seen.story.begin(), seen.story.end());
+    report.mutable_checks()->Add(seen.checks.begin(), seen.checks.end());
+    report.mutable_checks()->Add(judged.begin(), judged.end());
+    const auto& checks = report.checks();
+    report.set_held(seen.broken.empty() &&
+                    std::ranges::all_of(checks, [](const Check& check) { return check.held(); }));
+    return report;
+}
+
+}  // namespace
+
+proto::ScenarioReport play(const Scenario& scenario, const std::optional<Containers>& containers, int keep) {
+    const auto begun = monotonic_now();
+    const fs::path folder = world_folder();
+    setenv("LOCKSTEP_STATE", (folder / "state").c_str(), 1);
+    const bool in_containers = scenario.asked.place() == Asked::CONTAINER;
+    const Seen seen = put_on(scenario, in_containers ? &*containers : nullptr, folder);
+    std::vector<Check> judged;
+    if (seen.broken.empty()) { judged = judge(scenario, seen, read_evidence(scenario.machine, folder)); }
+    proto::ScenarioReport report = report_of(scenario, seen, judged);
+    if (keep >= 0) { keep_logs(folder, keep); }
+    report.set_took_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
+    return report;
+}
+
+}  // namespace lockstep::scenario

@@ -1,0 +1,61 @@
+#include "clients/session/command_effect.hpp"
+
+#include "clients/session/reports.hpp"
+#include "clients/text/words.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::chrono::seconds kPatience{10};
+
+bool shows_effect(CommandKind command, MachinePhase phase) {
+    const bool moves =
+        phase == MachinePhase::Homing || phase == MachinePhase::Running || phase == MachinePhase::Stopping;
+    switch (command) {
+        case CommandKind::Hold:
+        case CommandKind::Stop:
+        case CommandKind::EmergencyStop: return !moves;
+        case CommandKind::Reset: return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
+        default: return true;
+    }
+}
+
+std::string missing_axes(const Session& session) {
+    std::string names;
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        if (has_axis(session.state()->state.axes_present, i)) { continue; }
+        names += (names.empty() ? "" : ", ") + session.config().axes[i].name;
+    }
+    return names;
+}
+
+std::string late_text(const Session& session, CommandKind command) {
+    if (!session.state()) { return "the machine has not said its state yet; see: lockstep status"; }
+    const std::string still = "the machine is still " + std::string(name_of(session.state()->state.phase)) + " after " +
+                              std::to_string(kPatience.count()) + " s";
+    const std::string missing = missing_axes(session);
+    if (!missing.empty()) { return still + ": not heard: " + missing + "; start it, or see its log"; }
+    return still + (command == CommandKind::Reset ? "; see: lockstep status" : "; cease all pulses: lockstep estop");
+}
+
+}  // namespace
+
+std::expected<MachinePhase, std::string> await_effect(Session& session, CommandKind command) {
+    const auto replied = monotonic_now();
+    const auto slot = std::chrono::microseconds{session.config().timing.slot_us};
+    const auto is_shown = [&] {
+        const auto& heard = session.state();
+        return heard && heard->time > replied + slot && shows_effect(command, heard->state.phase);
+    };
+    while (!is_shown() && monotonic_now() - replied < kPatience) { session.listen(50ms); }
+    if (!is_shown()) { return std::unexpected(late_text(session, command)); }
+    const MachineState& state = session.state()->state;
+    if (command != CommandKind::Reset || state.phase != MachinePhase::Fault) { return state.phase; }
+    const auto fault = fault_of(state, session.config());
+    return std::unexpected("the machine is in Fault again" + (fault ? "\n" + fault_text(*fault) : std::string()));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,101 @@
+#include "clients/session/move_program.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "clients/text/words.hpp"
+#include "core/axis_unit.hpp"
+#include "core/gcode/gcode.hpp"
+#include "services/documents/names.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kMaxOwnMove_s = 600;
+
+std::optional<double> number(std::string_view text) {
+    if (text.starts_with('+')) { text.remove_prefix(1); }
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_whole = error == std::errc{} && end == text.data() + text.size();
+    return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::expected<void, std::string> check_travel(const AxisConfig& axis, double mm) {
+    const bool is_within =
+        mm >= axis.position_min_mm - kTravelTolerance_mm && mm <= axis.position_max_mm + kTravelTolerance_mm;
+    if (is_within) { return {}; }
+    return std::unexpected(axis.name + "=" + fixed(mm, 4) + " is outside the travel of axis " + axis.name + ", " +
+                           fixed(axis.position_min_mm, 3) + " to " + fixed(axis.position_max_mm, 3) + " " +
+                           std::string(unit_of(axis.name)));
+}
+
+std::expected<void, std::string> check_feed(const MoveOptions& options) {
+    if (!options.feed_mm_min) { return {}; }
+    const double feed = *options.feed_mm_min;
+    if (feed >= kMinFeedPerMinute && feed <= kMaxFeed_mm_s * 60) { return {}; }
+    return std::unexpected("--feed " + fixed(feed, 3) + " is not within " + fixed(kMinFeedPerMinute, 2) + " to " +
+                           fixed(kMaxFeed_mm_s * 60, 0) + " mm/min");
+}
+
+std::expected<void, std::string> check_own(const MachineConfig& machine, const MoveOptions& options) {
+    if (options.own && options.feed_mm_min) {
+        return std::unexpected(std::string("--feed is along the line of all axes; with --own there is none"));
+    }
+    if (!options.own && options.in_s) {
+        return std::unexpected(std::string("--in is for axes on their own: add --own, or give a --feed"));
+    }
+    const double least_s = static_cast<double>(machine.tick_ns) * 1e-9;
+    if (!options.in_s || (*options.in_s >= least_s && *options.in_s <= kMaxOwnMove_s)) { return {}; }
+    return std::unexpected("--in " + fixed(*options.in_s, 6) + " is not within " + fixed(least_s, 6) + " to " +
+                           fixed(kMaxOwnMove_s, 0) + " s");
+}
+
+}  // namespace
+
+Ticks ticks_of(const MachineConfig& machine, const MoveOptions& options) {
+    return {std::llround(options.in_s.value_or(0) * machine.ticks_per_second())};
+}
+
+std::expected<AxisTarget, std::string> parse_target(std::string_view word) {
+    const std::size_t at = word.find('=');
+    const auto mm = at == word.npos ? std::nullopt : number(word.substr(at + 1));
+    if (mm && at > 0) { return AxisTarget{std::string(word.substr(0, at)), *mm}; }
+    return std::unexpected("'" + std::string(word) +
+                           "' is not a target; write an axis, = and a place in mm: X=10 or Y=-3.5");
+}
+
+std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name) {
+    std::string names;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (same_name(machine.axes[i].name, name)) { return i; }
+        names += " " + machine.axes[i].name;
+    }
+    return std::unexpected("machine '" + machine.name + "' has no axis '" + std::string(name) + "'; it has:" + names);
+}
+
+std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                 const MoveOptions& options) {
+    if (auto checked = check_feed(options); !checked) { return std::unexpected(checked.error()); }
+    if (auto checked = check_own(machine, options); !checked) { return std::unexpected(checked.error()); }
+    LinearMove move{
+        .target_mm = start_mm, .feed_mm_s = options.feed_mm_min.value_or(0) / 60, .rapid = !options.feed_mm_min};
+    std::vector<bool> is_named(machine.axes.size());
+    for (const std::string& word : options.targets) {
+        const auto target = parse_target(word);
+        if (!target) { return std::unexpected(target.error()); }
+        const auto axis = find_axis(machine, target->axis);
+        if (!axis) { return std::unexpected(axis.error()); }
+        if (is_named[*axis]) { return std::unexpected("axis " + machine.axes[*axis].name + " is named twice"); }
+        is_named[*axis] = true;
+        move.target_mm[*axis] = target->mm + (options.relative ? start_mm[*axis] : 0);
+        if (auto checked = check_travel(machine.axes[*axis], move.target_mm[*axis]); !checked) {
+            return std::unexpected(checked.error());
+        }
+    }
+    Program program{.name = "move", .axes = {}, .start_mm = start_mm, .blocks = {{.action = std::move(move)}}};
+    for (const AxisConfig& axis : machine.axes) { program.axes.push_back(axis.name); }
+    return program;
+}
+
+}  // namespace lockstep

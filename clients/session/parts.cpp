@@ -1,0 +1,79 @@
+#include "clients/session/parts.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+constexpr const char* kAbsent = "not there";
+
+bool is_present(const std::vector<PresentProcess>& present, std::optional<std::size_t> axis) {
+    return std::ranges::any_of(present, [&](const PresentProcess& process) {
+        return process.axis.has_value() == axis.has_value() && (!axis || *process.axis == *axis);
+    });
+}
+
+proto::AwaitedPart awaited(const std::string& name, const std::string& host, const std::string& state) {
+    proto::AwaitedPart part;
+    part.set_name(name);
+    if (!host.empty()) { part.set_host(host); }
+    part.set_state(state);
+    return part;
+}
+
+/// Of an axis that is not heard by all.
+std::string axis_state(const MachineConfig& machine, const PartsSeen& seen, std::size_t axis) {
+    if (has_axis(seen.axes_heard, axis)) { return "started, not heard by the coordinator"; }
+    if (!is_present(seen.present, axis)) { return kAbsent; }
+    const bool lacks_time = machine.timing.time_source == TimeSource::Network;
+    return lacks_time ? "started, waits for the coordinator's clock" : "started, not heard";
+}
+
+}  // namespace
+
+PartsSeen parts_seen(const Session& session) {
+    PartsSeen seen{.coordinator_heard = session.state() && !session.is_silent(), .present = session.present()};
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        if (session.axis_present(i)) { seen.axes_heard |= axis_bit(i); }
+    }
+    if (seen.coordinator_heard) { seen.axes_heard_by_coordinator = session.state()->state.axes_present; }
+    return seen;
+}
+
+std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis) {
+    return axis ? "axis " + machine.axes[*axis].name : "coordinator";
+}
+
+std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const PartsSeen& seen) {
+    std::vector<proto::AwaitedPart> parts;
+    if (!seen.coordinator_heard) {
+        const bool is_there = is_present(seen.present, std::nullopt);
+        parts.push_back(
+            awaited(part_name(machine, {}), machine.coordinator_host, is_there ? "started, not heard" : kAbsent));
+    }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const bool is_known = !seen.coordinator_heard || has_axis(seen.axes_heard_by_coordinator, i);
+        if (has_axis(seen.axes_heard, i) && is_known) { continue; }
+        parts.push_back(awaited(part_name(machine, i), machine.axes[i].host, axis_state(machine, seen, i)));
+    }
+    return parts;
+}
+
+void add_awaited(const Session& session, proto::StatusReport& report) {
+    for (proto::AwaitedPart& part : awaited_parts(session.config(), parts_seen(session))) {
+        *report.add_waits_for() = std::move(part);
+    }
+}
+
+std::string awaited_text(const proto::StatusReport& report) {
+    std::string text;
+    for (const proto::AwaitedPart& part : report.waits_for()) {
+        const std::string where = part.has_host() ? " on " + part.host() : "";
+        const bool is_absent = part.state() == kAbsent;
+        text += "waits for " + part.name() + where + ": " + part.state() +
+                (is_absent && part.has_host() ? "; on " + part.host() + ": lockstep up" : "") + "\n";
+    }
+    return text;
+}
+
+}  // namespace lockstep

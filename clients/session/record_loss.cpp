@@ -1,0 +1,23 @@
+#include "clients/session/record_loss.hpp"
+
+namespace lockstep {
+
+std::uint64_t lost_records(const proto::StatusReport& status) {
+    std::uint64_t lost = status.lost_records();
+    for (const proto::AxisStatus& axis : status.axes()) { lost += axis.health().lost_records(); }
+    return lost;
+}
+
+std::string record_loss_text(const proto::StatusReport& status) {
+    std::string text;
+    const auto add = [&](const std::string& process, std::uint64_t lost) {
+        if (lost > 0) { text += (text.empty() ? "" : ", ") + process + " " + std::to_string(lost); }
+    };
+    add("coordinator", status.lost_records());
+    for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), axis.health().lost_records()); }
+    if (text.empty()) { return text; }
+    return "record: messages that were not written or sent: " + text +
+           "; is the disk of the record full? their logs name it; lockstep log merge says what is missing";
+}
+
+}  // namespace lockstep

@@ -1,0 +1,117 @@
+#include "clients/session/reports.hpp"
+
+#include "clients/session/health_report.hpp"
+#include "clients/text/words.hpp"
+#include "services/flight/incident_file.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Faults that are the machine's: no one axis has them.
+bool is_of_an_axis(FaultCode fault) {
+    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
+           fault != FaultCode::SecondCoordinator;
+}
+
+bool is_in_motion(MachinePhase phase) { return phase == MachinePhase::Running || phase == MachinePhase::Stopping; }
+
+void fill(proto::StatusReport& report, const MachineState& state, const MachineConfig& machine) {
+    report.set_phase(std::string(name_of(state.phase)));
+    if (auto fault = fault_of(state, machine)) { *report.mutable_fault() = *std::move(fault); }
+    if (state.job > 0) { report.set_job(state.job); }
+    report.set_feed_override_percent(state.overrides.feed_percent);
+    report.set_rapid_override_percent(state.overrides.rapid_percent);
+    if (!is_in_motion(state.phase)) { return; }
+    if (state.line > 0) { report.set_line(state.line); }
+    report.set_progress(state.progress);
+    report.set_remaining_s(state.remaining_s);
+}
+
+}  // namespace
+
+proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
+    proto::FaultReport report;
+    report.set_number(static_cast<std::uint32_t>(fault));
+    report.set_name(std::string(name_of(fault)));
+    if (const FaultText* text = find_fault(fault)) {
+        report.set_cause(std::string(text->cause));
+        report.set_remedy(remedy_text(*text));
+    }
+    if (!axis.empty()) { report.set_axis(axis); }
+    return report;
+}
+
+std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
+    if (state.fault == 0) { return std::nullopt; }
+    const auto fault = static_cast<FaultCode>(state.fault);
+    const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
+    return fault_report(fault, has_axis ? machine.axes[state.fault_axis].name : "");
+}
+
+std::string fault_text(const proto::FaultReport& fault, std::size_t width) {
+    const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
+    const std::string what = axis + fault.name() + " (" + std::to_string(fault.number()) + "): " + fault.cause();
+    return wrapped("fault: " + what, width, "       ") + "\n" + wrapped("to do: " + fault.remedy(), width, "       ");
+}
+
+proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present) {
+    proto::AxisStatus status;
+    status.set_name(axis.name);
+    status.set_present(present);
+    if (state == nullptr) { return status; }
+    status.set_position_mm(to_mm(axis, state->position.as_steps()));
+    status.set_position_steps(state->position.count());
+    status.set_velocity_mm_s(state->velocity.steps_per_tick() * 1e9 / static_cast<double>(tick_ns) / axis.steps_per_mm);
+    status.set_state(std::string(name_of(state->phase)));
+    status.set_homed(state->homed);
+    if (state->fault != 0) { *status.mutable_fault() = fault_report(static_cast<FaultCode>(state->fault), axis.name); }
+    if (state->unproved != 0) {
+        *status.mutable_unproved() = fault_report(static_cast<FaultCode>(state->unproved), axis.name);
+    }
+    status.set_at_rest(state->at_rest);
+    status.set_following_error_steps(state->following_error_steps);
+    status.set_refused_frames(state->refused_frames);
+    const double error_us = static_cast<double>(state->clock_error.value) * static_cast<double>(tick_ns) * 1e-3;
+    if (error_us > 0) { status.set_clock_error_us(error_us); }
+    return status;
+}
+
+proto::StatusReport status_report(const Session& session) {
+    proto::StatusReport report;
+    const MachineConfig& machine = session.config();
+    report.set_machine(machine.name);
+    if (const auto& heard = session.state()) {
+        fill(report, heard->state, machine);
+        report.set_lost_records(heard->state.lost_records);
+        report.set_age_ms(static_cast<double>((monotonic_now() - heard->time).count()) * 1e-6);
+    }
+    report.set_standby(session.has_standby());
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const auto& axis = session.axis(i);
+        *report.add_axes() =
+            axis_status(machine.axes[i], machine.tick_ns, axis ? &axis->state : nullptr, session.axis_present(i));
+        const auto& health = session.health(i);
+        if (health) { *report.mutable_axes()->rbegin()->mutable_health() = health_report(*health, machine); }
+    }
+    return report;
+}
+
+proto::FinalPosition place_of(const AxisConfig& axis, const AxisState& state) {
+    proto::FinalPosition place;
+    place.set_name(axis.name);
+    place.set_position_steps(state.position.count());
+    place.set_position_mm(to_mm(axis, static_cast<double>(state.position.count())));
+    return place;
+}
+
+void add_incidents(const MachineConfig& machine, proto::StatusReport& report) {
+    const auto files = incident_files(incident_directory(machine));
+    if (files.empty()) { return; }
+    proto::Incidents& incidents = *report.mutable_incidents();
+    incidents.set_directory(incident_directory(machine).string());
+    incidents.set_files(static_cast<std::int64_t>(files.size()));
+    incidents.set_newest(files.back().filename().string());
+}
+
+}  // namespace lockstep

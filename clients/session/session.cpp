@@ -1,0 +1,252 @@
+#include "clients/session/session.hpp"
+
+#include <algorithm>
+#include <random>
+#include <ranges>
+
+#include "clients/session/chunked_program.hpp"
+#include "core/protocol/rules.hpp"
+#include "services/documents/placement.hpp"
+#include "services/documents/program_document.hpp"
+#include "services/network/host_name.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/security/admission.hpp"
+#include "services/wire/dds/dds_log.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kRepeatCommandAfter = 250ms;
+constexpr nanoseconds kAnswerPatience = 3s;
+constexpr nanoseconds kHeardPatience = 5s;       // for an axis that the coordinator hears: this process will, too
+constexpr nanoseconds kUnheardPatience = 500ms;  // for one that it does not
+constexpr nanoseconds kPlanPatience = 60s;       // a coordinator that reads or plans a large program answers late
+
+static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
+
+template <typename Bus>
+std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const MachineConfig& machine,
+                                                                       const Membership& membership) {
+    auto bus = open_bus<Bus>(machine.network, machine.name, membership);
+    if (!bus) { return std::unexpected(bus.error()); }
+    return std::move(*bus);
+}
+
+Identity new_identity() {
+    std::random_device source;
+    return Identity{source()} << 32 | source();
+}
+
+}  // namespace
+
+Session::Session(const ChosenMachine& machine, Bus bus)
+    : machine_(machine),
+      bus_(std::move(bus)),
+      client_(new_identity()),
+      axes_(machine.config.axes.size()),
+      healths_(axes_.size()) {}
+
+std::expected<Session, Failure> Session::join(const ChosenMachine& machine, Purpose purpose) {
+    hear_dds([](const std::string&) {});  // for silent(): what is on the terminal is the verb's
+    const bool looks = purpose == Purpose::Look;
+    auto admission = admit(machine.config, looks ? viewer_member() : client_member());
+    if (!admission) { return std::unexpected(failed(admission.error())); }
+    auto bus = looks ? open_as<ViewerBus>(machine.config, admission->membership)
+                     : open_as<ClientBus>(machine.config, admission->membership);
+    if (!bus) { return std::unexpected(unreachable(bus.error())); }
+    return Session(machine, std::move(*bus));
+}
+
+std::expected<Session, Failure> Session::open(const ChosenMachine& machine, Purpose purpose) {
+    auto session = join(machine, purpose);
+    if (!session) { return session; }
+    if (auto reached = session->reach(); !reached) { return std::unexpected(reached.error()); }
+    return session;
+}
+
+/// A client waits for those who listen to it, too.
+bool Session::is_reached() {
+    if (!state_) { return false; }
+    const ClientBus* bus = std::get_if<ClientBus>(&bus_);
+    return bus == nullptr || (bus->commands.matched() > 0 && bus->chunks.matched() > 0 && bus->replies.matched() > 0);
+}
+
+std::expected<void, Failure> Session::reach(nanoseconds patience) {
+    const nanoseconds deadline = monotonic_now() + patience;
+    while (!is_reached()) {
+        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
+        listen(50ms);
+    }
+    return {};
+}
+
+std::expected<void, Failure> Session::reach_axes() {
+    const nanoseconds deadline = monotonic_now() + kReachPatience;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        while (!axis_present(i)) {
+            if (monotonic_now() > deadline) {
+                return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
+                                                   "' is not heard; start its lockstep-axis, or see its log"));
+            }
+            listen(50ms);
+        }
+    }
+    return {};
+}
+
+void Session::await_axes() {
+    const nanoseconds begin = monotonic_now();
+    const auto may_come = [&](std::size_t i) {
+        const bool is_heard = state_ && has_axis(state_->state.axes_present, i);
+        return !axis_present(i) && monotonic_now() - begin < (is_heard ? kHeardPatience : kUnheardPatience);
+    };
+    while (std::ranges::any_of(std::views::iota(std::size_t{0}, axes_.size()), may_come)) { listen(50ms); }
+}
+
+void Session::await_healths(nanoseconds patience) {
+    const nanoseconds deadline = monotonic_now() + patience;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        while (axes_[i] && !healths_[i] && monotonic_now() < deadline) { listen(20ms); }
+    }
+}
+
+void Session::listen(nanoseconds at_most) {
+    (void)heard().arrivals->wait_for(at_most);
+    take();
+}
+
+void Session::take() {
+    const nanoseconds now = monotonic_now();
+    heard().machine.take([&](MachineState&& state) {
+        if (state.phase == MachinePhase::Standby) {
+            standby_ = {state, now};
+            return;
+        }
+        // Where two speak, the lower term gives way; one that has fallen silent was replaced.
+        const bool is_lower = state_ && state.term < state_->state.term;
+        if (!is_lower || now - state_->time > 1s) { state_ = {state, now}; }
+    });
+    heard().states.take([&](AxisState&& state) {
+        if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
+    });
+    heard().healths.take([&](AxisHealth&& health) {
+        if (health.axis < healths_.size()) { healths_[health.axis] = health; }
+    });
+    if (!std::holds_alternative<ClientBus>(bus_)) { return; }
+    asking().replies.take([&](Reply&& reply) {
+        if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }
+    });
+}
+
+nanoseconds Session::longest_silence() const {
+    const ProtocolTiming& timing = config().timing;
+    return std::max<nanoseconds>(1s, std::chrono::microseconds{rules::silence_slots(timing) * timing.slot_us});
+}
+
+bool Session::axis_present(std::size_t i) const {
+    return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
+}
+
+/// Not the owner himself, as he was before he owned.
+bool Session::has_standby() const {
+    const bool is_owner = standby_ && state_ && standby_->state.term.coordinator == state_->state.term.coordinator;
+    return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence();
+}
+
+bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
+
+std::vector<PresentProcess> Session::present() const {
+    return std::visit([](const ViewerBus& bus) { return present_processes(bus.participant); }, bus_);
+}
+
+std::string Session::whereabouts() const {
+    return "machine '" + config().name + "' answers on interface " + config().network.interface + ", domain " +
+           std::to_string(config().network.domain);
+}
+
+std::string Session::axes_heard() const {
+    std::string names;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (axis_present(i)) { names += (names.empty() ? "" : ", ") + config().axes[i].name; }
+    }
+    return names;
+}
+
+std::string Session::axes_there() const {
+    std::string names;
+    for (const PresentProcess& process : present()) {
+        if (!process.axis || *process.axis >= axes_.size()) { continue; }
+        names += (names.empty() ? "" : ", ") + config().axes[*process.axis].name + " on " + process.host;
+    }
+    return names;
+}
+
+Failure Session::silent() const {
+    const std::string refused = dds_said_last().empty() ? "" : " (DDS says: " + dds_said_last() + ")";
+    const std::string none = "no coordinator of " + whereabouts() + refused;
+    if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
+        const std::string waiting = axes_there();
+        return unreachable(none + "; it belongs on " + host + ", there: lockstep up" +
+                           (waiting.empty() ? "" : "; axes that wait for it: " + waiting));
+    }
+    const std::string start = "lockstep up --machine " + machine_.file.string();
+    const std::string heard = axes_heard();
+    if (heard.empty()) { return unreachable(none + ": is it up? " + start); }
+    return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " +
+                       start);
+}
+
+std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {
+    command.client = client_;
+    command.sequence = ++sequence_;
+    nanoseconds deadline = monotonic_now() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
+    nanoseconds repeat_at{};
+    while (!replies_.contains(command.sequence)) {
+        const nanoseconds now = monotonic_now();
+        if (now > deadline) { return std::unexpected(silent()); }
+        const bool is_stopped = stop != nullptr && stop->requested();
+        if (is_stopped && repeat_at != nanoseconds::max()) { deadline = std::min(deadline, now + kAnswerPatience); }
+        if (is_stopped) { repeat_at = nanoseconds::max(); }  // what was asked may have been begun
+        if (now >= repeat_at) {
+            (void)asking().commands.write(command);
+            repeat_at = now + kRepeatCommandAfter;
+        }
+        listen(50ms);
+    }
+    return replies_.extract(command.sequence).mapped();
+}
+
+std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
+    const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
+    const nanoseconds deadline = monotonic_now() + patience;
+    while (!replies_.contains(command.sequence) && monotonic_now() < deadline) {
+        (void)asking().commands.write(command);
+        listen(20ms);
+    }
+    if (!replies_.contains(command.sequence)) { return std::nullopt; }
+    return replies_.extract(command.sequence).mapped();
+}
+
+std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop) {
+    const std::uint64_t id = new_identity() | 1;  // never 0, which says: none
+    ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program));
+    sequence_ += chunks.count();
+    nanoseconds deadline = monotonic_now() + kPlanPatience;
+    while (!chunks.done()) {
+        if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
+        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
+        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)asking().chunks.write(chunk); }
+        listen(50ms);
+        for (const auto& [sequence, reply] : std::exchange(replies_, {})) {
+            if (reply.status == ReplyStatus::Refused) { return std::unexpected(failed(reply.text)); }
+            chunks.take_answer(sequence);
+            deadline = monotonic_now() + kPlanPatience;
+        }
+    }
+    return id;
+}
+
+}  // namespace lockstep

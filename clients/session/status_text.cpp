@@ -1,0 +1,153 @@
+#include "clients/session/status_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "clients/session/record_loss.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/text/words.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kBarWidth = 30;
+
+int percent(const proto::StatusReport& status) { return static_cast<int>(std::floor(status.progress() * 100)); }
+
+/// What is known of the job in motion, each part after a separator.
+std::string job_parts(const proto::StatusReport& status, const std::string& separator) {
+    std::string text;
+    if (status.has_line()) { text += separator + "line " + std::to_string(status.line()); }
+    if (status.has_remaining_s()) { text += separator + duration_text(status.remaining_s()) + " left"; }
+    return text;
+}
+
+std::string headline(const proto::StatusReport& status) {
+    std::string text = status.machine() + ": " + (status.phase().empty() ? "unknown" : status.phase());
+    if (status.has_job()) { text += ", job " + std::to_string(status.job()); }
+    if (status.has_progress()) { text += ", " + std::to_string(percent(status)) + " %"; }
+    return wrapped(text + job_parts(status, ", ") + " (" + age_text(status) + ")", 80, "  ") + "\n";
+}
+
+std::string row(const std::string& name, const std::string& position, const std::string& velocity,
+                const std::string& state, const std::string& homed) {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "%-16s %14s %14s   %-11s %s", name.c_str(), position.c_str(),
+                  velocity.c_str(), state.c_str(), homed.c_str());
+    return text.data() + std::string("\n");
+}
+
+std::string axis_row(const proto::AxisStatus& axis) {
+    if (!axis.has_position_mm()) { return row(axis_label(axis.name()), "-", "-", "not heard", "-"); }
+    return row(axis_label(axis.name()), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
+               axis.present() ? axis.state() : "not heard", axis.homed() ? "yes" : "no");
+}
+
+/// Where axes have clocks of their own: how far each may be off.
+std::string clock_line(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (!axis.has_clock_error_us()) { continue; }
+        text += (text.empty() ? "clock error at most: " : ", ") + axis.name() + " " + fixed(axis.clock_error_us(), 0) +
+                " us";
+    }
+    return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
+}
+
+/// Why axes are not homed, where there is a reason that is not seen at once.
+std::string unproved_lines(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (!axis.has_unproved() || axis.unproved().number() == static_cast<unsigned>(FaultCode::PositionNotKept)) {
+            continue;
+        }
+        const proto::FaultReport& why = axis.unproved();
+        text +=
+            wrapped(axis.name() + " is not homed, " + why.name() + ": " + why.cause() + "; " + why.remedy(), 80, "  ") +
+            "\n";
+    }
+    return text;
+}
+
+/// A directory is not broken over lines: it is to be copied.
+std::string incidents_text(const proto::Incidents& incidents) {
+    return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
+           "\nread them: lockstep analyze --incident " + incidents.directory() + "\n";
+}
+
+}  // namespace
+
+std::string age_text(const proto::StatusReport& status) {
+    if (!status.has_age_ms()) { return "no coordinator heard"; }
+    const double age_ms = status.age_ms();
+    const std::string age = age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000);
+    return "heard " + age + " ago" + (status.standby() ? ", a standby is ready" : "");
+}
+
+std::string status_text(const proto::StatusReport& status) {
+    std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
+    for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
+    if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
+    text += clock_line(status) + unproved_lines(status);
+    if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
+    for (const proto::AxisStatus& axis : status.axes()) {
+        const bool is_said = status.has_fault() && status.fault().number() == axis.fault().number() &&
+                             status.fault().axis() == axis.name();
+        if (axis.has_fault() && !is_said) { text += fault_text(axis.fault()) + "\n"; }
+    }
+    if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
+    if (status.has_incidents()) { text += incidents_text(status.incidents()); }
+    return text;
+}
+
+std::string overrides_text(const proto::StatusReport& status) {
+    const bool as_programmed = status.feed_override_percent() == 100 && status.rapid_override_percent() == 100;
+    if (!status.has_feed_override_percent() || as_programmed) { return ""; }
+    return "feed " + std::to_string(status.feed_override_percent()) + " %, rapid " +
+           std::to_string(status.rapid_override_percent()) + " %";
+}
+
+std::string progress_bar(const proto::StatusReport& status) {
+    const auto filled = static_cast<std::size_t>(std::clamp(status.progress(), 0.0, 1.0) * kBarWidth);
+    std::array<char, 16> part{};
+    std::snprintf(part.data(), part.size(), "%3d %%", percent(status));
+    const std::string bar = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] ";
+    const std::string phase = status.phase() == "Running" ? "" : "  " + status.phase();
+    return bar + part.data() + job_parts(status, "  ") + phase;
+}
+
+std::string progress_text(const proto::StatusReport& status) {
+    const std::string done = status.has_progress() ? ": " + std::to_string(percent(status)) + " %" : "";
+    return status.phase() + done + job_parts(status, ", ");
+}
+
+std::string homing_text(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        const std::string state = axis.homed()     ? "homed at " + fixed(axis.position_mm(), 3)
+                                  : axis.present() ? axis.state()
+                                                   : "not heard";
+        text += (text.empty() ? "" : "   ") + axis.name() + " " + state;
+    }
+    return text;
+}
+
+std::string unhomed_text(const proto::StatusReport& status) {
+    std::string names;
+    for (const proto::AxisStatus& axis : status.axes()) {
+        if (!axis.homed()) { names += (names.empty() ? "" : ", ") + axis.name(); }
+    }
+    return names.empty() ? names : "not homed: " + names + "; home: lockstep home";
+}
+
+std::string places_text(const proto::RunReport& report) {
+    std::string text;
+    for (const proto::FinalPosition& place : report.final_positions()) {
+        text += (text.empty() ? "" : "  ") + axis_label(place.name()) + " " + fixed(place.position_mm(), 4);
+    }
+    return text;
+}
+
+}  // namespace lockstep

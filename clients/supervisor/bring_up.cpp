@@ -1,0 +1,227 @@
+#include "clients/supervisor/bring_up.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "clients/doctor/probes.hpp"
+#include "clients/session/parts.hpp"
+#include "clients/supervisor/own_parts.hpp"
+#include "clients/supervisor/program_folder.hpp"
+#include "clients/supervisor/supervisor.hpp"
+#include "services/axis/position_file.hpp"
+#include "services/documents/machine_file.hpp"
+#include "services/network/host_name.hpp"
+#include "services/network/multicast.hpp"
+#include "services/record/own_log.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/log.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kUpPatience = 20s;
+constexpr nanoseconds kUpPatienceEach = 400ms;  // for each axis besides: they start one by one, and greet each other
+constexpr std::size_t kTailLines = 6;
+
+void route_multicast(const NetworkConfig& network, Voice& voice) {
+    if (network.interface == "lo") {
+        if (const auto route = ensure_loopback_multicast(); !route) { voice.warn(route.error()); }
+    }
+    if (const auto may = check_multicast(network); !may) { voice.warn("nothing is recorded: " + may.error()); }
+}
+
+void warn_of_directory(const std::string& lost, const std::filesystem::path& path, const std::string& key,
+                       Voice& voice) {
+    const std::string why = doctor::why_not_writable(path);
+    if (why.empty()) { return; }
+    voice.warn(lost + ": " + path.string() + " cannot be written (" + why + "); make it this user's: install -d -o " +
+               "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another one");
+}
+
+/// The services find the same, but say it in their logs only.
+void warn_of_directories(const MachineConfig& machine, const Placement& placed, Voice& voice) {
+    if (machine.record.own_logs) {
+        warn_of_directory("no log of its own is kept by any process here", own_log_directory(machine),
+                          "record { directory }", voice);
+    }
+    if (placed.axes.empty()) { return; }
+    warn_of_directory("no position is kept", position_file(machine, placed.axes.front()).parent_path(),
+                      "position_directory", voice);
+}
+
+std::expected<void, Failure> check_programs(const std::vector<ServiceLine>& lines) {
+    for (const ServiceLine& line : lines) {
+        if (access(line.words[0].c_str(), X_OK) == 0) { continue; }
+        return std::unexpected(failed("cannot execute " + line.words[0] + "; install it beside the lockstep command"));
+    }
+    return {};
+}
+
+std::string names_of(const std::vector<ProcessRecord>& processes) {
+    std::string names;
+    for (const ProcessRecord& process : processes) { names += (names.empty() ? "" : ", ") + process.name; }
+    return names;
+}
+
+std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDirectory& state) {
+    const std::string name = "machine '" + machine.config.name + "'";
+    if (const auto running = state.running(); !running.empty()) {
+        const auto trouble = state.record_trouble();
+        return std::unexpected(failed(
+            name + " is up already (" + names_of(running) + ")" +
+            (trouble ? ", but " + *trouble + "; end it: lockstep down" : "; see: lockstep status, lockstep down")));
+    }
+    if (auto made = state.make(); !made) { return std::unexpected(failed(made.error())); }
+    if (!state.lock()) {
+        return std::unexpected(failed(name + " is being started by another lockstep up; see: lockstep status"));
+    }
+    state.forget_processes();
+    state.remove_logs();
+    if (auto written = state.write_machine_file(machine_text(machine.config)); !written) {
+        return std::unexpected(failed(written.error()));
+    }
+    return {};
+}
+
+/// The process that never returns to its caller's terminal.
+[[noreturn]] void be_supervisor(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+    setsid();
+    const int log = open(state.log_file(kSupervisor).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    supervise(state, lines);
+    _exit(0);
+}
+
+std::string with_log(const std::string& what, const std::string& process, const StateDirectory& state) {
+    const std::string tail = tail_of(state.log_file(process), kTailLines);
+    const std::string log = state.log_file(process).string();
+    return what + (tail.empty() ? "; its log " + log + " is empty" : "; the end of its log " + log + ":\n" + tail);
+}
+
+/// A process that is given up, or a part that others run; nothing while all may still be well.
+std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts& parts, const StateDirectory& state,
+                                   const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
+    for (const ProcessRecord& process : state.recorded()) {
+        if (process.pid == 0) {
+            return with_log(process.name + " ended and is not started again", process.name, state);
+        }
+    }
+    if (!is_running(supervisor)) { return with_log("the supervisor ended", kSupervisor, state); }
+    return foreign_part(machine, parts.placed, supervisor, present);
+}
+
+/// What is still missing when patience ends.
+Failure missing(const Session& session, const OwnParts& parts, const StateDirectory& state) {
+    const auto present = session.present();
+    const auto recorded = state.recorded();
+    for (const ServiceLine& line : parts.lines) {
+        if (are_present({line}, recorded, present)) { continue; }
+        return failed(with_log(line.name + " does not come to the network", line.name, state));
+    }
+    if (!session.state()) { return failed(with_log("the coordinator is not heard", "coordinator", state)); }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const std::string& name = session.config().axes[i].name;
+        if (!has_axis(session.state()->state.axes_present, i)) {
+            return failed(with_log("axis " + name + " is not heard", "axis-" + name, state));
+        }
+    }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const std::string& name = session.config().axes[i].name;
+        const auto& axis = session.axis(i);
+        if (axis && axis->state.unproved == static_cast<std::uint16_t>(FaultCode::DeviceMissing)) {
+            return failed(with_log("axis " + name + " waits for its device", "axis-" + name, state));
+        }
+    }
+    return failed(with_log("the machine does not become idle", "coordinator", state));
+}
+
+/// Of a machine on several hosts; empty: every part has one.
+std::string part_without_host(const MachineConfig& machine) {
+    if (hosts_of(machine).size() < 2) { return ""; }
+    if (machine.coordinator_host.empty()) { return part_name(machine, {}); }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (machine.axes[i].host.empty()) { return part_name(machine, i); }
+    }
+    return "";
+}
+
+}  // namespace
+
+std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
+                                         const StateDirectory& state, Voice& voice) {
+    const Placement placed = placed_on(machine.config, host_name());
+    if (placed.empty()) {
+        return std::unexpected(bad_input(machine.file.string() + ": places nothing on this host, " + host_name() +
+                                         "; start the machine's parts on their hosts, or change `host`"));
+    }
+    if (const std::string part = part_without_host(machine.config); !part.empty()) {
+        return std::unexpected(bad_input(machine.file.string() + ": " + part +
+                                         " has no host, but other parts have; up " +
+                                         "would start it on each of them: name its host"));
+    }
+    const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
+    if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
+    if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
+    route_multicast(machine.config.network, voice);
+    warn_of_directories(machine.config, placed, voice);
+    return OwnParts{placed, lines};
+}
+
+void supervise(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
+    (void)open_log({kSupervisor, ""});  // to standard error, which cannot fail
+    Supervisor(state, lines).run();
+}
+
+std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state,
+                                                              const std::vector<ServiceLine>& lines) {
+    const pid_t pid = fork();
+    if (pid < 0) { return std::unexpected(failed("cannot start the supervisor: no more processes")); }
+    if (pid == 0) { be_supervisor(state, lines); }
+    return ProcessRecord{kSupervisor, pid, start_of(pid).value_or(0)};
+}
+
+bool is_whole(const Session& session) {
+    if (!session.state()) { return false; }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        if (!session.axis_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
+    }
+    const MachinePhase phase = session.state()->state.phase;
+    return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
+}
+
+bool is_alone(const MachineConfig& machine, const Placement& placed) {
+    return placed.coordinator && placed.axes.size() == machine.axes.size();
+}
+
+std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const OwnParts& parts,
+                                              const StateDirectory& state, const ProcessRecord& supervisor) {
+    auto session = Session::join(machine, Purpose::Look);
+    if (!session) { return session; }
+    const bool alone = is_alone(machine.config, parts.placed);
+    const nanoseconds deadline = monotonic_now() + kUpPatience + kUpPatienceEach * machine.config.axes.size();
+    for (;;) {
+        const auto present = session->present();
+        if (const auto what = trouble(machine.config, parts, state, supervisor, present)) {
+            return std::unexpected(failed(*what));
+        }
+        if (are_present(parts.lines, state.recorded(), present) && (!alone || is_whole(*session))) { return session; }
+        if (monotonic_now() > deadline) { return std::unexpected(missing(*session, parts, state)); }
+        session->listen(100ms);
+    }
+}
+
+bool await_others(Session& session, nanoseconds patience) {
+    const nanoseconds deadline = monotonic_now() + patience;
+    while (!is_whole(session) && monotonic_now() < deadline) { session.listen(100ms); }
+    return is_whole(session);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,68 @@
+#include "clients/supervisor/found_processes.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "clients/supervisor/state_directory.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What follows an option; empty: it is not given.
+std::string value_of(const std::vector<std::string>& words, const std::string& option) {
+    const auto found = std::ranges::find(words, option);
+    return found == words.end() || found + 1 == words.end() ? "" : *(found + 1);
+}
+
+std::vector<pid_t> all_processes() {
+    std::vector<pid_t> pids;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/proc", error)) {
+        const std::string name = entry.path().filename().string();
+        pid_t pid = 0;
+        const auto [end, wrong] = std::from_chars(name.data(), name.data() + name.size(), pid);
+        if (wrong == std::errc{} && end == name.data() + name.size()) { pids.push_back(pid); }
+    }
+    return pids;
+}
+
+bool has_open(pid_t pid, const fs::path& file) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd", error)) {
+        std::error_code gone;
+        if (fs::read_symlink(entry.path(), gone) == file) { return true; }
+    }
+    return false;
+}
+
+}  // namespace
+
+std::string service_name(const std::vector<std::string>& words, const fs::path& machine_file) {
+    if (value_of(words, "--machine") != machine_file) { return ""; }
+    const auto is_run = [&](const std::string& program) {
+        return std::ranges::any_of(words,
+                                   [&](const std::string& word) { return fs::path(word).filename() == program; });
+    };
+    if (is_run("lockstep-axis")) { return "axis-" + value_of(words, "--axis"); }
+    if (is_run("lockstep-fpga")) { return "fpga-" + value_of(words, "--axis"); }
+    if (!is_run("lockstep-coordinator")) { return ""; }
+    return std::ranges::find(words, "--second") == words.end() ? "coordinator" : "coordinator-2";
+}
+
+std::vector<ProcessRecord> found_processes(const fs::path& machine_file, const fs::path& lock) {
+    std::vector<ProcessRecord> found;
+    for (const pid_t pid : all_processes()) {
+        const auto start = start_of(pid);
+        if (!start || pid == getpid()) { continue; }
+        std::string name = service_name(command_line_of(pid), machine_file);
+        if (name.empty() && has_open(pid, lock)) { name = kSupervisor; }
+        if (!name.empty()) { found.push_back({name, pid, *start}); }
+    }
+    return found;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,19 @@
+// A machine's processes on this host by the host's process table: for when the record of them is damaged or gone.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "clients/supervisor/process_record.hpp"
+
+namespace lockstep {
+
+/// The services that were started with this machine file, and the supervisors that keep this lock open; not this
+/// process.
+std::vector<ProcessRecord> found_processes(const std::filesystem::path& machine_file,
+                                           const std::filesystem::path& lock);
+
+/// What a service is called in the record, by its command line; empty: it is no service of this machine file. Pure.
+std::string service_name(const std::vector<std::string>& words, const std::filesystem::path& machine_file);
+
+}  // namespace lockstep

@@ -1,0 +1,40 @@
+#include "clients/supervisor/machine_choice.hpp"
+
+#include <cstdlib>
+
+#include "clients/supervisor/state_directory.hpp"
+#include "services/documents/machine_file.hpp"
+
+namespace lockstep {
+
+std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
+                                                          const std::vector<std::filesystem::path>& up,
+                                                          const std::filesystem::path& installed) {
+    if (!option.empty()) { return option; }
+    if (environment != nullptr && *environment != '\0') { return environment; }
+    if (up.size() == 1) { return up.front(); }
+    if (up.empty() && !installed.empty()) { return installed; }
+    constexpr const char* kHow = "say which: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
+    if (up.empty()) {
+        return std::unexpected(bad_input("no machine is named, none is up on this host, and there is no " +
+                                         std::string(kInstalledMachine) + "; " + kHow));
+    }
+    std::string names;
+    for (const auto& file : up) { names += (names.empty() ? "" : ", ") + file.parent_path().filename().string(); }
+    return std::unexpected(bad_input("several machines are up on this host (" + names + "); " + kHow));
+}
+
+std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) {
+    std::vector<std::filesystem::path> up;
+    for (const std::string& name : machines_up()) { up.push_back(StateDirectory(name).machine_file()); }
+    std::error_code error;
+    const bool is_installed = std::filesystem::exists(kInstalledMachine, error);
+    auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up, is_installed ? kInstalledMachine : "");
+    if (!file) { return std::unexpected(file.error()); }
+    auto config = load_machine_file(*file);
+    if (!config) { return std::unexpected(bad_file(file->string(), config.error())); }
+    const std::uint64_t hash = config_hash(*config);
+    return ChosenMachine{*file, *std::move(config), hash};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,111 @@
+#include "clients/supervisor/other_hosts.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+#include "services/documents/placement.hpp"
+#include "services/network/host_name.hpp"
+
+namespace lockstep {
+namespace {
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
+}
+
+/// What was named by option or environment, which other hosts do not know of.
+std::string named_file(const LiveOptions& options) {
+    const char* named = std::getenv("LOCKSTEP_MACHINE");
+    const std::string file = !options.machine_file.empty() ? options.machine_file : named == nullptr ? "" : named;
+    return file.empty() ? "" : std::filesystem::absolute(file).string();
+}
+
+[[noreturn]] void become(const std::vector<std::string>& words, int output) {
+    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    std::vector<char*> arguments;
+    for (const std::string& word : words) { arguments.push_back(const_cast<char*>(word.c_str())); }
+    arguments.push_back(nullptr);
+    execvp(arguments[0], arguments.data());
+    dprintf(STDERR_FILENO, "cannot execute %s\n", arguments[0]);
+    _exit(127);
+}
+
+std::string all_of(int pipe) {
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (ssize_t n = 0; (n = read(pipe, buffer.data(), buffer.size())) != 0;) {
+        if (n < 0 && errno != EINTR) { break; }
+        if (n > 0) { text.append(buffer.data(), static_cast<std::size_t>(n)); }
+    }
+    return text;
+}
+
+}  // namespace
+
+CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
+    CLI::Option* asked = verb.add_flag(
+        "--all", all.asked, "on every host that the machine's file names: on the others over ssh, all at once");
+    verb.add_option("--ssh", all.ssh, "with --all: the command that runs another on a host, whose name follows it")
+        ->needs(asked)
+        ->capture_default_str();
+    return asked;
+}
+
+OtherHosts::OtherHosts(const AllHosts& all, const MachineConfig& machine, const LiveOptions& options,
+                       const std::vector<std::string>& verb) {
+    for (const std::string& host : all.asked ? hosts_of(machine) : std::vector<std::string>{}) {
+        if (same_host(host, host_name())) { continue; }
+        std::vector<std::string> words = words_of(all.ssh);
+        words.insert(words.end(), {host, "lockstep"});
+        words.insert(words.end(), verb.begin(), verb.end());
+        if (const std::string file = named_file(options); !file.empty()) {
+            words.insert(words.end(), {"--machine", file});
+        }
+        std::array<int, 2> ends{};
+        if (pipe2(ends.data(), O_CLOEXEC) != 0) { continue; }
+        const pid_t pid = fork();
+        if (pid == 0) { become(words, ends[1]); }
+        close(ends[1]);
+        remotes_.push_back({host, pid, ends[0]});
+    }
+}
+
+OtherHosts::~OtherHosts() {
+    for (const Remote& remote : remotes_) {
+        close(remote.output);
+        if (remote.pid > 0) { waitpid(remote.pid, nullptr, 0); }
+    }
+}
+
+bool OtherHosts::finish(Voice& voice) {
+    bool good = true;
+    for (Remote& remote : remotes_) {
+        std::istringstream lines(all_of(remote.output));
+        for (std::string line; std::getline(lines, line);) { voice.say(remote.host + ": " + line); }
+        int status = 0;
+        const bool ended = remote.pid > 0 && waitpid(remote.pid, &status, 0) == remote.pid;
+        remote.pid = 0;
+        if (ended && WIFEXITED(status) && WEXITSTATUS(status) == 0) { continue; }
+        good = false;
+        voice.warn(remote.host + ": it failed there, with code " +
+                   (ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : std::string("unknown")) +
+                   "; does `ssh " + remote.host + " lockstep status` work?");
+    }
+    return good;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,48 @@
+// The same verb on a machine's other hosts, over ssh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/text/voice.hpp"
+#include "core/machine.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lockstep {
+
+struct AllHosts {
+    bool asked = false;
+    std::string ssh = "ssh -o BatchMode=yes";  // words, which the host's name follows
+};
+
+/// --all and --ssh.
+CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);
+
+/// While it lives, `lockstep VERB...` runs on every host that the machine's file names, but not on this one.
+class OtherHosts {
+public:
+    /// A machine file that was named is named there, too: the same path on all.
+    OtherHosts(const AllHosts& all, const MachineConfig& machine, const LiveOptions& options,
+               const std::vector<std::string>& verb);
+    ~OtherHosts();
+    OtherHosts(const OtherHosts&) = delete;
+    OtherHosts& operator=(const OtherHosts&) = delete;
+
+    /// Waits for all, and says what each said behind its host's name. False: one failed.
+    bool finish(Voice& voice);
+
+private:
+    struct Remote {
+        std::string host;
+        int pid = 0;
+        int output = -1;
+    };
+    std::vector<Remote> remotes_;
+};
+
+}  // namespace lockstep

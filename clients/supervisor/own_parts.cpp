@@ -1,0 +1,64 @@
+#include "clients/supervisor/own_parts.hpp"
+
+#include <algorithm>
+
+#include "clients/session/parts.hpp"
+#include "services/network/host_name.hpp"
+
+namespace lockstep {
+namespace {
+
+bool is_device(const std::string& line) { return line.starts_with("fpga-"); }
+
+bool is_present(const ProcessRecord& record, const std::vector<PresentProcess>& present) {
+    return std::ranges::any_of(present, [here = host_name(), &record](const PresentProcess& process) {
+        return process.pid == record.pid && process.host == here;
+    });
+}
+
+bool is_placed(const Placement& placed, const PresentProcess& process) {
+    return process.axis ? std::ranges::find(placed.axes, *process.axis) != placed.axes.end() : placed.coordinator;
+}
+
+/// One that has been killed stays on the network until its lease ends; its number may be another program's by then.
+bool is_service(pid_t pid) {
+    return std::ranges::any_of(command_line_of(pid), [](const std::string& word) {
+        return word.ends_with("lockstep-axis") || word.ends_with("lockstep-coordinator");
+    });
+}
+
+bool is_older(const PresentProcess& process, const ProcessRecord& supervisor) {
+    const auto pid = static_cast<pid_t>(process.pid);
+    const auto start = start_of(pid);
+    return start && *start < supervisor.start && is_service(pid);
+}
+
+}  // namespace
+
+bool are_present(const std::vector<ServiceLine>& lines, const std::vector<ProcessRecord>& recorded,
+                 const std::vector<PresentProcess>& present) {
+    return std::ranges::all_of(lines, [&](const ServiceLine& line) {
+        const auto record = std::ranges::find(recorded, line.name, &ProcessRecord::name);
+        return is_device(line.name) || (record != recorded.end() && is_present(*record, present));
+    });
+}
+
+std::optional<std::string> foreign_part(const MachineConfig& machine, const Placement& placed,
+                                        const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
+    const std::string here = host_name();
+    for (const PresentProcess& process : present) {
+        if (!is_placed(placed, process) || process.host.empty()) { continue; }
+        const std::string part = part_name(machine, process.axis) + " of machine '" + machine.name + "'";
+        const std::string number = "process " + std::to_string(process.pid);
+        if (process.host != here) {
+            return part + " runs on " + process.host + " (" + number + "), but the machine's file places it here, on " +
+                   here + "; end it there: lockstep down; and give all hosts the same file";
+        }
+        if (is_older(process, supervisor)) {
+            return part + " runs already (" + number + "), started by other means; end it first";
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace lockstep

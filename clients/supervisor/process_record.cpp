@@ -1,0 +1,115 @@
+#include "clients/supervisor/process_record.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+extern "C" {  // which this header of glibc 2.36 leaves out
+#include <sys/pidfd.h>
+}
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Stands for one process, whatever becomes of its number.
+class ProcessHandle {
+public:
+    explicit ProcessHandle(const ProcessRecord& record) {
+        if (record.pid <= 0) { return; }
+        file_ = pidfd_open(record.pid, 0);
+        if (file_ >= 0 && !is_running(record)) { close(); }  // the number was given anew before it was opened
+    }
+    ~ProcessHandle() { close(); }
+    ProcessHandle(const ProcessHandle&) = delete;
+    ProcessHandle& operator=(const ProcessHandle&) = delete;
+
+    bool is_open() const { return file_ >= 0; }
+    void signal(int number) const {
+        if (is_open()) { pidfd_send_signal(file_, number, nullptr, 0); }
+    }
+    bool wait(std::chrono::milliseconds time) const {
+        pollfd ended{file_, POLLIN, 0};
+        return !is_open() || poll(&ended, 1, static_cast<int>(time.count())) > 0;
+    }
+
+private:
+    void close() {
+        if (file_ >= 0) { ::close(file_); }
+        file_ = -1;
+    }
+    int file_ = -1;
+};
+
+std::optional<ProcessRecord> record_in(const std::string& line) {
+    std::istringstream words(line);
+    ProcessRecord record;
+    if (!(words >> record.name >> record.pid >> record.start) || record.pid < 0) { return std::nullopt; }
+    return record;
+}
+
+}  // namespace
+
+std::string to_text(const std::vector<ProcessRecord>& records) {
+    std::ostringstream text;
+    for (const ProcessRecord& record : records) {
+        text << record.name << ' ' << record.pid << ' ' << record.start << '\n';
+    }
+    return text.str();
+}
+
+std::vector<ProcessRecord> records_from_text(std::string_view text) {
+    std::vector<ProcessRecord> records;
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line);) {
+        if (auto record = record_in(line)) { records.push_back(*std::move(record)); }
+    }
+    return records;
+}
+
+bool is_damaged(std::string_view text) {
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    return lines == 0 || !text.ends_with('\n') || records_from_text(text).size() != lines;
+}
+
+std::optional<std::uint64_t> start_of(pid_t pid) {
+    const std::string id = std::to_string(pid);
+    std::ifstream stat("/proc/" + id + "/task/" + id + "/stat");  // /proc/ID/stat an emulator makes up for itself
+    std::string text;
+    if (!std::getline(stat, text, '\0')) { return std::nullopt; }
+    // Field 2 is the name in parentheses, which may hold anything; 3 is the state, 22 the start.
+    std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
+    std::string state;
+    std::string skipped;
+    std::uint64_t start = 0;
+    fields >> state;
+    for (int field = 4; field < 22; ++field) { fields >> skipped; }
+    if (!(fields >> start) || state == "Z" || state == "X") { return std::nullopt; }
+    return start;
+}
+
+bool is_running(const ProcessRecord& record) { return record.pid > 0 && start_of(record.pid) == record.start; }
+
+std::vector<std::string> command_line_of(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
+    std::vector<std::string> words;
+    for (std::string word; std::getline(file, word, '\0');) { words.push_back(word); }
+    return words;
+}
+
+void signal_process(const ProcessRecord& record, int signal) { ProcessHandle(record).signal(signal); }
+
+bool wait_until_gone(const std::vector<ProcessRecord>& records, std::chrono::milliseconds time) {
+    const auto deadline = monotonic_now() + time;
+    for (const ProcessRecord& record : records) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - monotonic_now());
+        if (!ProcessHandle(record).wait(std::max(left, std::chrono::milliseconds{0}))) { return false; }
+    }
+    return true;
+}
+
+}  // namespace lockstep

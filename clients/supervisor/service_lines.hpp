@@ -1,0 +1,36 @@
+// The processes a machine on one host consists of, and the command line of each. Pure.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "clients/supervisor/state_directory.hpp"
+#include "core/machine.hpp"
+#include "services/documents/placement.hpp"
+
+namespace lockstep {
+
+enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's process; Shared: in a process of its own
+
+/// What of it there is a choice about.
+struct Layout {
+    FpgaKind fpga = FpgaKind::AsConfigured;
+    bool standby = false;    // a second coordinator stands by
+    bool continues = false;  // and goes on with a program in motion when it takes over
+};
+
+struct ServiceLine {
+    std::string name;                // as in the record of processes
+    std::vector<std::string> words;  // the program's path and its arguments
+};
+
+/// The device of an axis whose FPGA is a process of its own, as open_window takes it.
+std::string shared_device(const MachineConfig& machine, const AxisConfig& axis);
+
+/// Of the machine's parts those that are `placed` on this host. Devices first: an axis attaches to its own. `programs`:
+/// the directory of the services' executables.
+std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
+                                       const std::filesystem::path& programs, const StateDirectory& state);
+
+}  // namespace lockstep

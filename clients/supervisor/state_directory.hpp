@@ -1,0 +1,56 @@
+// Where a machine that is up on this host keeps what its processes share: the copy of the configuration they run with,
+// the record of the processes, a log for each.
+// The directory is ROOT/MACHINE, with the root of services/files/directories.hpp.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/supervisor/process_record.hpp"
+
+namespace lockstep {
+
+inline constexpr const char* kSupervisor = "supervisor";
+
+class StateDirectory {
+public:
+    explicit StateDirectory(const std::string& machine);
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path machine_file() const { return path_ / "machine.textproto"; }
+    std::filesystem::path log_file(const std::string& process) const { return path_ / (process + ".log"); }
+
+    /// Makes the directory. Error: why it cannot, and the remedy.
+    std::expected<void, std::string> make() const;
+    /// Claims the directory for this process and those it forks from now on, until the last of them ends. False: others
+    /// have it.
+    bool lock() const;
+    void remove_logs() const;
+    /// Error: the file and why.
+    std::expected<void, std::string> write_machine_file(const std::string& text) const;
+
+    /// Readers see the old records or the new, never a part.
+    void record(const std::vector<ProcessRecord>& processes) const;
+    std::vector<ProcessRecord> recorded() const;
+    /// Those of them that run now. Where the record cannot be read, those that the host's process table shows.
+    std::vector<ProcessRecord> running() const;
+    /// Why the record cannot be relied on; nothing: it can, or the machine was never up.
+    std::optional<std::string> record_trouble() const;
+    void forget_processes() const;
+
+private:
+    std::filesystem::path processes_file() const { return path_ / "processes"; }
+    std::filesystem::path lock_file() const { return path_ / "lock"; }
+    std::filesystem::path path_;
+};
+
+/// The names of the machines that are up on this host, as far as this root knows, in order.
+std::vector<std::string> machines_up();
+
+/// The last lines of a file, each indented; empty where there are none.
+std::string tail_of(const std::filesystem::path& file, std::size_t lines);
+
+}  // namespace lockstep

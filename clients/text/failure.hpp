@@ -1,0 +1,25 @@
+// Why the command could not do what was asked: for a person on standard error, for a script as an ErrorReport.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "clients/text/exit_code.hpp"
+#include "services/files/diagnostic.hpp"
+
+namespace lockstep {
+
+struct Failure {
+    ExitCode exit = kExitFailed;
+    std::string file;    // that the errors are about; empty: none
+    Diagnostics errors;  // each says what to do next
+};
+
+inline Failure failed(std::string why) { return {kExitFailed, {}, {{.message = std::move(why)}}}; }
+inline Failure bad_input(std::string why) { return {kExitBadInput, {}, {{.message = std::move(why)}}}; }
+inline Failure bad_file(std::string file, Diagnostics errors) {
+    return {kExitBadInput, std::move(file), std::move(errors)};
+}
+inline Failure unreachable(std::string why) { return {kExitUnreachable, {}, {{.message = std::move(why)}}}; }
+
+}  // namespace lockstep

@@ -1,0 +1,55 @@
+#include "clients/text/words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "core/axis_unit.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string two_parts(long whole, const char* unit, long part, const char* part_unit) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%ld %s %02ld %s", whole, unit, part, part_unit);
+    return text.data();
+}
+
+}  // namespace
+
+std::string fixed(double value, int digits) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    const std::string_view zeros = "-0.";
+    const std::string_view written = text.data();
+    const bool is_minus_zero = written.starts_with('-') && written.find_first_not_of(zeros) == written.npos;
+    return std::string(is_minus_zero ? written.substr(1) : written);
+}
+
+std::string axis_label(const std::string& name) { return is_rotary(name) ? name + " (deg)" : name; }
+
+std::string duration_text(double seconds) {
+    if (seconds < 59.95) { return fixed(seconds, 1) + " s"; }
+    const long whole = std::lround(std::min(seconds, 1e9));
+    return whole < 3600 ? two_parts(whole / 60, "min", whole % 60, "s")
+                        : two_parts(whole / 3600, "h", whole / 60 % 60, "min");
+}
+
+std::string wrapped(std::string_view text, std::size_t width, const std::string& indent) {
+    std::string lines;
+    std::string line;
+    while (!text.empty()) {
+        const std::string_view word = text.substr(0, text.find(' '));
+        text.remove_prefix(std::min(text.size(), word.size() + 1));
+        if (!line.empty() && line.size() + 1 + word.size() > width) {
+            lines += line + "\n";
+            line = indent + std::string(word);
+        } else {
+            line += (line.empty() ? "" : " ") + std::string(word);
+        }
+    }
+    return lines + line;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,81 @@
+#include "core/axis/device/device_watch.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <type_traits>
+
+#include "core/protocol/rules.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string text(Tick tick) { return std::to_string(tick.value); }
+
+}  // namespace
+
+DeviceWatch::DeviceWatch(const MachineConfig& machine)
+    : slot_(machine.slot_ticks()), patience_(slot_ * rules::silence_slots(machine.timing)) {}
+
+void DeviceWatch::take(const DeviceOrder& order) {
+    if (const auto* begin = std::get_if<device::BeginRun>(&order)) {
+        run_ = begin->run;
+        loaded_ = 0;
+        ends_ = last_ ? last_->now : Tick{};
+    } else if (const auto* load = std::get_if<device::LoadFrame>(&order)) {
+        loaded_ = load->number;
+        ends_ = std::max(ends_, load->start + total_ticks(load->track.body) + total_ticks(load->track.tail));
+    }
+}
+
+std::optional<std::string> DeviceWatch::doubt_of(Tick own, const DeviceStatus& status) {
+    const Ticks passed = last_ ? std::clamp(own - looked_, Ticks{}, slot_) : Ticks{};
+    if (auto what = contradiction(status)) { return what; }
+    const bool stands = last_ && status.now == last_->now;
+    stood_ = stands ? stood_ + passed : Ticks{};
+    overdue_ = is_overdue(status) ? overdue_ + passed : Ticks{};
+    looked_ = own;
+    last_ = status;
+    if (stood_ > patience_) {
+        return "its clock stands still at tick " + text(status.now) + ": its process, or its board, has stopped";
+    }
+    if (overdue_ > patience_) {
+        return "its run " + std::to_string(run_) + " has not ended by tick " + text(status.now) +
+               ", its frames by tick " + text(ends_);
+    }
+    return std::nullopt;
+}
+
+/// Of a run that it was ordered here: whatever switches and vetoes do, it only ends sooner.
+bool DeviceWatch::is_overdue(const DeviceStatus& status) const {
+    const bool ended = status.run == run_ && status.finished;
+    return run_ != 0 && !ended && status.now > ends_;
+}
+
+/// A device counts ticks and pulses one by one, and runs what it was given.
+std::optional<std::string> DeviceWatch::contradiction(const DeviceStatus& status) const {
+    if (!last_) { return std::nullopt; }
+    if (status.power_up != last_->power_up) { return "it was powered up anew"; }
+    if (status.now < last_->now) {
+        return "its clock went back from tick " + text(last_->now) + " to " + text(status.now);
+    }
+    const Displacement moved = status.position - last_->position;
+    const Displacement most = Displacement::steps((status.now - last_->now).value) + Displacement::steps(1);
+    if (moved > most || moved < -most) {
+        return "its count went from " + std::to_string(last_->position.count()) + " to " +
+               std::to_string(status.position.count()) + " between ticks " + text(last_->now) + " and " +
+               text(status.now);
+    }
+    const std::uint64_t asked = run_ != 0 ? run_ : last_->run_asked;
+    if (status.run_asked != asked) {
+        return "it was asked for run " + std::to_string(status.run_asked) + ", which this axis did not: its last is " +
+               std::to_string(asked);
+    }
+    const bool is_known = status.run == last_->run || status.run == asked;
+    if (!is_known || (status.run == run_ && run_ != 0 && status.frame > loaded_)) {
+        return "it shows frame " + std::to_string(status.frame) + " of run " + std::to_string(status.run) +
+               ", and was given " + std::to_string(loaded_) + " of run " + std::to_string(asked);
+    }
+    return std::nullopt;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,108 @@
+#include "core/axis/device/retime.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+Int128 rounded_quotient(Int128 value, Int128 by) {
+    const Int128 half = by / 2;
+    return (value >= 0 ? value + half : value - half) / by;
+}
+
+/// Ticks of a stretch in machine time (gone since its start, whole or in part) by the device's clock.
+class Pace {
+public:
+    Pace(Ticks machine, const Retiming& when)
+        : machine_(static_cast<double>(machine.value)),
+          mean_(static_cast<double>((when.end - when.start).value) / machine_),
+          bend_(when.bend) {}
+
+    double device_at(double gone) const { return gone * mean_ * (1 - bend_ * (1 - gone / machine_)); }
+    /// Device ticks in a machine tick, and how fast that changes.
+    double rate_at(double gone) const { return mean_ * (1 - bend_ + 2 * bend_ * gone / machine_); }
+    double change() const { return mean_ * 2 * bend_ / machine_; }
+    /// By how much of a tick the device's clock goes so far later than that.
+    double late(Ticks device, double gone) const {
+        return std::clamp((static_cast<double>(device.value) - device_at(gone)) / rate_at(gone), -0.5, 0.5);
+    }
+
+private:
+    double machine_;
+    double mean_;  // device ticks in a machine tick
+    double bend_;
+};
+
+/// The speed with which a motion goes through the place where two pieces join: the slower of both, none where it turns.
+/// A tick of it more or less is a tick or less of either.
+double joint_speed(const Piece& before, const Piece& after) {
+    const double ends =
+        static_cast<double>(before.velocity_after(before.ticks)) + static_cast<double>(before.acceleration.raw) / 2;
+    const double begins = static_cast<double>(after.velocity.raw) + static_cast<double>(after.acceleration.raw) / 2;
+    if (ends * begins <= 0) { return 0; }
+    return std::abs(ends) < std::abs(begins) ? ends : begins;
+}
+
+/// The piece for so many device ticks that covers so much, but for what rounding leaves: less than `ticks`. Its
+/// acceleration is that of v / rate by the device's clock, in the middle of the piece: a / rate^2 - v rate' / rate^3.
+Piece solved(const Piece& piece, double begun, const Pace& pace, Displacement covers, Ticks ticks) {
+    const double rate = pace.rate_at(begun + static_cast<double>(piece.ticks.value) / 2);
+    const double speed = static_cast<double>(piece.velocity_after({piece.ticks.value / 2}));
+    const auto acceleration = static_cast<double>(piece.acceleration.raw);
+    Piece result{ticks, {}, {std::llround((acceleration - speed * pace.change() / rate) / (rate * rate))}};
+    result.velocity.raw = static_cast<std::int64_t>(rounded_quotient(covers.raw - result.covered().raw, ticks.value));
+    return result;
+}
+
+/// One tick that covers just so much.
+Piece tick_of(Displacement covers) { return {{1}, {static_cast<std::int64_t>(covers.raw)}, {}}; }
+
+}  // namespace
+
+Ticks Retiming::bow() const {
+    return {static_cast<std::int64_t>(std::ceil(std::abs(bend) / 4 * static_cast<double>((end - start).value)))};
+}
+
+template <std::size_t Capacity>
+bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
+    StaticVector<Piece, Capacity> result;
+    const Pace pace(total_ticks(pieces), when);
+    Ticks gone;           // of the pieces as they are
+    Displacement joined;  // where they end
+    Tick device = when.start;
+    Displacement reached;
+    bool fits = true;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        const auto begun = static_cast<double>(gone.value);
+        gone += piece.ticks;
+        joined = joined + piece.covered();
+        const auto ends = static_cast<double>(gone.value);
+        const Ticks needed{static_cast<std::int64_t>(pieces.size() - i) - 1};  // a tick for each that follows
+        const bool last = needed == Ticks{};
+        const Tick nearest = last ? when.end : when.start + Ticks{std::llround(pace.device_at(ends))};
+        const Tick end = std::max(device + Ticks{1}, std::min(nearest, when.end - needed));
+        Displacement place = joined;
+        if (!last) {
+            place.raw += static_cast<Int128>(joint_speed(piece, pieces[i + 1]) * pace.late(end - when.start, ends));
+        }
+        Piece solution = solved(piece, begun, pace, place - reached, end - device);
+        if (last && reached + solution.covered() != place && solution.ticks.value > 1) {
+            solution.ticks.value -= 1;
+            fits = fits && result.push_back(solution);
+            reached = reached + solution.covered();
+            solution = tick_of(place - reached);
+        }
+        fits = fits && result.push_back(solution);
+        reached = reached + solution.covered();
+        device = end;
+    }
+    if (fits) { pieces = result; }
+    return fits;
+}
+
+template bool retime(StaticVector<Piece, kMaxBodyPieces + 1>&, const Retiming&);
+template bool retime(StaticVector<Piece, kMaxTailPieces + 1>&, const Retiming&);
+
+}  // namespace lockstep

@@ -1,0 +1,106 @@
+// An axis's side of hold, arm, veto: which frames it holds, what it has heard, what it decides.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/axis/device/device.hpp"
+#include "core/axis/following/frame_check.hpp"
+#include "core/machine.hpp"
+#include "core/protocol/peer_evidence.hpp"
+#include "core/protocol/rules.hpp"
+
+namespace lockstep {
+
+/// A frame as this axis keeps it: its own track only, in machine coordinates.
+struct HeldFrame {
+    FrameNumber number = 0;
+    Tick start;
+    Ticks ticks;
+    bool last = false;
+    AxisTrack track;
+    Tick end() const { return start + ticks; }
+    Position body_end() const {
+        Position at = track.from;
+        for (const Piece& piece : track.body) { at = at + piece.covered(); }
+        return at;
+    }
+};
+
+/// Why a frame was not armed.
+struct FailedCheck {
+    bool too_late = false;  // the check was
+    bool held = false;      // by this axis
+    AxisSet lacking = 0;    // nothing fresh of these says that they hold the frame
+};
+
+class SetpointFollower {
+public:
+    /// `axis` of `axes`, by their places in the configuration.
+    SetpointFollower(std::size_t axis, const MachineConfig& machine);
+
+    /// Evidence and vetoes from the others. States of other epochs are evidence of nothing.
+    void hear(const AxisState& peer);
+    void hear(const MachineState& coordinator);
+
+    /// Takes a frame of the epoch in progress, or frame 1 of a newer one, which the owner's newest state must name too,
+    /// when `rest` says where the axis rests: a frame damaged on its way cannot begin an epoch that nobody has begun.
+    /// Frames held already, of other epochs, or out of order are left alone: None, and nothing changes. They come
+    /// again as long as somebody lacks them.
+    /// Otherwise the frame is held (held() says so), or the fault says why not.
+    FaultCode offer(const Frame& frame, std::optional<Position> rest);
+
+    /// Makes the checks that are due. Returns what the device is to be told, in order.
+    std::vector<DeviceOrder> decide(Slot now);
+
+    /// Casts the lowest veto that still reaches everyone: this axis cannot go on.
+    void veto_for_own_reasons(Slot now);
+
+    /// The device has ended the run of this epoch: nothing more of it is held or checked.
+    void close() { open_ = false; }
+    bool open() const { return open_; }
+    /// Whether an epoch is at its very end when its frames up to `ran` have been run.
+    bool is_complete(FrameNumber ran) const { return last_held_ && ran == held_; }
+
+    /// Frames the device has done with are forgotten.
+    void forget_before(FrameNumber number);
+
+    Epoch epoch() const { return epoch_; }
+    FrameNumber held() const { return held_; }
+    std::optional<FrameNumber> veto() const { return veto_; }
+    /// The check that has lowered the veto last.
+    const FailedCheck& failed_check() const { return failed_check_; }
+    const HeldFrame* find(FrameNumber number) const;
+
+private:
+    void begin(Epoch epoch);
+    AxisSet lacking(FrameNumber k, Slot start) const;
+    void refuse(FrameNumber veto, const FailedCheck& check);
+    std::optional<Slot> start_slot(FrameNumber k) const;
+    void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }
+
+    static constexpr std::size_t kMaxFrames = 16;
+
+    std::size_t axis_;
+    std::size_t axes_;
+    ProtocolTiming timing_;
+    Ticks slot_;
+    AxisLimits limits_;
+    std::vector<PeerEvidence> peers_;
+
+    bool open_ = false;
+    Epoch epoch_ = 0;
+    Epoch named_ = 0;  // by the owner
+    FrameNumber held_ = 0;
+    FrameNumber checked_ = 0;  // every frame up to this one is decided
+    std::optional<FrameNumber> veto_;
+    FailedCheck failed_check_;
+    std::optional<FrameNumber> device_veto_;  // what the device has been told
+    MotionPoint end_;                         // of the last body held
+    Tick end_tick_;
+    bool last_held_ = false;
+    std::deque<HeldFrame> frames_;
+};
+
+}  // namespace lockstep

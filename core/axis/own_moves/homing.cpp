@@ -1,0 +1,89 @@
+#include "core/axis/own_moves/homing.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace lockstep {
+
+std::int64_t Homing::toward_switch(double mm) const {
+    const std::int64_t steps = to_steps(axis_, mm);
+    return axis_.homing.toward_min ? -steps : steps;
+}
+
+HomingStep Homing::begin(bool home_closed) {
+    pull_offs_ = 0;
+    touches_ = 0;
+    last_.reset();
+    return search(home_closed ? HomingStage::Release : HomingStage::Search);
+}
+
+HomingStep Homing::search(HomingStage stage) {
+    stage_ = stage;
+    const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
+    const std::int64_t reach = toward_switch(2 * (travel_mm + axis_.homing.pulloff_mm));  // also from behind its ends
+    const double speed = axis_.homing.search_velocity_mm_s;
+    if (stage == HomingStage::Release) { return {.move = LocalMove{-reach, speed, Trigger::HomeOpens}}; }
+    return {.move = LocalMove{reach, speed, Trigger::HomeCloses}};
+}
+
+HomingStep Homing::next(const LocalEnd& end) {
+    switch (stage_) {
+        case HomingStage::Search: return end.by_trigger ? touch(end) : fail(FaultCode::HomeSwitchNotFound);
+        case HomingStage::Release: return end.by_trigger ? pull_off() : fail(FaultCode::HomeSwitchStuck);
+        case HomingStage::PullOff: {
+            if (end.by_limit) { return fail(FaultCode::LimitHit); }
+            if (end.home_closed) { return search(HomingStage::Release); }
+            stage_ = HomingStage::Latch;
+            const double speed = axis_.homing.latch_velocity_mm_s;
+            return {.move = LocalMove{toward_switch(2 * axis_.homing.pulloff_mm), speed, Trigger::HomeCloses}};
+        }
+        case HomingStage::Latch: return end.by_trigger ? touch(end) : miss(end);
+        case HomingStage::Park:
+            stage_ = HomingStage::Idle;
+            return end.by_limit ? fail(FaultCode::LimitHit) : HomingStep{.done = true};
+        case HomingStage::Idle: break;
+    }
+    return {};
+}
+
+HomingStep Homing::pull_off() {
+    if (++pull_offs_ > kMaxPullOffs) { return fail(FaultCode::HomeSwitchStuck); }
+    stage_ = HomingStage::PullOff;
+    const double speed = axis_.homing.search_velocity_mm_s;
+    return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
+}
+
+/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before. One that is
+/// pushed behind the touch, when no switch will tell any more, has its encoder elsewhere.
+HomingStep Homing::touch(const LocalEnd& end) {
+    const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(axis_, axis_.homing.touch_tolerance_mm));
+    const Touch here{end.trigger_count, end.encoder_ahead};
+    const bool agrees = last_ && std::abs(here.count - last_->count) <= tolerance &&
+                        std::abs(here.encoder_ahead - last_->encoder_ahead) <= tolerance;
+    if (agrees && stage_ == HomingStage::Latch) { return zero_and_park(end); }
+    last_ = here;
+    return ++touches_ < kMaxTouches ? pull_off() : fail(FaultCode::HomeSwitchUnsteady);
+}
+
+/// Near the last touch there is no switch: that was none.
+HomingStep Homing::miss(const LocalEnd& end) {
+    if (end.by_limit) { return fail(FaultCode::HomeSwitchNotFound); }
+    last_.reset();
+    return ++touches_ < kMaxTouches ? search(HomingStage::Search) : fail(FaultCode::HomeSwitchUnsteady);
+}
+
+HomingStep Homing::zero_and_park(const LocalEnd& end) {
+    stage_ = HomingStage::Park;
+    HomingStep step{.zeroed = true, .zero_count = end.trigger_count - to_steps(axis_, axis_.homing.switch_position_mm)};
+    const std::int64_t here = end.count - step.zero_count;
+    const double speed = axis_.max_velocity_mm_s;
+    step.move = LocalMove{to_steps(axis_, axis_.homing.park_mm) - here, speed, Trigger::None};
+    return step;
+}
+
+HomingStep Homing::fail(FaultCode fault) {
+    stage_ = HomingStage::Idle;
+    return {.fault = fault};
+}
+
+}  // namespace lockstep

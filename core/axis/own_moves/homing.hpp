@@ -1,0 +1,81 @@
+// The homing sequence: search the switch, pull off, touch it again slowly, and so on until two touches in a row agree;
+// zero there, and park. An axis that stands behind its switch first moves away until it opens. No network between the
+// switch and the stop: the device itself ends a move at the switch, and keeps the count.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/axis/device/device.hpp"
+#include "core/faults.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park, Release };
+
+/// One move of an axis on its own, in steps from where it stands.
+struct LocalMove {
+    std::int64_t steps = 0;  // signed
+    double speed_mm_s = 0;
+    Trigger trigger = Trigger::None;
+    Ticks ticks = {};  // how long it lasts; 0: as fast as the axis's limits allow
+};
+
+/// How a local move came to its end.
+struct LocalEnd {
+    bool by_trigger = false;
+    bool by_limit = false;
+    bool home_closed = false;  // the switch, now
+    std::int64_t count = 0;    // the device's
+    std::int64_t trigger_count = 0;
+    std::int64_t encoder_ahead = 0;  // of the count, now
+};
+
+/// What comes next: a move, or the end of homing well or badly.
+struct HomingStep {
+    std::optional<LocalMove> move;
+    bool zeroed = false;  // from now on the machine's count is the device's minus zero_count
+    std::int64_t zero_count = 0;
+    bool done = false;
+    FaultCode fault = FaultCode::None;
+};
+
+class Homing {
+public:
+    explicit Homing(const AxisConfig& axis) : axis_(axis) {}
+
+    /// Begins with the search, or away from the switch where it is closed already.
+    HomingStep begin(bool home_closed);
+    /// After each move's end.
+    HomingStep next(const LocalEnd& end);
+    void abandon() { stage_ = HomingStage::Idle; }
+
+    HomingStage stage() const { return stage_; }
+
+private:
+    struct Touch {
+        std::int64_t count = 0;          // the device's, at the switch
+        std::int64_t encoder_ahead = 0;  // of the count, at rest behind it
+    };
+
+    HomingStep search(HomingStage stage);
+    HomingStep pull_off();
+    HomingStep touch(const LocalEnd& end);
+    HomingStep miss(const LocalEnd& end);
+    HomingStep zero_and_park(const LocalEnd& end);
+    HomingStep fail(FaultCode fault);
+    std::int64_t toward_switch(double mm) const;
+
+    static constexpr int kMaxPullOffs = 16;
+    static constexpr int kMaxTouches = 4;
+
+    AxisConfig axis_;
+    HomingStage stage_ = HomingStage::Idle;
+    int pull_offs_ = 0;
+    int touches_ = 0;  // of the switch: those that count and those that missed it
+    std::optional<Touch> last_;
+};
+
+}  // namespace lockstep

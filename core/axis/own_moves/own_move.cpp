@@ -1,0 +1,83 @@
+#include "core/axis/own_moves/own_move.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/interpolate.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Forward, from a place on the move with a speed, to rest on a whole step.
+struct Brake {
+    Displacement to;
+    double entry = 0;  // steps per tick
+    double exit = 0;
+};
+
+/// The first whole step that can be reached, but never one beyond the move's last. Where that is nearer than the way to
+/// brake, by what a method rounds, the speed jumps down first, within the start velocity. At rest it jumps by half of
+/// it: a method's pulses may come as unevenly as the other half allows. `jumped`: of the start velocity, what the
+/// method's pulses have just used up.
+Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits) {
+    const double d = limits.max_deceleration;
+    const double jump = std::max(0.0, limits.start_velocity - jumped);
+    Brake brake{.entry = speed, .exit = std::min({speed, limits.start_velocity / 2, jump})};
+    const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // no shorter than two ticks
+    const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
+    const Int128 whole = (end + kOneStep - 1) / kOneStep * kOneStep;
+    brake.to = std::min(Displacement{whole}, Displacement::steps(last_step));
+    const double left = (brake.to - from).as_steps();
+    const double steepest = std::sqrt(brake.exit * brake.exit + 2 * d * std::max(0.0, left));
+    brake.entry = std::min(speed, std::max(steepest, speed - jump));
+    return brake;
+}
+
+}  // namespace
+
+OwnMove::OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span)
+    : pieces_(std::move(pieces)), place_(place), limits_(limits), span_(span), end_(place.start), at_(place.from) {}
+
+HeldFrame OwnMove::next() {
+    HeldFrame frame{.number = ++made_, .start = end_};
+    frame.track.from = at_;
+    fill_body(frame);
+    frame.last = pieces_.done();
+    if (!frame.last) { fill_tail(frame); }
+    end_ = frame.end();
+    at_ = frame.body_end();
+    return frame;
+}
+
+void OwnMove::fill_body(HeldFrame& frame) {
+    while (frame.ticks < span_ && !frame.track.body.full()) {
+        const auto piece = pieces_.next(span_);
+        if (!piece) { return; }
+        (void)frame.track.body.push_back(directed(*piece));
+        frame.ticks += piece->ticks;
+        gone_ = gone_ + piece->covered();
+        const double a = piece->acceleration.steps_per_tick2();
+        fastest_ -= limits_.max_deceleration * static_cast<double>(piece->ticks.value);
+        speed_ = piece->velocity.steps_per_tick() + a * (static_cast<double>(piece->ticks.value) + 0.5);
+        fastest_ = std::max(fastest_, speed_);
+    }
+}
+
+/// One piece of constant deceleration; the ticks are rounded up, and its velocity is solved to end where it must.
+void OwnMove::fill_tail(HeldFrame& frame) const {
+    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_);
+    const Displacement way = brake.to - gone_;
+    if (way.raw <= 0) { return; }
+    const double ticks = std::ceil(2 * way.as_steps() / (brake.entry + brake.exit));
+    const Piece piece = solve_piece(Position{}, Position{way.raw}, {static_cast<std::int64_t>(ticks)},
+                                    (brake.exit - brake.entry) / ticks);
+    (void)frame.track.tail.push_back(directed(piece));
+}
+
+/// Backward motion is the exact mirror of forward motion.
+Piece OwnMove::directed(const Piece& piece) const {
+    if (!place_.backward) { return piece; }
+    return {piece.ticks, {-piece.velocity.raw}, {-piece.acceleration.raw}};
+}
+
+}  // namespace lockstep

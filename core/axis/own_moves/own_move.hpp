@@ -1,0 +1,47 @@
+// A move of one axis by itself, as frames for its device: each with the way to rest from its end.
+//
+// A device that is given no further frame in time runs the tail of the last one, and rests: within limits, on a whole
+// step, not beyond the move's end. So an axis's process may stall, and a move may be halted at any frame.
+#pragma once
+
+#include "core/axis/following/setpoint_follower.hpp"
+#include "core/axis/own_moves/own_pieces.hpp"
+
+namespace lockstep {
+
+class OwnMove {
+public:
+    struct Place {
+        Position from;  // at rest
+        bool backward = false;
+        std::int64_t steps = 0;  // > 0
+        Tick start;
+    };
+    /// Frames last little longer than `span`, and have as many pieces as a frame holds.
+    OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span);
+
+    /// The next frame, numbered from 1. Not to be called when all are made.
+    HeldFrame next();
+    bool all_made() const { return pieces_.done() || pieces_.broken(); }
+    bool broken() const { return pieces_.broken(); }
+    /// Of the frames made.
+    Tick end() const { return end_; }
+
+private:
+    void fill_body(HeldFrame& frame);
+    void fill_tail(HeldFrame& frame) const;
+    Piece directed(const Piece& piece) const;
+
+    OwnPieces pieces_;
+    Place place_;
+    AxisLimits limits_;
+    Ticks span_;
+    FrameNumber made_ = 0;
+    Tick end_;
+    Position at_;
+    Displacement gone_;   // forward
+    double speed_ = 0;    // at the end of the last body, steps per tick
+    double fastest_ = 0;  // the most that the speeds so far may have fallen to by then
+};
+
+}  // namespace lockstep

@@ -1,0 +1,117 @@
+#include "core/axis/own_moves/own_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/methods/methods.hpp"
+#include "core/methods/number_text.hpp"
+#include "core/motion/interpolate.hpp"
+#include "core/motion/profile.hpp"
+
+namespace lockstep {
+namespace {
+
+using stepgen::number;
+
+/// What a move in a given time lacks, in the units of its user.
+std::string text_of(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns, const OwnMoveRequest& move) {
+    const double tick_s = static_cast<double>(tick_ns) * 1e-9;
+    const std::string time = number(static_cast<double>(move.ticks.value) * tick_s) + " s";
+    return number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
+           " would break the limits of axis " + axis.name + ": it takes at least " +
+           number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and in " + time + " at most " +
+           number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
+}
+
+}  // namespace
+
+std::expected<OwnPieces, std::string> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
+                                                      const OwnMoveRequest& move) {
+    if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
+    if (move.ticks == Ticks{}) { return stepped(axis, tick_ns, method, move); }
+    return std::unexpected("axis " + axis.name + " cannot move in a given time by method " +
+                           std::string(stepgen::name_of(method)) + "; leave the time out, or configure RANADE");
+}
+
+std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
+                                                         const OwnMoveRequest& move) {
+    const AxisLimits of_axis = limits_of(axis, tick_ns);
+    const double speed = move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9;
+    const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
+                            of_axis.max_deceleration};
+    const Displacement way = Displacement::steps(move.steps);
+    Profile profile;
+    if (move.ticks == Ticks{}) {
+        profile = plan_fastest({{}, way, limits.start_velocity, limits.start_velocity, limits});
+    } else if (auto in_time = plan_in_time(way, move.ticks, limits)) {
+        profile = *in_time;
+    } else {
+        return std::unexpected(text_of(in_time.error(), axis, tick_ns, move));
+    }
+    return OwnPieces(Planned{pieces_of(profile, Position{}, +1)});
+}
+
+std::expected<OwnPieces, std::string> OwnPieces::stepped(const AxisConfig& axis, std::int64_t tick_ns,
+                                                         StepMethod method, const OwnMoveRequest& move) {
+    const double per_mm = axis.steps_per_mm;
+    const double ticks_per_s = 1e9 / static_cast<double>(tick_ns);
+    const double max = move.speed_mm_s * per_mm;
+    const double start = axis.start_velocity_mm_s * per_mm;
+    const stepgen::StepMove asked{move.steps, std::min(start, max), max, axis.max_accel_mm_s2 * per_mm,
+                                  axis.max_decel_mm_s2 * per_mm};
+    auto source = stepgen::StepSource::of(method, asked);
+    if (!source) { return std::unexpected("axis " + axis.name + ": " + source.error()); }
+    const stepgen::LimitWatch watch({start, asked.acceleration, asked.deceleration});
+    return OwnPieces(Stepped{std::move(*source), watch, ticks_per_s, move.steps});
+}
+
+std::optional<Piece> OwnPieces::next(Ticks most) {
+    return std::visit([most](auto& maker) { return maker.next(most); }, maker_);
+}
+
+bool OwnPieces::done() const {
+    return std::visit([](const auto& maker) { return maker.done(); }, maker_);
+}
+
+bool OwnPieces::broken() const {
+    return std::visit([](const auto& maker) { return maker.broken(); }, maker_);
+}
+
+std::optional<Piece> OwnPieces::Planned::next(Ticks most) {
+    if (done()) { return std::nullopt; }
+    Piece& piece = pieces[made];
+    if (piece.ticks <= most + most) {
+        ++made;
+        return piece;
+    }
+    const Piece begun{most, piece.velocity, piece.acceleration};
+    piece.velocity.raw = static_cast<std::int64_t>(piece.velocity_after(most));  // where the register then is
+    piece.ticks = piece.ticks - most;
+    return begun;
+}
+
+std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {
+    while (left > 0 && !breach) {
+        const std::optional<double> step_s = next_step_s();
+        if (!step_s) { break; }
+        if (auto before = pieces.add(*step_s * ticks_per_s)) { return before; }
+        if (pieces.last_step() - pieces.begin() >= most) { return pieces.cut(); }
+    }
+    if (auto rest = pieces.cut()) { return rest; }
+    if (at_rest || breach) { return std::nullopt; }
+    at_rest = true;
+    return pieces.last_half();
+}
+
+/// None where it would break the limits.
+std::optional<double> OwnPieces::Stepped::next_step_s() {
+    const double at_s = source.next_s();
+    breach = watch.step(at_s - before_s).has_value();
+    before_s = at_s;
+    if (breach) { return std::nullopt; }
+    --left;
+    return at_s;
+}
+
+}  // namespace lockstep

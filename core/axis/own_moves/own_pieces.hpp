@@ -1,0 +1,79 @@
+// A move of one axis by itself as add-only pieces, by the method its configuration names.
+//
+// Ranade's are planned as a profile (core/motion/profile.hpp), three pieces at most. The other methods give the times
+// of their steps (core/methods): rounded to ticks, they become the pieces that make these steps (step_pieces.hpp).
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/axis/own_moves/step_pieces.hpp"
+#include "core/machine.hpp"
+#include "core/methods/step_source.hpp"
+#include "core/motion/limit_watch.hpp"
+
+namespace lockstep {
+
+/// How far, how fast, how soon; forward, whichever way the move goes.
+struct OwnMoveRequest {
+    std::int64_t steps = 0;  // > 0
+    double speed_mm_s = 0;   // at most
+    Ticks ticks;             // how long it lasts, exactly; 0: as fast as the limits allow
+};
+
+class OwnPieces {
+public:
+    /// The axis's own method, or another. Error: what the move lacks, and what could be made instead.
+    static std::expected<OwnPieces, std::string> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
+                                                      const OwnMoveRequest& move);
+
+    /// The next piece; it lasts little longer than `most` where a step or a profile allows it to be cut. None after the
+    /// last one, or where the step to come would break the axis's limits.
+    std::optional<Piece> next(Ticks most);
+    /// Whether all are made, and the move ends on its last whole step.
+    bool done() const;
+    /// The method has made of the move what the limits forbid: it goes no further.
+    bool broken() const;
+
+private:
+    /// A profile's pieces.
+    struct Planned {
+        std::vector<Piece> pieces;
+        std::size_t made = 0;
+
+        std::optional<Piece> next(Ticks most);
+        bool done() const { return made == pieces.size(); }
+        bool broken() const { return false; }
+    };
+    /// A method's steps.
+    struct Stepped {
+        stepgen::StepSource source;
+        stepgen::LimitWatch watch;
+        double ticks_per_s;
+        std::int64_t left;  // steps
+        StepPieces pieces;
+        double before_s = 0;  // when the last step fell
+        bool at_rest = false;
+        bool breach = false;
+
+        std::optional<Piece> next(Ticks most);
+        std::optional<double> next_step_s();
+        bool done() const { return at_rest; }
+        bool broken() const { return breach; }
+    };
+    using Maker = std::variant<Planned, Stepped>;
+    explicit OwnPieces(Maker maker) : maker_(std::move(maker)) {}
+
+    static std::expected<OwnPieces, std::string> planned(const AxisConfig& axis, std::int64_t tick_ns,
+                                                         const OwnMoveRequest& move);
+    static std::expected<OwnPieces, std::string> stepped(const AxisConfig& axis, std::int64_t tick_ns,
+                                                         StepMethod method, const OwnMoveRequest& move);
+
+    Maker maker_;
+};
+
+}  // namespace lockstep

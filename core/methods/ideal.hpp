@@ -1,0 +1,42 @@
+// The continuous ideal: the trapezoid or triangle of a move's limits, and when its steps fall.
+//
+// From `start` the speed rises by `acceleration` to the peak, stays, and falls by `deceleration` to `start`:
+//   peak = min(max, sqrt((2 a d N + (a + d) v0^2) / (a + d))).
+// Which place of the position is a step is each method's own convention (Crossing): step k at k or at k - 1/2.
+#pragma once
+
+#include <vector>
+
+#include "core/methods/method.hpp"
+
+namespace lockstep::stepgen {
+
+class Ideal {
+public:
+    /// The move must pass check() (method.hpp).
+    explicit Ideal(const StepMove& move);
+
+    double duration_s() const { return rise_s_ + cruise_s_ + fall_s_; }
+    double peak() const { return peak_; }  // steps/s
+    /// When the position, 0 ... steps, is reached; s.
+    double time_s(double position) const;
+    std::vector<double> step_times_s(Crossing crossing) const;
+
+    /// The corners of speed over time.
+    struct Corner {
+        double time_s;
+        double steps_per_s;
+    };
+    std::vector<Corner> corners() const;
+
+private:
+    StepMove move_;
+    double peak_;
+    double rise_steps_;
+    double fall_steps_;
+    double rise_s_;
+    double cruise_s_;
+    double fall_s_;
+};
+
+}  // namespace lockstep::stepgen

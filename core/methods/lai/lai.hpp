@@ -1,0 +1,43 @@
+// Velocity planner and hardware DDA as a method for one axis.
+//
+// Source: Lai, Chien, Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives Design": every
+// 6.5 ms a whole number of pulses (lai_planner.hpp), spread evenly by a DDA (lai_dda.hpp).
+#pragma once
+
+#include "core/methods/lai/lai_dda.hpp"
+#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/method.hpp"
+
+namespace lockstep::stepgen {
+
+struct LaiParameters {
+    double period_s = 6.5e-3;  // the sampling time of Section 3.1
+};
+
+/// When pulses fall, one after the other.
+class LaiSteps {
+public:
+    /// Error: as lai's.
+    static std::expected<LaiSteps, std::string> of(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
+
+    /// Call it for each of the move's steps once.
+    double next_s();
+    double clock_s() const { return clock_s_; }
+    const std::string& nearest() const { return nearest_; }
+
+private:
+    LaiSteps(std::int64_t steps, const LaiSpeeds& speeds, double clock_s, std::string nearest);
+
+    LaiLongAxis axis_;
+    Dda dda_;
+    double clock_s_;  // of the DDA
+    std::string nearest_;
+    std::int64_t now_ = 0;
+};
+
+/// Speeds become whole pulses per period, not above those asked; the acceleration a whole number of pulses per period
+/// and period, at least one (23,669 steps/s^2), both ways. Step k is where the position is k. Error: the maximum is
+/// below one pulse per period, or above what the DDA's register holds.
+StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
+
+}  // namespace lockstep::stepgen

@@ -1,0 +1,37 @@
+// The state machine with a delay counter as a method for a planned move.
+//
+// Source: Lam Chee Yuen and Phaklen Ehkan, "Design and Implementation of FPGA Based Bipolar Stepper Motor Controller
+// for Linear Slide Application"; lam_controller.hpp.
+#pragma once
+
+#include "core/methods/lam_controller.hpp"
+#include "core/methods/method.hpp"
+
+namespace lockstep::stepgen {
+
+/// When pulses fall, one after the other.
+class LamSteps {
+public:
+    /// Error: as lam's.
+    static std::expected<LamSteps, std::string> of(const StepMove& move, Fit fit, const LamParameters& parameters = {});
+
+    /// Call it for each of the move's steps once.
+    double next_s();
+    double clock_s() const { return clock_s_; }
+    const std::string& nearest() const { return nearest_; }
+
+private:
+    LamSteps(std::int64_t steps, const LamParameters& made, std::string nearest);
+
+    LamController controller_;
+    double clock_s_;
+    std::string nearest_;
+    std::int64_t now_ = 0;
+};
+
+/// Start and cruise delays become the shortest whole counts of the clock, not faster than asked, at least two; a start
+/// from rest takes `parameters.start_delay`. Acceleration and deceleration are those of the counter, whatever is asked.
+/// Step k is where the position is k.
+StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters = {});
+
+}  // namespace lockstep::stepgen

@@ -1,0 +1,27 @@
+// The five methods by name.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/machine.hpp"
+#include "core/methods/method.hpp"
+
+namespace lockstep::stepgen {
+
+struct Method {
+    std::string_view name;    // "ranade"
+    std::string_view source;  // author and title
+    Crossing crossing;
+    StepResult (*run)(const StepMove&, Fit);  // with the paper's parameters
+};
+
+std::span<const Method> methods();
+
+/// "ranade" and the like.
+std::string_view name_of(StepMethod method);
+
+/// Nothing where no method has that name.
+const Method* find_method(std::string_view name);
+
+}  // namespace lockstep::stepgen

@@ -1,0 +1,99 @@
+#include "core/methods/suits.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/methods/number_text.hpp"
+#include "core/methods/step_source.hpp"
+#include "core/motion/limit_watch.hpp"
+
+namespace lockstep::stepgen {
+namespace {
+
+using Suits = std::expected<void, std::string>;
+
+constexpr double kMinTicksPerStep = 3;           // rounded to ticks, a wait is still longer than the engine's two
+constexpr std::int64_t kLongestTried = 200'000;  // steps
+
+Suits unsuited(std::string why) { return std::unexpected(std::move(why)); }
+
+Suits brakes_as_it_accelerates(const SpeedLimits& limits) {
+    if (limits.acceleration == limits.deceleration) { return {}; }
+    return unsuited("it has no deceleration of its own: " + number(limits.deceleration) +
+                    " steps/s^2 must equal the acceleration, " + number(limits.acceleration));
+}
+
+/// Lai's acceleration: one pulse per period and period.
+double one_pulse() {
+    const double period_s = LaiParameters{}.period_s;
+    return 1 / (period_s * period_s);
+}
+
+Suits changes_by_whole_pulses(const SpeedLimits& limits) {
+    const double least = one_pulse();
+    const double most = std::min(limits.acceleration, limits.deceleration);
+    if (least <= most) { return {}; }
+    return unsuited("it changes its speed by whole pulses per 6.5 ms, " + number(least) +
+                    " steps/s^2 at least: acceleration and deceleration must not be below that, and one is " +
+                    number(most));
+}
+
+/// Every step of one move; the wait for each against all before it.
+Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t steps) {
+    auto source = StepSource::of(method, {steps, limits.start, limits.max, limits.acceleration, limits.deceleration});
+    if (!source) { return unsuited(source.error()); }
+    LimitWatch watch({limits.start, limits.acceleration, limits.deceleration});
+    std::optional<LimitWatch::Breach> breach;
+    double before_s = 0;
+    for (std::int64_t i = 0; i < steps && !breach; ++i) {
+        const double at_s = source->next_s();
+        breach = watch.step(at_s - before_s);
+        before_s = at_s;
+    }
+    if (!breach) { breach = watch.rest(); }
+    if (!breach) { return {}; }
+    return unsuited("in a move of " + std::to_string(steps) + " steps its speed jumps by " + number(breach->change) +
+                    " steps/s beyond what the acceleration allows; the start velocity allows " +
+                    number(breach->allowed));
+}
+
+Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
+    const double own = method == StepMethod::Lai ? one_pulse() : limits.acceleration;
+    const double ramps = limits.max * limits.max * (1 / own + 1 / limits.deceleration) / 2;
+    const double longest = std::min(static_cast<double>(kLongestTried), 1.5 * ramps + 100);
+    std::int64_t before = 1;
+    for (std::int64_t steps = 1; static_cast<double>(steps) <= longest;) {  // 1, 2, 3, 5, 8 ...
+        if (auto kept = keeps_limits(method, limits, steps); !kept) { return kept; }
+        steps += std::exchange(before, steps);
+    }
+    return keeps_limits(method, limits, static_cast<std::int64_t>(longest));
+}
+
+}  // namespace
+
+SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns) {
+    return {.start = axis.start_velocity_mm_s * axis.steps_per_mm,
+            .max = axis.max_velocity_mm_s * axis.steps_per_mm,
+            .acceleration = axis.max_accel_mm_s2 * axis.steps_per_mm,
+            .deceleration = axis.max_decel_mm_s2 * axis.steps_per_mm,
+            .tick_s = static_cast<double>(tick_ns) * 1e-9};
+}
+
+Suits suits(StepMethod method, const SpeedLimits& limits) {
+    if (method == StepMethod::Ranade) { return {}; }
+    const double fastest = 1 / (kMinTicksPerStep * limits.tick_s);
+    if (limits.max > fastest) {
+        return unsuited("its steps are rounded to ticks: the maximum velocity is " + number(limits.max) +
+                        " steps/s and must not be above a third of a step per tick, " + number(fastest));
+    }
+    if (method == StepMethod::Carrica || method == StepMethod::Lam) {
+        if (auto same = brakes_as_it_accelerates(limits); !same) { return same; }
+    }
+    if (method == StepMethod::Lai) {
+        if (auto fine = changes_by_whole_pulses(limits); !fine) { return fine; }
+    }
+    return keeps_limits(method, limits);
+}
+
+}  // namespace lockstep::stepgen

@@ -1,0 +1,96 @@
+#include "services/files/text_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace lockstep {
+namespace {
+
+std::unexpected<Diagnostic> refusal(std::string message) {
+    return std::unexpected(Diagnostic{.message = std::move(message)});
+}
+
+Diagnostic zero_byte(std::string_view text, std::size_t at) {
+    const std::string_view before = text.substr(0, at);
+    const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+    return {.line = static_cast<int>(std::ranges::count(before, '\n')) + 1,
+            .column = static_cast<int>(at - line_begin) + 1,
+            .message = "the byte 0x00: this is not text, or the file is damaged"};
+}
+
+/// A file descriptor that closes itself.
+class File {
+public:
+    File(const std::filesystem::path& path, int flags) : file_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() {
+        if (file_ >= 0) { ::close(file_); }
+    }
+
+    bool write(std::string_view text) const {
+        while (file_ >= 0 && !text.empty()) {
+            const auto written = ::write(file_, text.data(), text.size());
+            if (written < 0 && errno != EINTR) { return false; }
+            text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+        }
+        return file_ >= 0;
+    }
+    bool sync() const { return file_ >= 0 && ::fsync(file_) == 0; }
+
+private:
+    int file_;
+};
+
+bool write_durably(const std::filesystem::path& path, std::string_view text) {
+    const File file(path, O_WRONLY | O_CREAT | O_TRUNC);
+    return file.write(text) && file.sync();
+}
+
+}  // namespace
+
+std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) { return refusal("there is no such file, or its folder cannot be read"); }
+    if (std::filesystem::is_directory(status)) { return refusal("this is a directory; name a file in it"); }
+    if (!std::filesystem::is_regular_file(status)) { return refusal("this is not a regular file"); }
+    const auto size = std::filesystem::file_size(path, error);
+    if (!error && size > kMaxTextFileBytes) {
+        return refusal("the file has " + std::to_string(size) + " bytes, more than " +
+                       std::to_string(kMaxTextFileBytes));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) { return refusal(std::string("cannot be read: ") + std::strerror(errno)); }
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (stream.bad()) { return refusal(std::string("cannot be read: ") + std::strerror(errno)); }
+    if (text.empty()) { return refusal("the file is empty"); }
+    if (const std::size_t zero = text.find('\0'); zero != text.npos) { return std::unexpected(zero_byte(text, zero)); }
+    return text;
+}
+
+std::expected<void, std::string> write_text_file(const std::filesystem::path& path, std::string_view text) {
+    errno = 0;
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out << text;
+    out.close();
+    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
+    return {};
+}
+
+std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text) {
+    const std::filesystem::path fresh = path.string() + ".new";
+    const bool is_replaced = write_durably(fresh, text) && ::rename(fresh.c_str(), path.c_str()) == 0 &&
+                             File(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
+    if (is_replaced) { return {}; }
+    return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace lockstep

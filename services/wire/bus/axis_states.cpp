@@ -1,0 +1,51 @@
+#include "services/wire/bus/axis_states.hpp"
+
+#include "services/files/directories.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kShownEvery{100};
+
+/// Who acts on a job's end, or on a fault, must not find the axes as they were before.
+bool is_news(const AxisState& state, const AxisState& shown) {
+    return state.phase != shown.phase || state.at_rest != shown.at_rest || state.homed != shown.homed ||
+           state.fault != shown.fault || state.command_done != shown.command_done;
+}
+
+/// Nothing: the network is used; or it could not be opened, and the participant has noted why.
+template <typename Board, typename Axis>
+std::optional<Board> board_for(Participant& participant, Axis axis) {
+    const NetworkConfig& network = participant.network();
+    if (!network.one_host) { return std::nullopt; }
+    auto board = Board::open(shared_states_file(participant.machine(), network.domain), axis);
+    if (board) { return std::move(*board); }
+    participant.note_failure(board.error());
+    return std::nullopt;
+}
+
+}  // namespace
+
+StateSaid::StateSaid(Participant& participant)
+    : network_(participant),
+      board_(participant.axis() ? board_for<StateBoardWriter>(participant, *participant.axis()) : std::nullopt) {}
+
+bool StateSaid::write(const AxisState& state) {
+    if (!board_) { return network_.write(state); }
+    board_->write(state);
+    const auto now = monotonic_now();
+    if (now - shown_at_ < kShownEvery && !is_news(state, shown_)) { return true; }
+    shown_at_ = now;
+    shown_ = state;
+    return network_.write(state);
+}
+
+StatesHeard::StatesHeard(Participant& participant)
+    : board_(board_for<StateBoardReader>(participant, participant.axis())) {
+    if (!participant.network().one_host) { network_.emplace(participant); }
+}
+
+std::string StatesHeard::place() const { return board_ ? "in " + board_->path().string() : "on the network"; }
+
+}  // namespace lockstep

@@ -1,0 +1,52 @@
+#include "services/wire/bus/clock_link.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kServerNap{100};  // until it looks whether to stop
+constexpr std::chrono::milliseconds kClientNap{10};   // and whether to ask again
+
+}  // namespace
+
+ClockServer::ClockServer(Participant& participant, ReadClock machine_time)
+    : machine_time_(std::move(machine_time)),
+      replies_(participant),
+      requests_(participant, [this] { arrivals_.notify(); }),
+      thread_([this](const std::stop_token& stop) { serve(stop); }) {}
+
+void ClockServer::serve(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        if (!arrivals_.wait_for(kServerNap)) { continue; }
+        const Tick received = machine_time_();
+        requests_.take([&](ClockRequest&& request) { (void)replies_.write({request, received, machine_time_()}); });
+    }
+}
+
+ClockClient::ClockClient(Participant& participant, ClockAsker asker, ReadClock own_clock)
+    : asker_(std::move(asker)),
+      own_clock_(std::move(own_clock)),
+      requests_(participant),
+      replies_(participant, [this] { arrivals_.notify(); }),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void ClockClient::run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        if (const auto request = asker_.ask(own_clock_())) { (void)requests_.write(*request); }
+        if (!arrivals_.wait_for(kClientNap)) { continue; }
+        const Tick arrived = own_clock_();
+        const std::scoped_lock lock(mutex_);
+        replies_.take([&](ClockReply&& reply) {
+            if (const auto exchange = asker_.hear(reply, arrived)) { exchanges_.push_back(*exchange); }
+        });
+    }
+}
+
+std::vector<ClockExchange> ClockClient::take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(exchanges_, {});
+}
+
+}  // namespace lockstep

@@ -1,0 +1,152 @@
+// Typed readers and writers of core's messages: what they send is translated, what they receive is checked first, and
+// what is said of an axis is believed from who speaks for it alone.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "core/protocol/reception_watch.hpp"
+#include "services/wire/bus/speakers.hpp"
+#include "services/wire/dds/entity.hpp"
+#include "services/wire/dds/participant.hpp"
+#include "services/wire/dds/refusals.hpp"
+#include "services/wire/dds/topics.hpp"
+#include "services/wire/translate/translate.hpp"
+
+namespace lockstep {
+
+/// Called on a thread of DDS when samples have come: do little, and do not throw.
+using OnData = std::function<void()>;
+
+namespace detail {
+/// What DDS tells a reader on a thread of its own.
+struct Arrival {
+    explicit Arrival(OnData also) : on_data(std::move(also)) {}
+    std::atomic<bool> has_come{false};
+    OnData on_data;
+};
+
+/// On failure the participant notes it, and the entity is not good.
+Entity make_writer(Participant& participant, const TopicSpec& spec);
+Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival);
+std::uint32_t matched_readers(const Entity& writer);
+std::uint32_t matched_writers(const Entity& reader);
+/// Bytes that DDS received for the reader and did not deliver, since it was made.
+std::uint64_t discarded_bytes(const Entity& reader);
+
+/// The axis for which a message speaks; nothing: for none, and whoever may write the topic may say it.
+template <typename T>
+std::optional<std::uint32_t> spoken_for(const T& message) {
+    constexpr bool kIsAnAxiss =
+        std::is_same_v<T, AxisState> || std::is_same_v<T, AxisHealth> || std::is_same_v<T, ClockRequest>;
+    if constexpr (kIsAnAxiss) { return message.axis; }
+    return std::nullopt;
+}
+}  // namespace detail
+
+template <typename T>
+class Writer {
+public:
+    explicit Writer(Participant& participant) : entity_(detail::make_writer(participant, Topic<T>::kSpec)) {}
+
+    /// Never waits. False: the network's buffers are full, or DDS is shutting down.
+    bool write(const T& value) {
+        const auto message = to_wire(value);
+        const typename Topic<T>::Wire* sample = &message;
+        return dds_write(entity_.handle(), sample) == DDS_RETCODE_OK;
+    }
+
+    /// How many readers listen. What is written to none is heard by none: a first command waits for one.
+    std::uint32_t matched() const { return detail::matched_readers(entity_); }
+
+private:
+    Entity entity_;
+};
+
+template <typename T>
+class Reader {
+public:
+    explicit Reader(Participant& participant, OnData on_data = {})
+        : arrival_(std::make_unique<detail::Arrival>(std::move(on_data))),
+          entity_(detail::make_reader(participant, Topic<T>::kSpec, *arrival_)),
+          speakers_(participant.machine()) {}
+
+    /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many. A
+    /// message that is not moved away leaves its memory to the next.
+    template <typename Use>
+    std::size_t take(Use use) {
+        std::size_t used = 0;
+        if (!arrival_->has_come.exchange(false)) { return used; }  // a loop asks often, and DDS's answer takes locks
+        for (std::size_t batch = 0; batch < kMaxBatches; ++batch) {
+            if (take_batch(use, used) < kBatch) { return used; }
+        }
+        arrival_->has_come = true;
+        return used;
+    }
+
+    const Refusals& refusals() const { return refusals_; }
+    std::uint32_t matched() const { return detail::matched_writers(entity_); }
+    TopicReception reception() const { return {received_, detail::discarded_bytes(entity_)}; }
+
+private:
+    static constexpr std::size_t kBatch = 64;
+    static constexpr std::size_t kMaxBatches = 64;  // a flood is left for the next call
+
+    /// Samples lent by DDS, given back at the end of the scope.
+    struct Loan {
+        dds_entity_t reader;
+        std::array<void*, kBatch> samples{};
+        std::array<dds_sample_info_t, kBatch> infos{};
+        int count = 0;
+        explicit Loan(dds_entity_t from) : reader(from) {
+            count = dds_take(reader, samples.data(), infos.data(), kBatch, kBatch);
+        }
+        Loan(const Loan&) = delete;
+        Loan& operator=(const Loan&) = delete;
+        ~Loan() {
+            if (count > 0) { dds_return_loan(reader, samples.data(), count); }
+        }
+    };
+
+    template <typename Use>
+    std::size_t take_batch(Use& use, std::size_t& used) {
+        const Loan loan(entity_.handle());
+        const auto count = static_cast<std::size_t>(std::max(0, loan.count));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!loan.infos[i].valid_data) { continue; }  // a sender left
+            ++received_;
+            auto believed = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]), value_);
+            if (believed) { believed = check_speaker(loan.infos[i].publication_handle); }
+            if (believed) {
+                use(std::move(value_));
+                ++used;
+            } else {
+                refusals_.add(std::move(believed.error()));
+            }
+        }
+        return count;
+    }
+
+    std::expected<void, std::string> check_speaker(dds_instance_handle_t writer) {
+        const auto axis = detail::spoken_for(value_);
+        if (!axis || speakers_.speaks_for(entity_.handle(), writer, *axis)) { return {}; }
+        return std::unexpected(std::string(Topic<T>::kSpec.name) + ": speaks for axis " + std::to_string(*axis) +
+                               ", which its writer is not");
+    }
+
+    std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address: it stays put and outlives the entity
+    Entity entity_;
+    Speakers speakers_;
+    T value_{};  // the message at hand
+    std::uint64_t received_ = 0;
+    Refusals refusals_;
+};
+
+}  // namespace lockstep

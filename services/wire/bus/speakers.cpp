@@ -1,0 +1,37 @@
+#include "services/wire/bus/speakers.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "services/wire/dds/partitions.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Empty: it is in none or in several, or it has left.
+std::string only_partition(const dds_builtintopic_endpoint_t* publication) {
+    std::uint32_t count = 0;
+    char** names = nullptr;
+    if (publication == nullptr || !dds_qget_partition(publication->qos, &count, &names)) { return ""; }
+    std::string name = count == 1 ? names[0] : "";
+    for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
+    dds_free(names);
+    return name;
+}
+
+}  // namespace
+
+const std::string& Speakers::partition_of_writer(dds_entity_t reader, dds_instance_handle_t writer) {
+    const auto known = std::ranges::find(known_, writer, &Known::writer);
+    if (known != known_.end()) { return known->partition; }
+    if (known_.size() == kMaxKnown) { known_.erase(known_.begin()); }
+    const std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)> publication(
+        dds_get_matched_publication_data(reader, writer), &dds_builtintopic_free_endpoint);
+    return known_.emplace_back(writer, only_partition(publication.get())).partition;
+}
+
+bool Speakers::speaks_for(dds_entity_t reader, dds_instance_handle_t writer, std::uint32_t axis) {
+    return partition_of_writer(reader, writer) == partition_of(machine_, axis);
+}
+
+}  // namespace lockstep

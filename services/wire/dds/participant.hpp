@@ -1,0 +1,74 @@
+// A process's place in DDS: one domain, one interface, one machine, and who it is there.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/machine.hpp"
+#include "services/network/interface_identity.hpp"
+#include "services/wire/dds/domain.hpp"
+#include "services/wire/dds/entity.hpp"
+#include "services/wire/dds/sent_keys.hpp"
+
+namespace lockstep {
+
+/// The files by which DDS Security knows a process and what it may: certificates and keys in PEM, documents signed.
+struct Credentials {
+    std::filesystem::path identity_ca;
+    std::filesystem::path certificate;
+    std::filesystem::path private_key;
+    std::filesystem::path permissions_ca;
+    std::filesystem::path governance;
+    std::filesystem::path permissions;
+};
+
+/// As whom a process joins a machine.
+struct Membership {
+    std::optional<std::uint32_t> axis;       // for which it speaks; none: for none
+    std::optional<Credentials> credentials;  // none: without security
+};
+
+class Participant {
+public:
+    /// The machine's name is the DDS partition (partitions.hpp): machines in one domain do not hear each other.
+    /// Error: the domain, the interface, what DDS said, and the remedy. All participants of a process in one domain
+    /// use one interface.
+    static std::expected<Participant, std::string> open(const NetworkConfig& network, const std::string& machine,
+                                                        const Membership& membership = {});
+
+    const std::string& machine() const { return machine_; }
+    const NetworkConfig& network() const { return network_; }
+    const std::optional<std::uint32_t>& axis() const { return axis_; }  // for which its process speaks
+
+    dds_entity_t handle() const { return participant_.handle(); }
+    dds_entity_t publisher() const { return publisher_.handle(); }
+    dds_entity_t subscriber() const { return subscriber_.handle(); }
+
+    /// Whether the interface is up again as another one, or with another address, since this was opened.
+    bool has_interface_changed() const;
+
+    /// The first failure of a reader or writer made on this participant: so that many can be made in a row and
+    /// looked at once.
+    const std::optional<std::string>& failure() const { return failure_; }
+    void note_failure(std::string text);
+
+private:
+    Participant() = default;
+
+    std::shared_ptr<const Domain> domain_;  // outlives all that follows
+    std::string machine_;
+    NetworkConfig network_;
+    std::optional<std::uint32_t> axis_;
+    std::optional<InterfaceIdentity> interface_;
+    Entity participant_;
+    Entity publisher_;
+    Entity subscriber_;
+    std::unique_ptr<SentKeys> sent_keys_;  // with security
+    std::optional<std::string> failure_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,34 @@
+#include "services/wire/dds/peer_discovery.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+constexpr int kProcessesOfHost = 16;    // that find each other: DDS asks as many ports of every peer, from index 0 on
+constexpr int kAskEvery_ms = 800;       // who comes answers and is answered at once
+constexpr int kGivenUpAfter_ms = 4000;  // three ARP requests, a second each, and what a busy host takes besides
+constexpr std::int64_t kQuestionBytes = 1280;  // as the kernel counts it
+
+std::string milliseconds(int ms) { return std::to_string(ms) + " ms"; }
+
+}  // namespace
+
+std::string peer_discovery(const std::vector<std::string>& peers) {
+    std::string listed;
+    for (const std::string& peer : peers) { listed += "<Peer address=\"" + peer + "\"/>"; }
+    return "<General><AllowMulticast>false</AllowMulticast></General><Discovery><SPDPInterval>" +
+           milliseconds(kAskEvery_ms) + "</SPDPInterval><LeaseDuration>" +
+           milliseconds(static_cast<int>(kPeerLease.count())) +
+           "</LeaseDuration><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
+           std::to_string(kProcessesOfHost) + "</MaxAutoParticipantIndex><Peers>" + listed +
+           "</Peers></Discovery><Internal><SocketSendBufferSize max=\"" +
+           std::to_string(peer_send_buffer(peers.size())) + " B\"/></Internal>";
+}
+
+std::int64_t peer_send_buffer(std::size_t peers) {
+    constexpr std::int64_t kOfOnePeer = kQuestionBytes * kProcessesOfHost * (kGivenUpAfter_ms / kAskEvery_ms);
+    return kMotionSendBuffer + kOfOnePeer * (static_cast<std::int64_t>(std::max(peers, std::size_t{1})) - 1);
+}
+
+}  // namespace lockstep

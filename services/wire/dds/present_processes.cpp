@@ -1,0 +1,84 @@
+#include "services/wire/dds/present_processes.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <sstream>
+
+#include "services/network/host_name.hpp"
+#include "services/wire/dds/partitions.hpp"
+#include "services/wire/dds/topics.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string user_data(const dds_qos_t* qos) {
+    void* data = nullptr;
+    std::size_t size = 0;
+    if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) { return ""; }
+    std::string text(static_cast<const char*>(data), size);
+    dds_free(data);
+    return text;
+}
+
+/// Empty: it is in none or in several.
+std::string only_partition(const dds_qos_t* qos) {
+    std::uint32_t count = 0;
+    char** names = nullptr;
+    if (!dds_qget_partition(qos, &count, &names)) { return ""; }
+    std::string name = count == 1 ? names[0] : "";
+    for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
+    dds_free(names);
+    return name;
+}
+
+/// Partitions of axes are PREFIX/NUMBER.
+std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_view prefix) {
+    if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }
+    partition.remove_prefix(prefix.size() + 1);
+    std::uint32_t axis = 0;
+    const char* const end = partition.data() + partition.size();
+    const auto [rest, error] = std::from_chars(partition.data(), end, axis);
+    return error == std::errc{} && rest == end ? std::optional(axis) : std::nullopt;
+}
+
+/// The process behind a writer; nothing: it writes neither the machine's state nor one of its axes'.
+std::optional<PresentProcess> process_of(const dds_builtintopic_endpoint_t& writer, const std::string& machine) {
+    const std::string topic = writer.topic_name;
+    const std::string partition = only_partition(writer.qos);
+    PresentProcess process{.axis = axis_in(partition, machine)};
+    const bool is_coordinator = partition == machine && topic == Topic<MachineState>::kSpec.name;
+    if (!is_coordinator && !(process.axis && topic == Topic<AxisState>::kSpec.name)) { return std::nullopt; }
+    std::istringstream(user_data(writer.qos)) >> process.host >> process.pid;
+    return process;
+}
+
+}  // namespace
+
+void announce_process(dds_qos_t& writer) {
+    const std::string process = host_name() + " " + std::to_string(getpid());
+    dds_qset_userdata(&writer, process.data(), process.size());
+}
+
+std::vector<PresentProcess> present_processes(const Participant& participant) {
+    constexpr std::size_t kBatch = 64;
+    const std::string machine = partition_of(participant.machine());
+    const Entity reader(dds_create_reader(participant.handle(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
+    std::vector<PresentProcess> present;
+    for (std::size_t count = reader.good() ? kBatch : 0; count == kBatch;) {
+        std::array<void*, kBatch> samples{};
+        std::array<dds_sample_info_t, kBatch> infos{};
+        const dds_return_t taken = dds_take(reader.handle(), samples.data(), infos.data(), kBatch, kBatch);
+        count = taken > 0 ? static_cast<std::size_t>(taken) : 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!infos[i].valid_data || infos[i].instance_state != DDS_IST_ALIVE) { continue; }
+            auto process = process_of(*static_cast<const dds_builtintopic_endpoint_t*>(samples[i]), machine);
+            if (process) { present.push_back(*std::move(process)); }
+        }
+        if (count > 0) { dds_return_loan(reader.handle(), samples.data(), taken); }
+    }
+    return present;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,114 @@
+// LCM's log files, read and written. liblcm's own reader stops without a word at the first damaged byte, as if the log
+// ended there; this one goes on after it and says what it left out.
+//
+// An event is a header of 28 bytes, big endian (sync word 0xEDA1DA01, event number 8, time in us 8, channel length 4,
+// data length 4), the channel's name and the data.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/wire/lcm/file_window.hpp"
+
+namespace lockstep {
+
+struct LogEvent {
+    std::uint64_t offset = 0;  // in the file
+    std::uint64_t bytes = 0;   // there, its header included
+    std::int64_t number = 0;
+    std::int64_t utime = 0;  // microseconds, of the logger's clock
+    std::string_view channel;
+    std::span<const std::uint8_t> data;
+};
+
+/// A stretch of the file that is no event, or is half of one.
+struct LogDamage {
+    enum class Kind : std::uint8_t {
+        CutOff,       // the file ends within an event
+        NoEvent,      // no event begins here
+        WrongLength,  // an event whose length takes in others
+    };
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+    Kind kind = Kind::NoEvent;
+};
+
+class LogReader {
+public:
+    static constexpr std::uint32_t kMaxChannelBytes = 255;
+    static constexpr std::uint32_t kMaxDataBytes = 64 << 20;  // more is taken for damage: this bounds the memory
+    static constexpr std::size_t kMaxDamages = 1000;          // listed; all are counted
+
+    /// Error: the file cannot be read; the text names it and says why.
+    static std::expected<LogReader, std::string> open(const std::filesystem::path& path);
+
+    /// The next event, or none at the end. What it points to is valid until the next call. Error: reading failed.
+    std::expected<std::optional<LogEvent>, std::string> next();
+
+    const std::vector<LogDamage>& damages() const { return damages_; }
+    std::uint64_t damaged_stretches() const { return damaged_stretches_; }
+    std::uint64_t damaged_bytes() const { return damaged_bytes_; }
+
+private:
+    struct Header {
+        std::int64_t number = 0;
+        std::int64_t utime = 0;
+        std::uint32_t channel_bytes = 0;
+        std::uint32_t data_bytes = 0;
+        std::uint64_t event_bytes() const;
+    };
+
+    explicit LogReader(FileWindow file) : file_(std::move(file)) {}
+
+    std::optional<Header> header_at(std::uint64_t offset);
+    bool begins_event(std::uint64_t offset);
+    std::optional<std::uint64_t> find_sync(std::uint64_t from, std::uint64_t to);
+    bool hides_another(std::uint64_t offset, std::uint64_t end);
+    LogEvent event_at(std::uint64_t offset, const Header& header);
+    void skip_damage(LogDamage::Kind kind);
+
+    FileWindow file_;
+    std::uint64_t at_ = 0;
+    std::vector<LogDamage> damages_;
+    std::uint64_t damaged_stretches_ = 0;
+    std::uint64_t damaged_bytes_ = 0;
+};
+
+class LogWriter {
+public:
+    /// Begins a new file. Error: it cannot be written; the text names it and says why.
+    static std::expected<LogWriter, std::string> open(const std::filesystem::path& path);
+
+    /// What an event takes in the file.
+    static std::uint64_t event_bytes(std::string_view channel, std::span<const std::uint8_t> data);
+
+    /// False: the disk is full or gone. utime: microseconds.
+    bool write(std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> data);
+
+    /// Message: a type that lcm-gen made.
+    template <typename Message>
+    bool write_message(std::string_view channel, std::int64_t utime, const Message& message) {
+        buffer_.resize(static_cast<std::size_t>(message.getEncodedSize()));
+        message.encode(buffer_.data(), 0, static_cast<int>(buffer_.size()));
+        return write(channel, utime, buffer_);
+    }
+
+    /// False: what was written may not all be in the file.
+    bool flush() { return static_cast<bool>(file_.flush()); }
+
+private:
+    explicit LogWriter(std::ofstream file) : file_(std::move(file)) {}
+
+    std::ofstream file_;
+    std::int64_t number_ = 0;
+    std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace lockstep

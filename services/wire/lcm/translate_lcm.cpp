@@ -1,0 +1,145 @@
+#include "services/wire/lcm/translate_lcm.hpp"
+
+#include "core/axis/fsm.hpp"
+
+namespace lockstep {
+namespace {
+
+/// LCM has no unsigned numbers: the same 64 bits.
+std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+}  // namespace
+
+std::int64_t utime_of(Tick machine, std::int64_t tick_ns) { return machine.value * tick_ns / 1000; }
+
+axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, RecordNumber number) {
+    const AxisConfig& axis = machine.axes.at(state.axis);
+    const double steps_per_s = state.velocity.steps_per_tick() * machine.ticks_per_second();
+    axis_position_t out{};
+    out.utime = utime_of(state.tick, machine.tick_ns);
+    out.tick = state.tick.value;
+    out.machine = machine.name;
+    out.axis = axis.name;
+    out.incarnation = bits(number.incarnation);
+    out.sequence = bits(number.sequence);
+    out.position_steps = state.position.count();
+    out.position_mm = to_mm(axis, static_cast<double>(state.position.count()));
+    out.velocity_steps_per_s = steps_per_s;
+    out.velocity_mm_per_s = steps_per_s / axis.steps_per_mm;
+    out.state = name_of(state.phase);
+    out.homed = state.homed ? 1 : 0;
+    out.fault = state.fault;
+    out.following_error_steps = state.following_error_steps;
+    return out;
+}
+
+axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, RecordNumber number) {
+    const auto us = [&](Ticks ticks) { return machine.microseconds(ticks); };
+    axis_health_t out{};
+    out.utime = utime_of(health.tick, machine.tick_ns);
+    out.tick = health.tick.value;
+    out.machine = machine.name;
+    out.axis = machine.axes.at(health.axis).name;
+    out.incarnation = bits(number.incarnation);
+    out.sequence = bits(number.sequence);
+    out.steps_compared = bits(health.step_lateness.count);
+    out.step_lateness_min_us = us(health.step_lateness.least);
+    out.step_lateness_max_us = us(health.step_lateness.most);
+    out.step_intervals = bits(health.step_interval.count);
+    out.step_interval_min_us = us(health.step_interval.least);
+    out.step_interval_max_us = us(health.step_interval.most);
+    out.setpoints = bits(health.setpoint_slack.count);
+    out.setpoint_slack_min_ms = us(health.setpoint_slack.least) * 1e-3;
+    out.setpoint_slack_max_ms = us(health.setpoint_slack.most) * 1e-3;
+    out.least_free_segments = static_cast<std::int32_t>(health.least_free_segments);
+    out.least_free_captures = static_cast<std::int32_t>(health.least_free_captures);
+    out.loop_p50_us = us(health.loop.p50);
+    out.loop_p99_us = us(health.loop.p99);
+    out.loop_max_us = us(health.loop.most);
+    out.awaits_setpoint = health.setpoint_age ? 1 : 0;
+    out.setpoint_age_ms = us(health.setpoint_age.value_or(Ticks{})) * 1e-3;
+    out.clock_error_us = us(health.clock_error);
+    out.refused_frames = bits(health.refused.frames);
+    out.refused_commands = bits(health.refused.commands);
+    out.refused_messages = bits(health.refused.messages);
+    out.refused_orders = bits(health.refused.orders);
+    out.lost_captures = bits(health.refused.captures);
+    out.lost_records = bits(health.refused.records);
+    out.skipped_loops = bits(health.refused.skipped_loops);
+    return out;
+}
+
+run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
+    run_t out{};
+    out.utime = utime_of(record.start + record.ahead, tick_ns);
+    out.machine = record.machine;
+    out.axis = record.axis;
+    out.incarnation = bits(record.incarnation);
+    out.sequence = bits(record.sequence);
+    out.epoch = bits(record.epoch);
+    out.frame = bits(record.frame);
+    out.tail = record.tail ? 1 : 0;
+    out.start_tick = record.start.value;
+    out.ahead = record.ahead.value;
+    out.clock_error = record.clock_error.value;
+    out.start_count = record.from.count();
+    out.start_phase = bits(record.from.phase());
+    out.cut = record.cut_at_steps ? 1 : 0;
+    out.zero_count = record.zero_count;
+    out.pieces = static_cast<std::int32_t>(record.pieces.size());
+    Position end = record.from;
+    for (const Piece& piece : record.pieces) {
+        out.ticks.push_back(piece.ticks.value);
+        out.velocity.push_back(piece.velocity.raw);
+        out.acceleration.push_back(piece.acceleration.raw);
+        end = end + piece.covered();
+    }
+    out.retimed = static_cast<std::int32_t>(record.commanded_ticks.size());
+    for (const Ticks ticks : record.commanded_ticks) { out.commanded_ticks.push_back(ticks.value); }
+    out.stop_count = record.cut_at_steps.value_or(end.count());
+    return out;
+}
+
+record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns) {
+    record_mark_t out{};
+    out.utime = utime_of(then, tick_ns);
+    out.machine = mark.machine;
+    out.witness = mark.witness;
+    out.process = mark.process;
+    out.incarnation = bits(mark.incarnation);
+    out.ended = mark.ended ? 1 : 0;
+    out.steps = bits(mark.counts.steps);
+    out.runs = bits(mark.counts.runs);
+    out.positions = bits(mark.counts.positions);
+    out.figures = bits(mark.counts.figures);
+    out.job_events = bits(mark.counts.job_events);
+    out.program_parts = bits(mark.counts.program_parts);
+    return out;
+}
+
+job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns) {
+    job_t out{};
+    out.utime = utime_of(now, tick_ns);
+    out.machine = record.machine;
+    out.coordinator = bits(record.coordinator);
+    out.sequence = bits(record.sequence);
+    out.job = bits(record.job);
+    out.kind = record.kind;
+    out.event = record.event;
+    out.outcome = record.outcome;
+    out.epoch = bits(record.epoch);
+    out.start_tick = record.start.value;
+    out.resume_block = record.resume_block;
+    out.resume_high = static_cast<std::int64_t>(record.resume_along >> 64);
+    out.resume_low = static_cast<std::int64_t>(record.resume_along);
+    out.behind_frame = bits(record.behind_frame);
+    out.feed_percent = record.overrides.feed_percent;
+    out.rapid_percent = record.overrides.rapid_percent;
+    out.config = record.config;
+    out.program = record.program;
+    out.axes = static_cast<std::int32_t>(record.start_count.size());
+    out.start_count = record.start_count;
+    return out;
+}
+
+}  // namespace lockstep

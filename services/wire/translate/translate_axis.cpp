@@ -1,0 +1,105 @@
+#include "services/wire/translate/checks.hpp"
+#include "services/wire/translate/translate.hpp"
+
+namespace lockstep {
+
+constexpr std::int64_t kLongestClockError = std::int64_t{1} << 62;
+constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // there are numbers behind all that are believed
+
+// The enumerations on the wire have core's order.
+static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
+static_assert(lockstep_wire_AXIS_HALT == static_cast<int>(AxisCommandKind::Halt));
+
+lockstep_wire_AxisState to_wire(const AxisState& state) {
+    return {.axis = state.axis,
+            .identity = state.identity,
+            .stamp = state.stamp,
+            .epoch = state.epoch,
+            .held = state.held,
+            .has_veto = state.veto.has_value(),
+            .veto = state.veto.value_or(0),
+            .ran = state.ran,
+            .at_rest = state.at_rest,
+            .homed = state.homed,
+            .phase = static_cast<lockstep_wire_AxisPhase>(state.phase),
+            .fault = state.fault,
+            .position_count = state.position.count(),
+            .position_phase = state.position.phase(),
+            .velocity = state.velocity.raw,
+            .tick = state.tick.value,
+            .following_error_steps = state.following_error_steps,
+            .command_done = state.command_done,
+            .command_fault = state.command_fault,
+            .config_hash = state.config_hash,
+            .refused_frames = state.refused_frames,
+            .clock_error_ticks = state.clock_error.value,
+            .term = state.term.number,
+            .coordinator = state.term.coordinator,
+            .hears_owner = state.hears_owner,
+            .unproved = state.unproved};
+}
+
+FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
+    Checks check("axis state");
+    check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
+    check.far("stamp", wire.stamp);
+    check.far("position_count", wire.position_count);
+    check.rate("velocity", wire.velocity);
+    check.far("tick", wire.tick);
+    check.far("following_error_steps", wire.following_error_steps);
+    check.within<std::uint64_t>("command_done", wire.command_done, 0, kMostOrders);
+    check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
+    const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return AxisState{.identity = wire.identity,
+                     .axis = wire.axis,
+                     .stamp = wire.stamp,
+                     .epoch = wire.epoch,
+                     .held = wire.held,
+                     .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+                     .ran = wire.ran,
+                     .at_rest = wire.at_rest,
+                     .homed = wire.homed,
+                     .phase = phase,
+                     .fault = wire.fault,
+                     .position = Position::from_count(wire.position_count, wire.position_phase),
+                     .velocity = {wire.velocity},
+                     .tick = {wire.tick},
+                     .following_error_steps = wire.following_error_steps,
+                     .command_done = wire.command_done,
+                     .command_fault = wire.command_fault,
+                     .config_hash = wire.config_hash,
+                     .refused_frames = wire.refused_frames,
+                     .clock_error = {wire.clock_error_ticks},
+                     .term = {wire.term, wire.coordinator},
+                     .hears_owner = wire.hears_owner,
+                     .unproved = wire.unproved};
+}
+
+lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
+    return {.term = command.term.number,
+            .coordinator = command.term.coordinator,
+            .sequence_number = command.sequence,
+            .axis = command.axis,
+            .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind),
+            .target_steps = command.target_steps,
+            .ticks = command.ticks.value};
+}
+
+FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
+    Checks check("axis command");
+    check.within<std::uint64_t>("sequence", wire.sequence_number, 0, kMostOrders);
+    check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Halt);
+    check.far("target_steps", wire.target_steps);
+    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return AxisCommand{.term = {wire.term, wire.coordinator},
+                       .sequence = wire.sequence_number,
+                       .axis = wire.axis,
+                       .kind = kind,
+                       .target_steps = wire.target_steps,
+                       .ticks = {wire.ticks}};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,94 @@
+#include <cstring>
+
+#include "services/wire/dds/cut_text.hpp"
+#include "services/wire/translate/checks.hpp"
+#include "services/wire/translate/translate.hpp"
+
+namespace lockstep {
+namespace {
+
+static_assert(lockstep_wire_COMMAND_OVERRIDE == static_cast<int>(CommandKind::Override));
+static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refused));
+
+}  // namespace
+
+lockstep_wire_Command to_wire(const Command& command) {
+    return {.client = command.client,
+            .sequence_number = command.sequence,
+            .kind = static_cast<lockstep_wire_CommandKind>(command.kind),
+            .axes = command.axes,
+            .program = command.program,
+            .ticks = command.ticks.value,
+            .feed_percent = static_cast<std::uint16_t>(command.feed_percent),
+            .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent)};
+}
+
+FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
+    Checks check("command");
+    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Override);
+    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return Command{.client = wire.client,
+                   .sequence = wire.sequence_number,
+                   .kind = kind,
+                   .axes = wire.axes,
+                   .program = wire.program,
+                   .ticks = {wire.ticks},
+                   .feed_percent = wire.feed_percent,
+                   .rapid_percent = wire.rapid_percent};
+}
+
+lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {
+    const auto size = static_cast<std::uint32_t>(chunk.bytes.size());
+    return {.client = chunk.client,
+            .sequence_number = chunk.sequence,
+            .program = chunk.program,
+            .index = chunk.index,
+            .count = chunk.count,
+            .bytes = {._maximum = size,
+                      ._length = size,
+                      ._buffer = const_cast<std::uint8_t*>(chunk.bytes.data()),  // DDS only reads it
+                      ._release = false}};
+}
+
+FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire) {
+    Checks check("program chunk");
+    check.within<std::uint32_t>("count", wire.count, 1, kMaxChunks);
+    check.within<std::int64_t>("index", wire.index, 0, std::int64_t{wire.count} - 1);
+    check.within<std::size_t>("the number of bytes", wire.bytes._length, 0, kMaxChunkBytes);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return ProgramChunk{.client = wire.client,
+                        .sequence = wire.sequence_number,
+                        .program = wire.program,
+                        .index = wire.index,
+                        .count = wire.count,
+                        .bytes = {wire.bytes._buffer, wire.bytes._buffer + wire.bytes._length}};
+}
+
+lockstep_wire_Reply to_wire(const Reply& reply) {
+    lockstep_wire_Reply wire{.client = reply.client,
+                             .sequence_number = reply.sequence,
+                             .status = static_cast<lockstep_wire_ReplyStatus>(reply.status),
+                             .fault = reply.fault,
+                             .job = reply.job,
+                             .text = {}};
+    const std::string text = cut_text(reply.text, lockstep_wire_MAX_REPLY_BYTES);
+    std::memcpy(wire.text, text.data(), text.size());
+    return wire;
+}
+
+FromWire<Reply> from_wire(const lockstep_wire_Reply& wire) {
+    Checks check("reply");
+    const ReplyStatus status = check.choice("status", wire.status, ReplyStatus::Refused);
+    const std::size_t length = strnlen(wire.text, sizeof wire.text);
+    check.within<std::size_t>("the text's length", length, 0, lockstep_wire_MAX_REPLY_BYTES);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return Reply{.client = wire.client,
+                 .sequence = wire.sequence_number,
+                 .status = status,
+                 .fault = wire.fault,
+                 .job = wire.job,
+                 .text = std::string(wire.text, length)};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,111 @@
+#include <span>
+
+#include "services/wire/translate/checks.hpp"
+#include "services/wire/translate/translate.hpp"
+
+namespace lockstep {
+
+static_assert(lockstep_wire_MACHINE_STANDBY == static_cast<int>(MachinePhase::Standby));
+static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
+
+namespace {
+
+lockstep_wire_FrameRest rest_to_wire(const FrameRest& rest) {
+    return {.frame = rest.frame,
+            .block = rest.place.block,
+            .along_high = static_cast<std::int64_t>(rest.place.along.raw >> 64),
+            .along_low = static_cast<std::uint64_t>(rest.place.along.raw),
+            .last = rest.last,
+            .digest = rest.digest};
+}
+
+FrameRest rest_from_wire(const lockstep_wire_FrameRest& wire) {
+    const Int128 along = Int128{wire.along_high} * kOneStep + Int128{wire.along_low};
+    return {wire.frame, {wire.block, {along}}, wire.last, wire.digest};
+}
+
+}  // namespace
+
+MachineStateMessage to_wire(const MachineState& state) {
+    MachineStateMessage message;
+    lockstep_wire_MachineState& wire = message;
+    wire = {.term = state.term.number,
+            .coordinator = state.term.coordinator,
+            .stamp = state.stamp,
+            .tick = state.tick.value,
+            .phase = static_cast<lockstep_wire_MachinePhase>(state.phase),
+            .fault = state.fault,
+            .fault_axis = state.fault_axis,
+            .epoch = state.epoch,
+            .sent = state.sent,
+            .has_veto = state.veto.has_value(),
+            .veto = state.veto.value_or(0),
+            .job = state.job,
+            .has_outcome = state.outcome.has_value(),
+            .outcome = static_cast<lockstep_wire_JobOutcome>(state.outcome.value_or(JobOutcome::Done)),
+            .job_term = state.job_begun.number,
+            .job_coordinator = state.job_begun.coordinator,
+            .line = state.line,
+            .progress = state.progress,
+            .remaining_s = state.remaining_s,
+            .feed_percent = static_cast<std::uint16_t>(state.overrides.feed_percent),
+            .rapid_percent = static_cast<std::uint16_t>(state.overrides.rapid_percent),
+            .axes_present = state.axes_present,
+            .config_hash = state.config_hash,
+            .is_run = state.job_kind == JobKind::Run,
+            .program = state.program,
+            .rests = {},
+            .job_messages = state.published.job_events,
+            .program_messages = state.published.program_parts,
+            .lost_records = state.lost_records};
+    for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
+    const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
+    wire.rests = {._maximum = size, ._length = size, ._buffer = message.rest_storage.data(), ._release = false};
+    return message;
+}
+
+FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
+    Checks check("machine state");
+    check.far("stamp", wire.stamp);
+    check.far("tick", wire.tick);
+    check.within<std::size_t>("fault_axis", wire.fault_axis, 0, kMaxAxes - 1);
+    check.within("progress", wire.progress, 0.0, 1.0);
+    check.finite("remaining_s", wire.remaining_s);
+    check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
+    check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
+    check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
+    const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Standby);
+    const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    MachineState state{.term = {wire.term, wire.coordinator},
+                       .stamp = wire.stamp,
+                       .tick = {wire.tick},
+                       .phase = phase,
+                       .fault = wire.fault,
+                       .fault_axis = wire.fault_axis,
+                       .epoch = wire.epoch,
+                       .sent = wire.sent,
+                       .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+                       .job = wire.job,
+                       .outcome = wire.has_outcome ? std::optional(outcome) : std::nullopt,
+                       .job_begun = {wire.job_term, wire.job_coordinator},
+                       .line = wire.line,
+                       .progress = wire.progress,
+                       .remaining_s = wire.remaining_s,
+                       .overrides = {wire.feed_percent, wire.rapid_percent},
+                       .axes_present = wire.axes_present,
+                       .config_hash = wire.config_hash,
+                       .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
+                       .program = wire.program,
+                       .rests = {},
+                       .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
+                       .lost_records = wire.lost_records};
+    for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
+        check.far("a rest's place", rest.along_high);
+        state.rests.push_back(rest_from_wire(rest));
+    }
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return state;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <limits>
+
+#include "tests/simulation/simtest/check/checks.hpp"
+#include "tests/simulation/simtest/record/epoch_runs.hpp"
+#include "tests/simulation/simtest/record/explain.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+class FrameCheck {
+public:
+    FrameCheck(const Recording& recording, Violations& violations) : recording_(recording), violations_(violations) {}
+
+    void check() {
+        for (const auto& [number, epoch] : recording_.epochs) { check_sent(epoch.frames); }
+        for (std::size_t i = 0; i < recording_.axes.size(); ++i) { check_axis(i); }
+        check_same();
+    }
+
+private:
+    /// Numbered from 1 without gaps, each from the end of the one before, only the newest the last.
+    void check_sent(const std::map<FrameNumber, SentFrame>& frames) {
+        FrameNumber next = 1;
+        const SentFrame* before = nullptr;
+        for (const auto& [number, frame] : frames) {
+            const bool joins = before == nullptr || (frame.start == before->start + before->ticks && !before->last);
+            if (number != next || !joins) { object({}, frame.start, "frame " + text(number) + " does not follow"); }
+            before = &frame;
+            ++next;
+        }
+    }
+
+    void check_axis(std::size_t i) {
+        const auto& tracks = recording_.axes[i].tracks;
+        const auto& steps = recording_.axes[i].steps;
+        std::size_t step = 0;
+        for (std::size_t n = 0; n < tracks.size(); ++n) {
+            const Track& track = tracks[n];
+            if (track.epoch != 0) { check_track(i, track, n == 0 ? nullptr : &tracks[n - 1]); }
+            // One that was cut short is over when the next begins.
+            Tick end = track.start + track.ticks;
+            if (n + 1 < tracks.size() && tracks[n + 1].start < end) {
+                end = tracks[n + 1].start;
+                if (!track.cut) { object(i, end, "two tracks at a time"); }
+            }
+            check_between(i, n, step, track.start);
+            std::int64_t net = 0;
+            for (; step < steps.size() && steps[step].tick <= end; ++step) { net += steps[step].direction; }
+            if (net != track.net_steps && !track.cut) { object(i, track.start, "other steps made than the track has"); }
+        }
+        check_between(i, tracks.size(), step, Tick{std::numeric_limits<std::int64_t>::max()});
+    }
+
+    /// No step is outside every track, but what a device ran on its own when its process had ended: that is armed
+    /// frames and a tail.
+    void check_between(std::size_t i, std::size_t tracks, std::size_t& step, Tick until) {
+        const AxisRecord& axis = recording_.axes[i];
+        const std::size_t first = step;
+        std::int64_t net = 0;
+        for (; step < axis.steps.size() && axis.steps[step].tick <= until; ++step) {
+            net += axis.steps[step].direction;
+        }
+        const auto lost = std::ranges::find(axis.lost, tracks, &LostRun::tracks);
+        if (lost == axis.lost.end()) {
+            if (step != first) { object(i, axis.steps[first].tick, "steps outside any track"); }
+            return;
+        }
+        const Tick over = tracks < axis.tracks.size() ? axis.tracks[tracks].commanded : recording_.ended;
+        const bool stopped = !recording_.emergencies.empty() || may_be_stopped(recording_, i, lost->at, over);
+        if (lost->epoch == 0 || stopped) { return; }
+        const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
+        for (FrameNumber k = lost->recorded; k <= lost->armed; ++k) {
+            if (steps_to_rest(epoch, i, lost->recorded, k) == net) { return; }
+        }
+        object(i, lost->at, "steps after the process's end that no armed frame and its tail make");
+    }
+
+    /// Bodies from 1 on, as sent and armed; a tail after its body, and nothing of the epoch after it.
+    void check_track(std::size_t i, const Track& track, const Track* before) {
+        const bool same_epoch = before != nullptr && before->epoch == track.epoch;
+        const FrameNumber ran = same_epoch ? before->frame : 0;
+        if (!track.tail && track.armed < track.frame) {
+            object(i, track.start, "frame " + text(track.frame) + " was not armed");
+        }
+        if (same_epoch && before->tail) { object(i, track.start, "run after the tail of its epoch"); }
+        if (track.frame != ran + (track.tail ? 0 : 1)) {
+            object(i, track.start, "frame " + text(track.frame) + " run after frame " + text(ran));
+        }
+        if (same_epoch && track.start != before->start + before->ticks) {
+            object(i, track.start, "a gap between frames");
+        }
+        const auto epoch = recording_.epochs.find(track.epoch);
+        if (epoch == recording_.epochs.end() || !epoch->second.frames.contains(track.frame)) {
+            return object(i, track.start, "a frame that was never sent");
+        }
+        const SentFrame& sent = epoch->second.frames.at(track.frame);
+        if (!track.tail && (track.commanded != sent.start || track.commanded_ticks != sent.ticks)) {
+            object(i, track.start, "frame " + text(track.frame) + " run at another time than it was sent for");
+        }
+        const bool asked = std::ranges::any_of(recording_.emergencies, [&](const Emergency& e) {
+            return track.commanded <= e.rests && track.commanded + track.commanded_ticks >= e.asked;
+        });
+        const bool stopped = may_be_stopped(recording_, i, track.commanded, track.commanded + track.commanded_ticks);
+        if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
+    }
+
+    /// All the same, but whom a fault may have parted from the others; and nobody by more than a frame, ever.
+    void check_same() {
+        for (const auto& [number, runs] : epoch_runs(recording_)) {
+            if (!runs.apart) { continue; }
+            std::vector<std::size_t> together;
+            for (std::size_t i = 0; i < runs.last.size(); ++i) {
+                if (!runs.may_differ[i]) { together.push_back(i); }
+            }
+            for (const std::size_t i : together) {
+                const LastFrame &a = runs.last[together.front()], &b = runs.last[i];
+                if (a.low > b.high || b.low > a.high) { object(i, runs.parted, "other frames run than by the others"); }
+            }
+            check_distance(runs);
+            check_said(number, *runs.parted);
+        }
+    }
+
+    void check_distance(const EpochRuns& runs) {
+        FrameNumber least = runs.last[0].high, most = 0;
+        for (const LastFrame& last : runs.last) {
+            least = std::min(least, last.high);
+            most = std::max(most, last.low);
+        }
+        if (most > least + 1) { object({}, runs.parted, "axes more than one frame apart"); }
+    }
+
+    /// Where axes have parted, their coordinator enters Fault, and does not go on in a next epoch before.
+    void check_said(Epoch number, Tick parted) {
+        const auto next = recording_.epochs.upper_bound(number);
+        const bool goes_on =
+            next != recording_.epochs.end() && next->second.writer == recording_.epochs.at(number).writer;
+        if (!goes_on) { return; }
+        const Tick until = next->second.frames.begin()->second.start;
+        const Ticks early = recording_.machine.slot_ticks() * 2 * recording_.machine.timing.send_ahead_slots;
+        const bool said = std::ranges::any_of(recording_.machine_faults,
+                                              [&](Tick tick) { return tick >= parted - early && tick <= until; });
+        if (!said) { object({}, parted, "axes have parted, and the machine goes on as if they had not"); }
+    }
+
+    static std::string text(FrameNumber number) { return std::to_string(number); }
+    void object(std::optional<std::size_t> axis, std::optional<Tick> tick, std::string what) {
+        violations_.push_back({"frames", axis, tick ? std::optional(tick->value) : std::nullopt, {}, std::move(what)});
+    }
+
+    const Recording& recording_;
+    Violations& violations_;
+};
+
+}  // namespace
+
+Violations check_frames(const Recording& recording) {
+    Violations violations;
+    FrameCheck(recording, violations).check();
+    return violations;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tests/simulation/simtest/check/checks.hpp"
+#include "tests/simulation/simtest/record/explain.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+constexpr double kRounding = 1 + 1e-5;  // what integers make of doubles
+constexpr double kJointTicks = 2;       // phases of a motion meet on whole ticks: each may be off by one
+
+/// What a device's own clock makes of machine time. An axis's limits hold in its device's time, whatever corrections
+/// are made; a feed is one of machine time.
+struct OwnClock {
+    double hurry = 1;     // of a feed: rates 200 ppm apart, slewed by 500
+    double rounding = 1;  // ticks, of the time between two steps; frames end on whole ticks of it as well
+};
+
+OwnClock own_clock(const MachineConfig& machine) {
+    return machine.timing.time_source == TimeSource::Network ? OwnClock{.hurry = 1 + 700e-6, .rounding = 2}
+                                                             : OwnClock{};
+}
+
+struct Limits {
+    double start = 0;  // steps per tick
+    double top = 0;
+    double accel = 0;  // steps per tick^2
+    double decel = 0;
+};
+
+Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
+    const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
+    const double scale = axis.steps_per_mm * tick * kRounding;
+    return {axis.start_velocity_mm_s * scale, axis.max_velocity_mm_s * scale, axis.max_accel_mm_s2 * scale * tick,
+            axis.max_decel_mm_s2 * scale * tick};
+}
+
+/// One job's steps of one axis.
+class LimitCheck {
+public:
+    LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, Violations& violations)
+        : limits_(in_ticks(recording.machine.axes[axis], recording.machine)),
+          steps_(recording.steps_of(job, axis)),
+          course_(job.homing ? nullptr : &job.course.axes[axis]),
+          // Between two epochs, and between an axis's own moves, there is a rest of at least so long.
+          least_rest_((job.homing ? 1 : recording.machine.timing.send_ahead_slots) *
+                      recording.machine.slot_ticks().value),
+          axis_(axis),
+          first_(job.first_step[axis]),
+          rounding_(own_clock(recording.machine).rounding),
+          hurry_(own_clock(recording.machine).hurry),
+          ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
+          halts_(job.homing && job.outcome != JobOutcome::Done),
+          violations_(violations) {
+        // Steps beyond the course are another check's matter.
+        if (course_ != nullptr) { steps_ = steps_.first(std::min(steps_.size(), course_->move_of_step.size())); }
+    }
+
+    void check() {
+        for (std::size_t begin = 0; begin < steps_.size();) {
+            std::size_t end = begin + 1;
+            while (end < steps_.size() && !may_rest_before(end)) { ++end; }
+            check_stretch(begin, end);
+            begin = end;
+        }
+    }
+
+private:
+    bool may_rest_before(std::size_t n) const {
+        const bool pause = course_ != nullptr && course_->pause_in_gap[n];
+        const bool turns = course_ == nullptr && steps_[n].direction != steps_[n - 1].direction;
+        return pause || turns || (steps_[n].tick - steps_[n - 1].tick).value >= least_rest_;
+    }
+
+    std::uint32_t joints(std::size_t first_gap, std::size_t last_gap) const {
+        return course_ == nullptr ? 0 : course_->joints_in(first_gap, last_gap);
+    }
+
+    /// Joints that may fall between a rest in this gap and the step beside it; a start or an end is no joint.
+    double joints_beside_rest(std::size_t gap) const {
+        if (course_ == nullptr) { return 0; }
+        const bool edge = gap == 0 || gap == course_->move_of_step.size();
+        const std::uint32_t n = joints(gap, gap) - (edge ? 1 : 0);
+        return course_->pause_in_gap[gap] && n >= 2 ? n - 2 : n;
+    }
+
+    double time(std::size_t from, std::size_t to) const {
+        return static_cast<double>((steps_[to].tick - steps_[from].tick).value);
+    }
+
+    /// Of a forward step to count c, half a step before c; backwards, half a step after it.
+    double distance(std::size_t from, std::size_t to) const {
+        double d = 0;
+        for (std::size_t n = from + 1; n <= to; ++n) { d += steps_[n].direction; }
+        return d + 0.5 * (steps_[from].direction - steps_[to].direction);
+    }
+
+    void check_stretch(std::size_t begin, std::size_t end) {
+        for (std::size_t m = 1; m < end - begin; m *= 4) {
+            check_from_rest(begin, m);
+            if (!ceases_ || end < steps_.size()) { check_to_rest(end - 1, end, m); }
+            const std::size_t stride = std::max<std::size_t>(1, m / 4);
+            for (std::size_t n = begin; n + m < end; n += stride) { check_speed(n, m); }
+            const double jump = halts_ && end == steps_.size() ? limits_.start : 0;
+            for (std::size_t n = begin + m; n + m < end; n += stride) { check_change(n, m, jump); }
+        }
+    }
+
+    void check_speed(std::size_t n, std::size_t m) {
+        if (joints(n + 1, n + m) > 0) { return; }
+        const double feed =
+            course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * hurry_;
+        const double most = std::min(limits_.top, feed);
+        const double speed = static_cast<double>(m) / (time(n, n + m) + rounding_);
+        if (speed > most) { object("speed", n + m, speed, most, m); }
+    }
+
+    /// `jump`: a fall that is allowed at once.
+    void check_change(std::size_t n, std::size_t m, double jump) {
+        const double t1 = time(n - m, n);
+        const double t2 = time(n, n + m);
+        const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
+        const std::uint32_t jumps = joints(n - m + 1, n + m);
+        if (jumps > 0) { return check_change_with_joints(n, m, between, jumps); }
+        const auto steps = static_cast<double>(m);
+        const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
+        const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
+        const double most_rise = limits_.accel * between;
+        const double most_fall = limits_.decel * between + jump;
+        if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }
+        if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
+    }
+
+    void check_change_with_joints(std::size_t n, std::size_t m, double between, std::uint32_t jumps) {
+        struct Mean {
+            double low, high;
+        };
+        const auto mean = [this](std::size_t from, std::size_t to) {
+            const double d = distance(from, to);
+            const double fast = d / std::max(time(from, to) - 1, 1e-3);
+            const double slow = d / (time(from, to) + 1);
+            return Mean{std::min(fast, slow), std::max(fast, slow)};
+        };
+        const Mean before = mean(n - m, n);
+        const Mean after = mean(n, n + m);
+        const double change = std::max(after.low - before.high, before.low - after.high);
+        const double most = std::max(limits_.accel, limits_.decel) * between + jumps * limits_.start;
+        if (change > most) { object("sudden change", n, change, most, m); }
+    }
+
+    /// The first crossing lies at most a step from where the axis rested. Where it did not rest, but went slowly, it
+    /// may have gained speed over one step.
+    double speed_beside_rest(std::size_t gap, double rate) const {
+        const double joined = joints_beside_rest(gap) * limits_.start;
+        const bool between = gap > 0 && gap < steps_.size();
+        const double slow = between ? 1 / (time(gap - 1, gap) - rounding_) : 0;
+        const double slowest = std::max(limits_.start, slow);
+        return std::sqrt(slowest * slowest + 2 * rate) + joined;
+    }
+    void check_from_rest(std::size_t begin, std::size_t m) {
+        check_ramp("start", begin, begin, m, speed_beside_rest(begin, limits_.accel), limits_.accel);
+    }
+    void check_to_rest(std::size_t last, std::size_t end_gap, std::size_t m) {
+        check_ramp("stop", last - m, last, m, speed_beside_rest(end_gap, limits_.decel), limits_.decel);
+    }
+    void check_ramp(const char* rule, std::size_t from, std::size_t at, std::size_t m, double speed, double rate) {
+        if (joints(from + 1, from + m) > 0) { return; }
+        const double t = time(from, from + m) + rounding_;
+        const double mean = static_cast<double>(m) / t;
+        const double most = speed + rate * (t / 2 + kJointTicks);
+        if (mean > most) { object(rule, at, mean, most, m); }
+    }
+
+    void object(const char* rule, std::size_t n, double is, double most, std::size_t window) {
+        constexpr std::size_t kEnough = 1000;
+        if (violations_.size() >= kEnough) { return; }
+        char text[160];
+        std::snprintf(text, sizeof text, "%.6g steps/tick, at most %.6g, over %zu steps; start velocity %.6g", is, most,
+                      window, limits_.start);
+        violations_.push_back({rule, axis_, steps_[n].tick.value, first_ + n, text});
+    }
+
+    Limits limits_;
+    std::span<const StepEdge> steps_;
+    const AxisCourse* course_;
+    std::int64_t least_rest_;
+    std::size_t axis_;
+    std::size_t first_;
+    double rounding_;  // ticks, of the time between two steps
+    double hurry_;     // of a feed, by a clock of the device's own
+    bool ceases_;      // the last step may be followed by none, at any speed
+    bool halts_;       // in the last move, where the way left is too short to brake, the speed falls at once
+    Violations& violations_;
+};
+
+}  // namespace
+
+Violations check_limits(const Recording& recording) {
+    Violations violations;
+    for (const JobRecord& job : recording.jobs) {
+        for (std::size_t i = 0; i < recording.axes.size(); ++i) { LimitCheck(recording, job, i, violations).check(); }
+    }
+    return violations;
+}
+
+}  // namespace lockstep::simtest

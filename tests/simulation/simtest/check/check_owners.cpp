@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "core/protocol/rules.hpp"
+#include "tests/simulation/simtest/check/checks.hpp"
+#include "tests/simulation/simtest/record/motions.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+class OwnerCheck {
+public:
+    OwnerCheck(const Recording& recording, Violations& violations)
+        : recording_(recording),
+          motions_(motions_of(recording)),
+          silence_(recording.machine.slot_ticks() * (3 * recording.machine.timing.freshness_slots + 10)),
+          violations_(violations) {}
+
+    void check() {
+        for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
+            check_terms_rise(i);
+            check_run_once(i);
+            check_orders(i);
+        }
+        for (const Motion& motion : motions_) { check_followed(motion); }
+        check_one_after_the_other();
+        for (const auto& [number, epoch] : recording_.epochs) { check_begun(number, epoch); }
+        const auto& claims = recording_.claims;
+        for (std::size_t n = 1; n < claims.size(); ++n) { check_needed(claims[n - 1], claims[n]); }
+    }
+
+private:
+    /// Within a process: one that is made anew knows of no term.
+    void check_terms_rise(std::size_t i) {
+        const Followed* before = nullptr;
+        for (const Followed& now : recording_.axes[i].followed) {
+            if (before != nullptr && before->process == now.process && now.term <= before->term) {
+                object(i, now.at, "its term falls");
+            }
+            before = &now;
+        }
+    }
+
+    /// No body or tail a second time, and each as it was sent.
+    void check_run_once(std::size_t i) {
+        std::set<std::tuple<Epoch, FrameNumber, bool>> run;
+        for (const Track& track : recording_.axes[i].tracks) {
+            if (track.epoch == 0) { continue; }
+            if (!run.insert({track.epoch, track.frame, track.tail}).second) {
+                object(i, track.start, "frame " + std::to_string(track.frame) + " run a second time");
+            }
+            const auto epoch = recording_.epochs.find(track.epoch);
+            if (epoch == recording_.epochs.end() || !epoch->second.frames.contains(track.frame)) { continue; }
+            const Share& sent = epoch->second.frames.at(track.frame).shares[i];
+            const bool same =
+                track.from == (track.tail ? sent.to : sent.from) && track.to == (track.tail ? sent.rest : sent.to);
+            if (!same) { object(i, track.start, "frame " + std::to_string(track.frame) + " run with other content"); }
+        }
+    }
+
+    /// A move on its own is one that the owner it follows has ordered.
+    void check_orders(std::size_t i) {
+        for (const Motion& motion : motions_) {
+            if (motion.axis != i || motion.track == nullptr || motion.track->epoch != 0) { continue; }
+            const bool ordered = std::ranges::any_of(recording_.axes[i].orders, [&](const GivenOrder& given) {
+                return given.order.term == motion.writer && given.at <= motion.begin &&
+                       (given.order.kind == AxisCommandKind::Home || given.order.kind == AxisCommandKind::MoveOwn);
+            });
+            if (!ordered) { object(i, motion.begin, "a move that its owner did not order"); }
+        }
+    }
+
+    /// From its beginning to its end the axis follows who moves it; a process made anew may follow nobody yet.
+    void check_followed(const Motion& motion) {
+        const AxisRecord& axis = recording_.axes[motion.axis];
+        const bool known = motion.track != nullptr;
+        if (known && axis.followed_at(motion.begin).term != motion.writer) {
+            object(motion.axis, motion.begin, "it is moved by another than the owner that it follows");
+        }
+        for (const Followed& f : axis.followed) {
+            const bool meanwhile = f.at > motion.begin && f.at < motion.end;
+            if (meanwhile && f.term != motion.writer && f.term != Term{}) {
+                object(motion.axis, f.at,
+                       "it follows another owner while it moves, from tick " + std::to_string(motion.begin.value) +
+                           " to " + std::to_string(motion.end.value));
+            }
+        }
+    }
+
+    /// No axis is moved for one owner before all have come to rest that another one moved; and none comes back.
+    void check_one_after_the_other() {
+        const Motion* last = nullptr;  // of those so far the one that ends last
+        for (const Motion& motion : motions_) {
+            if (last != nullptr && motion.writer != last->writer) {
+                if (motion.begin < last->end) { object(motion.axis, motion.begin, "two owners move the machine"); }
+                if (motion.writer < last->writer) { object(motion.axis, motion.begin, "an owner's term has returned"); }
+            }
+            if (last == nullptr || motion.writer != last->writer || motion.end > last->end) { last = &motion; }
+        }
+    }
+
+    /// An owner sends frames when every axis has said that it follows it; but it may have changed within a message's
+    /// way since, and its process may have been made anew.
+    void check_begun(Epoch number, const SentEpoch& epoch) {
+        for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
+            const AxisRecord& axis = recording_.axes[i];
+            const Followed now = axis.followed_at(epoch.first_sent);
+            const bool anew = std::ranges::any_of(axis.followed, [&](const Followed& f) {
+                return f.at <= epoch.first_sent && f.term == epoch.writer && f.process != now.process;
+            });
+            const Ticks way = recording_.machine.slot_ticks() * rules::kHopSlots;
+            if (now.term == epoch.writer || anew || axis.followed_at(epoch.first_sent - way).term == epoch.writer) {
+                continue;
+            }
+            object(i, epoch.first_sent, "epoch " + std::to_string(number) + " is begun, and it follows another owner");
+        }
+    }
+
+    /// Who claims a machine has not heard its owner: since he claimed it, or shortly before, a coordinator, or a link
+    /// of one, has failed. At first all may claim.
+    void check_needed(const Claim& before, const Claim& claim) {
+        if (recording_.jobs.empty() || claim.at < recording_.jobs.front().began) { return; }
+        const auto is_coordinator = [&](std::size_t process) { return process >= recording_.axes.size(); };
+        const bool failed = std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
+            const bool concerns = is_coordinator(fault.process) || (fault.peer && is_coordinator(*fault.peer));
+            return concerns && fault.at <= claim.at && fault.end() + silence_ * 3 >= before.at;
+        });
+        if (!failed) { object({}, claim.at, "a coordinator claims a machine whose owner is well"); }
+    }
+
+    void object(std::optional<std::size_t> axis, Tick tick, std::string what) {
+        violations_.push_back({"owners", axis, tick.value, {}, std::move(what)});
+    }
+
+    const Recording& recording_;
+    std::vector<Motion> motions_;
+    Ticks silence_;
+    Violations& violations_;
+};
+
+}  // namespace
+
+Violations check_owners(const Recording& recording) {
+    Violations violations;
+    OwnerCheck(recording, violations).check();
+    return violations;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,81 @@
+#include <algorithm>
+
+#include "tests/simulation/simtest/check/checks.hpp"
+#include "tests/simulation/simtest/record/explain.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// Something that the machine need not bear without a pause had a say in the epoch that was over at this tick.
+bool is_disturbed(const Recording& recording, Tick over) {
+    if (recording.lossy()) { return true; }
+    Tick begun = recording.began;
+    for (const Tick tick : recording.epochs_begun) { begun = tick < over ? tick : begun; }
+    const Ticks echo = recording.machine.slot_ticks() * recording.machine.timing.send_ahead_slots;
+    return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        const bool meets = fault.at <= over && fault.end() + echo >= begun;
+        return meets && !is_tolerable(fault, recording.machine);
+    });
+}
+
+void check_emergency(const Recording& recording, const Emergency& emergency, Violations& violations) {
+    const Tick ceased = emergency.asked + recording.machine.slot_ticks() * kCeaseSlots;
+    const bool faulty = std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        return fault.at <= ceased && fault.end() >= emergency.asked;
+    });
+    if (recording.lossy() || faulty) { return; }
+    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        for (const StepEdge& step : recording.axes[i].steps) {
+            const Tick tick = recording.axes[i].truth(step);
+            if (tick > ceased && tick <= emergency.rests) {
+                violations.push_back({"emergency", i, tick.value, {}, "a pulse after pulses were told to cease"});
+                break;
+            }
+        }
+    }
+}
+
+/// The device makes no pulse towards a limit switch that is closed.
+void check_limit(const Recording& recording, const VirtualFault& fault, Violations& violations) {
+    const bool is_limit =
+        fault.kind == VirtualFault::Kind::Stick && fault.closed && fault.contact != &PlantInputs::home;
+    if (!is_limit) { return; }
+    const int towards = fault.contact == &PlantInputs::limit_min ? -1 : 1;
+    const Ticks rounding{2};  // of the device's time to the true one
+    for (const StepEdge& step : recording.axes[fault.process].steps) {
+        const Tick tick = recording.axes[fault.process].truth(step);
+        if (step.direction != towards || tick <= fault.at + rounding || tick + rounding > fault.end()) { continue; }
+        violations.push_back({"limit", fault.process, tick.value, {}, "a pulse towards a limit switch that is closed"});
+        return;
+    }
+}
+
+/// A motion that was cut short is said, before anything else is begun.
+void check_cut_is_said(const Recording& recording, std::size_t i, const Track& track, Violations& violations) {
+    const auto next = recording.epochs.upper_bound(track.epoch);
+    if (!track.cut || track.epoch == 0 || next == recording.epochs.end()) { return; }
+    const bool said = std::ranges::any_of(recording.machine_faults, [&](Tick tick) {
+        return tick >= recording.epochs.at(track.epoch).first_sent && tick <= next->second.first_sent;
+    });
+    if (said) { return; }
+    violations.push_back({"limit", i, track.start.value, {}, "its motion was cut short, and the machine goes on"});
+}
+
+}  // namespace
+
+Violations check_stops(const Recording& recording) {
+    Violations violations;
+    for (const Emergency& emergency : recording.emergencies) { check_emergency(recording, emergency, violations); }
+    for (const Tick tick : recording.interruptions) {
+        if (!is_disturbed(recording, tick)) {
+            violations.push_back({"needless stop", {}, tick.value, {}, "the machine paused for nothing"});
+        }
+    }
+    for (const VirtualFault& fault : recording.faults) { check_limit(recording, fault, violations); }
+    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        for (const Track& track : recording.axes[i].tracks) { check_cut_is_said(recording, i, track, violations); }
+    }
+    return violations;
+}
+
+}  // namespace lockstep::simtest

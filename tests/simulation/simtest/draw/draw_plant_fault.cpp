@@ -1,0 +1,61 @@
+#include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
+
+#include <algorithm>
+
+namespace lockstep::simtest {
+namespace {
+
+using Kind = VirtualFault::Kind;
+
+/// More than rounding makes of a step, at most a twentieth of the travel.
+std::int64_t draw_push(Draw& draw, const AxisConfig& axis) {
+    const double travel = (axis.position_max_mm - axis.position_min_mm) * axis.steps_per_mm;
+    const auto steps = static_cast<std::int64_t>(draw.magnitude(6, std::max(7.0, travel / 20)));
+    return draw.chance(0.5) ? steps : -steps;
+}
+
+VirtualFault draw_of(Draw& draw, const MachineConfig& machine, Kind kind, double lasts_slots) {
+    VirtualFault fault{.kind = kind, .process = draw.index(machine.axes.size()), .lasts = {1}};
+    if (kind == Kind::Push) { fault.push_steps = draw_push(draw, machine.axes[fault.process]); }
+    if (kind != Kind::Stick) { return fault; }
+    fault.contact = draw.chance(0.5) ? &PlantInputs::limit_min : &PlantInputs::limit_max;
+    const double slots = std::max(1.0, lasts_slots);
+    fault.lasts = {static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value))};
+    return fault;
+}
+
+double slots_of(double seconds, const MachineConfig& machine) {
+    return seconds * 1e6 / static_cast<double>(machine.timing.slot_us);
+}
+
+}  // namespace
+
+PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine) {
+    const Kind kind = draw.any_of({Kind::Stick, Kind::Stick, Kind::Stick, Kind::Push, Kind::Push, Kind::DamageFrame});
+    PlannedFault planned{.fault = draw_of(draw, machine, kind, draw.magnitude(1, 10.0 * machine.timing.frame_slots))};
+    if (kind == Kind::Stick && draw.chance(0.1)) { planned.fault.contact = &PlantInputs::home; }
+    planned.frame = draw.chance(0.3) ? 1 : 1 + static_cast<FrameNumber>(draw.magnitude(1, 60));
+    planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
+    planned.slots = draw.chance(0.5) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
+    if (kind != Kind::Stick || !draw.chance(0.25)) { return planned; }
+    // It is closed before the axis makes its first step.
+    planned.frame = 1;
+    planned.edge = PlannedFault::Edge::FirstSend;
+    const int until_moving = machine.timing.send_ahead_slots + machine.timing.frame_slots;
+    planned.fault.lasts = std::max(planned.fault.lasts, machine.slot_ticks() * until_moving);
+    return planned;
+}
+
+/// The home switch may be stuck closed, or open.
+PlannedFault draw_plant_fault_of_homing(Draw& draw, const MachineConfig& machine) {
+    const Kind kind = draw.any_of({Kind::Stick, Kind::Stick, Kind::Stick, Kind::Push});
+    PlannedFault planned{.fault = draw_of(draw, machine, kind, slots_of(draw.magnitude(0.01, 10), machine))};
+    if (kind == Kind::Stick && draw.chance(0.6)) {
+        planned.fault.contact = &PlantInputs::home;
+        planned.fault.closed = draw.chance(0.5);
+    }
+    planned.slots = slots_of(draw.magnitude(0.001, 5), machine);
+    return planned;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,15 @@
+// Faults of what hangs on an axis: switches that are stuck, a slide that is pushed, a device that loses a frame.
+#pragma once
+
+#include "tests/simulation/simtest/draw/draw.hpp"
+#include "tests/simulation/simtest/draw/scenario.hpp"
+
+namespace lockstep::simtest {
+
+/// For a job, or shortly before it.
+PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine);
+
+/// For a homing.
+PlannedFault draw_plant_fault_of_homing(Draw& draw, const MachineConfig& machine);
+
+}  // namespace lockstep::simtest

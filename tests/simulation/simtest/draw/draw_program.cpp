@@ -1,0 +1,149 @@
+#include "tests/simulation/simtest/draw/draw_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lockstep::simtest {
+namespace {
+
+constexpr double kProgramSeconds = 3;  // about; what is drawn ends there
+constexpr std::int64_t kMostGroups = 8;
+
+class ProgramDrawer {
+public:
+    ProgramDrawer(Draw& draw, const MachineConfig& machine) : draw_(draw), machine_(machine) {
+        for (std::size_t i = 0; i < machine.axes.size(); ++i) { places_.push_back(i); }
+        for (std::size_t i = places_.size(); i > 1; --i) { std::swap(places_[i - 1], places_[draw.index(i)]); }
+        if (draw.chance(0.2)) { places_.resize(1 + draw.index(places_.size())); }
+        program_.name = "drawn";
+        for (const std::size_t place : places_) {
+            program_.axes.push_back(machine.axes[place].name);
+            at_.push_back(draw.real(axis(at_.size()).position_min_mm, axis(at_.size()).position_max_mm));
+        }
+    }
+
+    Program take() {
+        for (std::int64_t groups = draw_.whole(1, kMostGroups); groups > 0 && seconds_ < kProgramSeconds; --groups) {
+            group();
+        }
+        return std::move(program_);
+    }
+
+private:
+    const AxisConfig& axis(std::size_t i) const { return machine_.axes[places_[i]]; }
+    double step_mm(std::size_t i) const { return 1 / axis(i).steps_per_mm; }
+    double inside(std::size_t i, double mm) const {
+        return std::clamp(mm, axis(i).position_min_mm, axis(i).position_max_mm);
+    }
+
+    void group() {
+        switch (draw_.index(9)) {
+            case 0:
+            case 1: return anywhere();
+            case 2: return reversal();
+            case 3: return single_steps();
+            case 4: return polyline();
+            case 5: return zigzag();
+            case 6: return from_end_to_end();
+            case 7: return add(Dwell{draw_.chance(0.3) ? 1e-6 : draw_.magnitude(1e-4, 0.2)});
+            default: return draw_.chance(0.5) ? add(Pause{}) : move(at_, true);  // or a move to where it stands
+        }
+    }
+
+    void anywhere() {
+        std::vector<double> to = at_;
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            if (draw_.chance(0.7)) { to[i] = draw_.real(axis(i).position_min_mm, axis(i).position_max_mm); }
+        }
+        move(to, draw_.chance(0.5));
+    }
+
+    void reversal() {
+        const std::vector<double> from = at_;
+        anywhere();
+        move(from, draw_.chance(0.5));
+    }
+
+    void single_steps() {
+        for (std::int64_t n = draw_.whole(1, 6); n > 0; --n) {
+            std::vector<double> to = at_;
+            const std::size_t i = draw_.index(to.size());
+            to[i] = inside(i, to[i] + step_mm(i) * static_cast<double>(draw_.whole(-3, 3)));
+            move(to, draw_.chance(0.5));
+        }
+    }
+
+    /// A curve of two axes in chords, as long as a few steps or many.
+    void polyline() {
+        const std::size_t a = draw_.index(at_.size());
+        const std::size_t b = draw_.index(at_.size());
+        const double chord = draw_.magnitude(1, 400);
+        const double bend = draw_.real(-0.6, 0.6);
+        const bool rapid = draw_.chance(0.3);
+        double heading = draw_.real(0, 2 * std::numbers::pi);
+        for (std::int64_t n = draw_.whole(5, 40); n > 0; --n, heading += bend) {
+            std::vector<double> to = at_;
+            to[a] = inside(a, to[a] + chord * step_mm(a) * std::cos(heading));
+            to[b] = inside(b, to[b] + chord * step_mm(b) * std::sin(heading));
+            move(to, rapid);
+        }
+    }
+
+    /// Sharp corners, each a little way off the last.
+    void zigzag() {
+        const double width = draw_.magnitude(1, 2000);
+        for (std::int64_t n = draw_.whole(2, 12); n > 0; --n) {
+            std::vector<double> to = at_;
+            for (std::size_t i = 0; i < to.size(); ++i) {
+                to[i] = inside(i, to[i] + draw_.real(-width, width) * step_mm(i));
+            }
+            move(to, draw_.chance(0.7));
+        }
+    }
+
+    void from_end_to_end() {
+        std::vector<double> to = at_;
+        const std::size_t i = draw_.index(to.size());
+        to[i] = draw_.chance(0.5) ? axis(i).position_min_mm : axis(i).position_max_mm;
+        move(to, draw_.chance(0.7));
+    }
+
+    /// A feed below, at or above what the machine can do, but not so slow that nothing else would happen. The first
+    /// move comes from wherever the machine stands: rapid, since a feed would be for another distance.
+    void move(const std::vector<double>& to, bool is_rapid) {
+        const bool rapid = is_rapid || !moved_;
+        moved_ = true;
+        double least_s = 1e-6;
+        double square = 0;
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const double mm = to[i] - at_[i];
+            least_s = std::max(least_s, std::abs(mm) / axis(i).max_velocity_mm_s);
+            square += mm * mm;
+        }
+        const double slower = rapid ? 1 : draw_.magnitude(0.5, std::max(1.0, std::min(30.0, 1.5 / least_s)));
+        const double feed = std::sqrt(square) / (least_s * slower);
+        add(LinearMove{to, rapid ? 0 : std::clamp(feed, 1e-3, kMaxFeed_mm_s), rapid});
+        seconds_ += least_s * slower;
+        at_ = to;
+    }
+
+    template <typename Action>
+    void add(Action action) {
+        program_.blocks.push_back({static_cast<std::int32_t>(program_.blocks.size() + 1), std::move(action)});
+    }
+
+    Draw& draw_;
+    const MachineConfig& machine_;
+    std::vector<std::size_t> places_;  // of the program's axes in the machine
+    Program program_;
+    std::vector<double> at_;
+    double seconds_ = 0;
+    bool moved_ = false;
+};
+
+}  // namespace
+
+Program draw_program(Draw& draw, const MachineConfig& machine) { return ProgramDrawer(draw, machine).take(); }
+
+}  // namespace lockstep::simtest

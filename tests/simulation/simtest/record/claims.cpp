@@ -1,0 +1,31 @@
+#include "tests/simulation/simtest/record/claims.hpp"
+
+#include <cmath>
+
+namespace lockstep::simtest {
+
+void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
+    if (!out.state) { return; }
+    const AxisState& state = *out.state;
+    const std::int64_t claimed = state.position.count();
+    if (claimed + node.controller().zero_count() != pulses_[axis]) {
+        object(axis, now,
+               "it says step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
+    }
+    // The switch closes within a step of where it is said to be, and whole steps are half a step off at most.
+    constexpr double kHomedWithin = 2;
+    const double slide = vm_.device(axis).plant().position_mm() * vm_.machine().axes[axis].steps_per_mm;
+    if (state.homed && std::abs(slide - static_cast<double>(claimed)) > kHomedWithin) {
+        object(axis, now,
+               "it says that it is homed at step " + std::to_string(claimed) + ", its slide is at step " +
+                   std::to_string(slide));
+    }
+    if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it says that it rests, and moves"); }
+}
+
+void ClaimCheck::object(std::size_t axis, Tick now, const std::string& what) {
+    constexpr std::size_t kEnough = 20;
+    if (recording_.untrue.size() < kEnough) { recording_.untrue.push_back({"claim", axis, now.value, {}, what}); }
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,27 @@
+// Whether what each axis says of itself is true, at every one of its states: judged by its pulses and its slide.
+#pragma once
+
+#include <vector>
+
+#include "services/virtual/virtual_machine.hpp"
+#include "tests/simulation/simtest/record/recording.hpp"
+
+namespace lockstep::simtest {
+
+class ClaimCheck : public VirtualObserver {
+public:
+    ClaimCheck(VirtualMachine& vm, Recording& recording)
+        : vm_(vm), recording_(recording), pulses_(recording.axes.size(), 0) {}
+
+    void on_step(std::size_t axis, StepEdge step) override { pulses_[axis] += step.direction; }
+    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+
+private:
+    void object(std::size_t axis, Tick now, const std::string& what);
+
+    VirtualMachine& vm_;
+    Recording& recording_;
+    std::vector<std::int64_t> pulses_;  // since power-up
+};
+
+}  // namespace lockstep::simtest

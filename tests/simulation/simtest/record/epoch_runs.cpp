@@ -1,0 +1,115 @@
+#include "tests/simulation/simtest/record/epoch_runs.hpp"
+
+#include <algorithm>
+
+#include "tests/simulation/simtest/record/explain.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+std::int64_t pulses_at(Position at) { return static_cast<std::int64_t>((at.raw + (Int128{1} << 63)) >> 64); }
+
+/// What the steps of an axis between two of its recorded tracks amount to.
+std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
+    const Tick from = tracks == 0 ? Tick{} : axis.tracks[tracks - 1].start + axis.tracks[tracks - 1].ticks;
+    const bool more = tracks < axis.tracks.size();
+    std::int64_t net = 0;
+    for (const StepEdge& step : axis.steps) {
+        if (step.tick > from && (!more || step.tick <= axis.tracks[tracks].start)) { net += step.direction; }
+    }
+    return net;
+}
+
+/// Faults that can have had a say in an epoch, from when its first frame was made to the end of its last.
+std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
+    const ProtocolTiming& t = recording.machine.timing;
+    const Ticks slot = recording.machine.slot_ticks();
+    const Tick from = epoch.frames.begin()->second.start - slot * (2 * t.send_ahead_slots);
+    const SentFrame& last = epoch.frames.rbegin()->second;
+    std::vector<VirtualFault> faults;
+    for (const VirtualFault& fault : recording.faults) {
+        if (fault.at <= last.start + last.ticks && fault.end() >= from) { faults.push_back(fault); }
+    }
+    return faults;
+}
+
+bool is_emergency_in(const Recording& recording, const SentEpoch& epoch) {
+    const SentFrame& last = epoch.frames.rbegin()->second;
+    const Tick from = epoch.frames.begin()->second.start -
+                      recording.machine.slot_ticks() * 2 * recording.machine.timing.send_ahead_slots;
+    return std::ranges::any_of(recording.emergencies, [&](const Emergency& e) {
+        return e.asked <= last.start + last.ticks && e.rests >= from;
+    });
+}
+
+/// Whether pulses may have ceased anywhere: then what the steps amount to tells nothing.
+bool may_be_cut(const Recording& recording, const SentEpoch& epoch, std::size_t axis) {
+    const SentFrame& last = epoch.frames.rbegin()->second;
+    return is_emergency_in(recording, epoch) ||
+           may_be_stopped(recording, axis, epoch.frames.begin()->second.start, last.start + last.ticks);
+}
+
+LastFrame from_steps(const Recording& recording, const LostRun& lost, const SentEpoch& epoch, std::size_t i) {
+    const LastFrame any{lost.recorded, lost.armed};
+    if (may_be_cut(recording, epoch, i)) { return any; }
+    const std::int64_t net = unrecorded_steps(recording.axes[i], lost.tracks);
+    std::optional<LastFrame> found;
+    for (FrameNumber k = lost.recorded; k <= lost.armed && (k == 0 || epoch.frames.contains(k)); ++k) {
+        if (steps_to_rest(epoch, i, lost.recorded, k) != net) { continue; }
+        found = LastFrame{found ? found->low : k, k};
+    }
+    return found.value_or(any);
+}
+
+/// One fault at a time parts at most its victim. Several, or pulses that cease, may part anyone.
+std::vector<bool> may_differ(const Recording& recording, const SentEpoch& epoch) {
+    const std::vector<VirtualFault> faults = faults_in(recording, epoch);
+    const std::size_t axes = recording.axes.size();
+    const bool several = faults.size() + (recording.lossy() ? 1 : 0) > 1;
+    if (several || is_emergency_in(recording, epoch)) { return std::vector<bool>(axes, true); }
+    std::vector<bool> may(axes, false);
+    for (const VirtualFault& fault : faults) {
+        if (const auto victim = may_be_apart(fault, recording.machine)) { may[*victim] = true; }
+    }
+    return may;
+}
+
+EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epoch) {
+    EpochRuns runs{.may_differ = may_differ(recording, epoch)};
+    FrameNumber least = epoch.frames.rbegin()->first;
+    FrameNumber most = 0;
+    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        const AxisRecord& axis = recording.axes[i];
+        LastFrame last;
+        for (const Track& track : axis.tracks) {
+            if (track.epoch == number) { last.low = last.high = std::max(last.high, track.frame); }
+        }
+        for (const LostRun& lost : axis.lost) {
+            if (lost.epoch == number) { last = from_steps(recording, lost, epoch, i); }
+        }
+        runs.last.push_back(last);
+        least = std::min(least, last.high);
+        most = std::max(most, last.low);
+    }
+    runs.apart = least < most;
+    if (runs.apart) { runs.parted = epoch.frames.at(least + 1).start; }
+    return runs;
+}
+
+}  // namespace
+
+std::int64_t steps_to_rest(const SentEpoch& epoch, std::size_t axis, FrameNumber recorded, FrameNumber k) {
+    if (k == 0) { return 0; }
+    const Share& end = epoch.frames.at(k).shares[axis];
+    const Position from =
+        recorded == 0 ? epoch.frames.at(1).shares[axis].from : epoch.frames.at(recorded).shares[axis].to;
+    return pulses_at(end.rest) - pulses_at(from);
+}
+
+std::map<Epoch, EpochRuns> epoch_runs(const Recording& recording) {
+    std::map<Epoch, EpochRuns> all;
+    for (const auto& [number, epoch] : recording.epochs) { all[number] = runs_of(recording, number, epoch); }
+    return all;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,142 @@
+#include "tests/simulation/simtest/record/explain.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace lockstep::simtest {
+namespace {
+
+enum class Cause : std::uint8_t {
+    EmergencyStop,
+    Loss,
+    Corruption,
+    Freeze,
+    Stall,
+    CrashOfAxis,
+    CrashOfCoordinator,
+    Cut,
+    SetClock,
+    Switch,
+    Push,
+    DamagedFrame,
+    Device,
+    OwnClocks
+};
+
+struct Explanation {
+    Cause cause;
+    FaultCode fault;
+};
+
+constexpr std::array kExplanations{
+    Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopped},
+    // Three epochs in a row in which no frame was run; one axis that heard otherwise than the others.
+    Explanation{Cause::Loss, FaultCode::FrameLate},
+    Explanation{Cause::Loss, FaultCode::FramesDiffer},
+    Explanation{Cause::Corruption, FaultCode::FrameLate},
+    Explanation{Cause::Corruption, FaultCode::FramesDiffer},
+    // A state of an unknown process, or in another's name, is that of an axis that has restarted.
+    Explanation{Cause::Corruption, FaultCode::AxisLost},
+    // A state with another position is an axis that is elsewhere.
+    Explanation{Cause::Corruption, FaultCode::PositionMismatch},
+    Explanation{Cause::Freeze, FaultCode::FramesDiffer},
+    Explanation{Cause::Freeze, FaultCode::AxisLost},
+    // The first frame of a run, armed when its start has gone by: the device refuses it.
+    Explanation{Cause::Stall, FaultCode::DeviceFault},
+    Explanation{Cause::CrashOfAxis, FaultCode::AxisLost},
+    Explanation{Cause::Cut, FaultCode::FrameLate},
+    Explanation{Cause::Cut, FaultCode::FramesDiffer},
+    Explanation{Cause::Cut, FaultCode::AxisLost},
+    // By a clock that is seconds off an axis says nothing in time, and hears nothing in time.
+    Explanation{Cause::SetClock, FaultCode::FrameLate},
+    Explanation{Cause::SetClock, FaultCode::FramesDiffer},
+    Explanation{Cause::SetClock, FaultCode::AxisLost},
+    Explanation{Cause::Switch, FaultCode::LimitHit},
+    Explanation{Cause::Switch, FaultCode::HomeSwitchStuck},
+    Explanation{Cause::Switch, FaultCode::HomeSwitchNotFound},
+    Explanation{Cause::Switch, FaultCode::HomeSwitchUnsteady},
+    // Onto a limit in a search, or back behind the switch.
+    Explanation{Cause::Push, FaultCode::HomeSwitchNotFound},
+    Explanation{Cause::Push, FaultCode::HomeSwitchStuck},
+    Explanation{Cause::Push, FaultCode::HomeSwitchUnsteady},
+    Explanation{Cause::Push, FaultCode::FollowingError},
+    Explanation{Cause::Push, FaultCode::LimitHit},
+    Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
+    Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
+    Explanation{Cause::Device, FaultCode::DeviceLost},
+    // Whoever does not hear the coordinator's clock for long is no longer certain of it.
+    Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
+};
+
+bool is_coordinator(const VirtualFault& fault, const MachineConfig& machine) {
+    return fault.process >= machine.axes.size();
+}
+
+Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
+    switch (fault.kind) {
+        case VirtualFault::Kind::Freeze: return Cause::Freeze;
+        case VirtualFault::Kind::Crash:
+            return is_coordinator(fault, machine) ? Cause::CrashOfCoordinator : Cause::CrashOfAxis;
+        case VirtualFault::Kind::SetClock: return Cause::SetClock;
+        case VirtualFault::Kind::Stick: return Cause::Switch;
+        case VirtualFault::Kind::Push: return Cause::Push;
+        case VirtualFault::Kind::DamageFrame: return Cause::DamagedFrame;
+        case VirtualFault::Kind::StopDevice:
+        case VirtualFault::Kind::KillDevice:
+        case VirtualFault::Kind::Overwrite: return Cause::Device;
+        case VirtualFault::Kind::Cut: break;
+    }
+    return Cause::Cut;
+}
+
+std::vector<Cause> causes_in(const Recording& recording) {
+    std::vector<Cause> causes;
+    if (!recording.emergencies.empty()) { causes.push_back(Cause::EmergencyStop); }
+    if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
+    if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
+    for (const VirtualFault& fault : recording.faults) {
+        causes.push_back(cause_of(fault, recording.machine));
+        if (fault.in_loop) { causes.push_back(Cause::Stall); }
+    }
+    const bool disturbed = recording.lossy() || !recording.faults.empty();
+    if (disturbed && recording.machine.timing.time_source == TimeSource::Network) {
+        causes.push_back(Cause::OwnClocks);
+    }
+    return causes;
+}
+
+}  // namespace
+
+bool explains(const Recording& recording, FaultCode fault) {
+    const std::vector<Cause> causes = causes_in(recording);
+    return std::ranges::any_of(kExplanations, [&](const Explanation& e) {
+        return e.fault == fault && std::ranges::find(causes, e.cause) != causes.end();
+    });
+}
+
+bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine) {
+    if (fault.kind == VirtualFault::Kind::Stick && fault.contact == &PlantInputs::home) { return true; }
+    if (fault.kind != VirtualFault::Kind::Freeze) { return false; }
+    const ProtocolTiming& t = machine.timing;
+    // A coordinator must not only be back in time, but make and send the next frame in time.
+    const int sends = t.send_ahead_slots - t.send_deadline_slots();
+    const int slots = is_coordinator(fault, machine) ? std::min(t.stall_slots, sends) : t.stall_slots;
+    return fault.lasts <= machine.slot_ticks() * slots;
+}
+
+std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const MachineConfig& machine) {
+    if (is_coordinator(fault, machine) || is_tolerable(fault, machine)) { return std::nullopt; }
+    const bool cut_off = !fault.peer && fault.outgoing && fault.incoming;
+    if (fault.kind == VirtualFault::Kind::Cut && !cut_off) { return std::nullopt; }
+    return fault.process;
+}
+
+bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
+    return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        const bool mine = fault.is_of_plant() && fault.process == axis;
+        const bool over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
+        return mine && !over && fault.at <= until;
+    });
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,21 @@
+// What each injected fault may lead to. What it may not is a violation.
+#pragma once
+
+#include "tests/simulation/simtest/record/recording.hpp"
+
+namespace lockstep::simtest {
+
+/// Whether this Fault of the machine is one that what has gone wrong in the run so far explains.
+bool explains(const Recording& recording, FaultCode fault);
+
+/// Whether the machine must not even pause for it.
+bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine);
+
+/// The axis that may have run a frame more or less than the others for it; nothing: none may.
+std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const MachineConfig& machine);
+
+/// Whether a switch may end this axis's motion at once between these instants: one is stuck then, or the slide was
+/// pushed before and may come upon one.
+bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until);
+
+}  // namespace lockstep::simtest

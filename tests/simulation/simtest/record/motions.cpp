@@ -1,0 +1,68 @@
+#include "tests/simulation/simtest/record/motions.hpp"
+
+#include <algorithm>
+
+namespace lockstep::simtest {
+namespace {
+
+Tick ended(const Track& track) { return track.start + track.ticks; }
+
+/// Of the steps in (after, until], by the device's time: the last one; `after`: there is none.
+Tick last_step(const AxisRecord& axis, Tick after, std::optional<Tick> until) {
+    Tick last = after;
+    for (const StepEdge& step : axis.steps) {
+        if (step.tick > after && (!until || step.tick <= *until)) { last = step.tick; }
+    }
+    return last;
+}
+
+/// Who sent the frame; who was followed, of a move of the axis on its own.
+Term writer_of(const Recording& recording, std::size_t axis, Epoch epoch, Tick at) {
+    const auto sent = recording.epochs.find(epoch);
+    return sent == recording.epochs.end() ? recording.axes[axis].followed_at(at).term : sent->second.writer;
+}
+
+/// One that was cut short is over with its last step before the next begins.
+Motion motion_of(const Recording& recording, std::size_t i, std::size_t n) {
+    const AxisRecord& axis = recording.axes[i];
+    const Track& track = axis.tracks[n];
+    Motion motion{.axis = i, .begin = track.commanded, .end = track.commanded + track.commanded_ticks};
+    if (track.cut) {
+        const bool more = n + 1 < axis.tracks.size();
+        const Tick until = more ? std::min(ended(track), axis.tracks[n + 1].start) : ended(track);
+        motion.end = motion.begin + (last_step(axis, track.start, until) - track.start);
+    }
+    motion.writer = writer_of(recording, i, track.epoch, motion.begin);
+    motion.track = &track;
+    return motion;
+}
+
+/// What was run and not said, by its steps; nothing: none was made.
+std::optional<Motion> motion_of(const Recording& recording, std::size_t i, const LostRun& lost) {
+    const AxisRecord& axis = recording.axes[i];
+    const Tick from = lost.tracks == 0 ? axis.power_up : ended(axis.tracks[lost.tracks - 1]);
+    const bool more = lost.tracks < axis.tracks.size();
+    const Tick to = last_step(axis, from, more ? std::optional(axis.tracks[lost.tracks].start) : std::nullopt);
+    if (to == from) { return std::nullopt; }
+    Motion motion{.axis = i, .begin = lost.at, .end = std::max(lost.at, axis.truth({to, 1}))};
+    motion.writer = writer_of(recording, i, lost.epoch, lost.at);
+    return motion;
+}
+
+}  // namespace
+
+std::vector<Motion> motions_of(const Recording& recording) {
+    std::vector<Motion> motions;
+    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        for (std::size_t n = 0; n < recording.axes[i].tracks.size(); ++n) {
+            motions.push_back(motion_of(recording, i, n));
+        }
+        for (const LostRun& lost : recording.axes[i].lost) {
+            if (const auto motion = motion_of(recording, i, lost)) { motions.push_back(*motion); }
+        }
+    }
+    std::ranges::stable_sort(motions, {}, &Motion::begin);
+    return motions;
+}
+
+}  // namespace lockstep::simtest

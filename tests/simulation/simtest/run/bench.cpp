@@ -1,0 +1,140 @@
+#include "tests/simulation/simtest/run/bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock/clock_asker.hpp"
+#include "tests/simulation/simtest/record/explain.hpp"
+
+namespace lockstep::simtest {
+
+namespace {
+
+/// From top speed, where nothing but its own limit holds an axis up.
+double longest_stop_seconds(const MachineConfig& machine) {
+    double longest = 0;
+    for (const AxisConfig& axis : machine.axes) {
+        longest = std::max(longest, axis.max_velocity_mm_s / axis.max_decel_mm_s2);
+    }
+    return longest;
+}
+
+/// Of everything that is planned, and what it takes to be heard again each time.
+double outage_seconds(const Scenario& scenario) {
+    const ProtocolTiming& t = scenario.machine.timing;
+    double slots = 0;
+    double stops_s = 0;
+    const auto add = [&](const std::vector<PlannedFault>& faults) {
+        for (const PlannedFault& planned : faults) {
+            slots += static_cast<double>(planned.fault.lasts.value) /
+                     static_cast<double>(scenario.machine.slot_ticks().value);
+            slots += 4 * static_cast<double>(rules::silence_slots(t));
+            stops_s += longest_stop_seconds(scenario.machine);
+        }
+    };
+    add(scenario.homing_faults);
+    for (const Task& task : scenario.tasks) { add(task.faults); }
+    const double asking_s = scenario.clocks.empty() ? 0 : 4 * ClockAsker::kPeriod_s;  // for the time, in vain at first
+    return slots * static_cast<double>(t.slot_us) * 1e-6 + stops_s + asking_s;
+}
+
+}  // namespace
+
+Bench::Bench(const Scenario& scenario, Played& played)
+    : scenario_(scenario),
+      played_(played),
+      vm_({.machine = scenario.machine,
+           .seed = scenario.seed,
+           .network = scenario.network,
+           .start = scenario.power_up,
+           .on_takeover = scenario.on_takeover,
+           .coordinators = scenario.coordinators,
+           .clocks = scenario.clocks}),
+      recorder_(played.recording),
+      watch_(vm_, scenario.on_takeover),
+      placer_(vm_),
+      claims_(vm_, played.recording),
+      coverage_(scenario.machine, played.coverage),
+      outage_s_(outage_seconds(scenario)) {
+    const std::initializer_list<VirtualObserver*> all{&recorder_, &watch_, &placer_, &claims_, &coverage_};
+    for (VirtualObserver* observer : all) { vm_.observe(*observer); }
+}
+
+void Bench::object(const std::string& rule, const std::string& text) {
+    played_.violations.push_back({rule, {}, vm_.now().value, {}, text});
+    over_ = true;
+}
+
+bool Bench::await(const std::function<bool()>& done, double seconds, const std::string& what) {
+    if (over_) { return false; }
+    const Ticks limit{static_cast<std::int64_t>(std::ceil((seconds + outage_s_) * machine().ticks_per_second()))};
+    const bool in_time = vm_.advance_until([&] { return done() || faulted(); }, limit);
+    if (done()) { return true; }
+    if (faulted() && !explains(played_.recording, watch_.fault())) {
+        object("fault", "while " + what + ": " + std::string(name_of(watch_.fault())));
+    } else if (!faulted() && !in_time) {
+        object("liveness", what + " takes longer than " + std::to_string(seconds + outage_s_) + " s");
+    }
+    return false;
+}
+
+void Bench::wait(double seconds) {
+    const Tick until = vm_.now() + Ticks{static_cast<std::int64_t>(seconds * machine().ticks_per_second())};
+    while (vm_.now() < until) { vm_.advance(); }
+}
+
+void Bench::settle(double seconds) {
+    if (over_) { return; }
+    vm_.withdraw_faults();
+    const ProtocolTiming& t = machine().timing;
+    const Ticks rest = machine().slot_ticks() * (t.send_ahead_slots + 2 * t.frame_slots);
+    const Tick from = vm_.now();
+    const Ticks limit{static_cast<std::int64_t>(std::ceil((seconds + outage_s_) * machine().ticks_per_second()))};
+    const auto settled = [&] {
+        return !vm_.faults_pending() && vm_.now() - from > rest && vm_.now() - watch_.moved() > rest;
+    };
+    if (!vm_.advance_until(settled, limit + rest)) { object("liveness", "the machine does not come to rest"); }
+}
+
+const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
+    return over_ ? nullptr : await_reply(vm_.command(kind, 0, program));
+}
+
+const Reply* Bench::turn(const Overrides& overrides) { return over_ ? nullptr : await_reply(vm_.turn(overrides)); }
+
+double Bench::most_feed() const {
+    double most = 1;
+    for (const Task& task : scenario_.tasks) {
+        for (const Interrupt& interrupt : task.interrupts) { most = std::max(most, interrupt.overrides.feed()); }
+    }
+    return most;
+}
+
+/// A coordinator started anew is followed, and answers, when the axes rest; a tail along a path may be a long one.
+const Reply* Bench::await_reply(std::uint64_t sequence) {
+    constexpr int kMostRepeats = 20;
+    const Tick asked = vm_.now();
+    const Ticks patience{static_cast<std::int64_t>(outage_s_ * machine().ticks_per_second())};
+    for (int tries = 0; vm_.reply_to(sequence) == nullptr && may_lose(); ++tries) {
+        if (tries > kMostRepeats && vm_.now() > std::max(asked, watch_.moved()) + patience) { break; }
+        wait_slots(kAnswerSlots);
+        if (vm_.reply_to(sequence) == nullptr) { vm_.repeat_command(); }
+    }
+    const Tick deadline = vm_.now() + machine().slot_ticks() * static_cast<std::int64_t>(kAnswerSlots);
+    while (vm_.reply_to(sequence) == nullptr && vm_.now() < deadline) { vm_.advance(); }
+    if (vm_.reply_to(sequence) == nullptr) { object("liveness", "no answer to a command"); }
+    return vm_.reply_to(sequence);
+}
+
+std::uint64_t Bench::send_program(Program program) {
+    vm_.give_program(++programs_, std::move(program));
+    return programs_;
+}
+
+std::vector<std::size_t> Bench::steps_made() const {
+    std::vector<std::size_t> made;
+    for (const AxisRecord& axis : played_.recording.axes) { made.push_back(axis.steps.size()); }
+    return made;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,93 @@
+#include "tests/simulation/simtest/run/play.hpp"
+
+#include <cmath>
+
+#include "tests/simulation/simtest/record/explain.hpp"
+#include "tests/simulation/simtest/run/play_job.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// The slide stands where it should, by its true place: within two steps, by what whole steps make of the switch's.
+void check_slides(Bench& bench, const Counts& at) {
+    for (std::size_t i = 0; i < at.size() && !bench.over(); ++i) {
+        const AxisConfig& axis = bench.machine().axes[i];
+        const double mm = static_cast<double>(at[i]) / axis.steps_per_mm;
+        const double is = bench.vm().device(i).plant().position_mm();
+        if (std::abs(is - mm) * axis.steps_per_mm > 2) {
+            bench.object("place",
+                         axis.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));
+        }
+    }
+}
+
+/// What the axes say, what their encoders saw and what their pulses add up to is the same.
+void check_places(Bench& bench, const Counts& at) {
+    bench.wait_slots(bench.lossy() ? 40 : 4);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const AxisConfig& axis = bench.machine().axes[i];
+        const auto& state = bench.vm().axis_states()[i];
+        std::int64_t pulses = 0;
+        for (const StepEdge& step : bench.recording().axes[i].steps) { pulses += step.direction; }
+        const std::int64_t encoder = bench.vm().device(i).plant().encoder();
+        // A motor that is stopped dead at speed may lose steps; what it then stands at is homed anew.
+        const bool moved = may_be_stopped(bench.recording(), i, bench.recording().began, bench.vm().now());
+        if (encoder != pulses && bench.recording().emergencies.empty() && !moved) {
+            bench.object("lost", axis.name + " has moved " + std::to_string(encoder) + " steps after " +
+                                     std::to_string(pulses) + " pulses");
+        } else if (!state || state->position.count() != at[i] || !state->homed || !state->at_rest) {
+            bench.object("place", axis.name + " does not say that it rests homed at step " + std::to_string(at[i]));
+        }
+    }
+}
+
+void play_all(const Scenario& scenario, Bench& bench) {
+    Counts at(scenario.machine.axes.size(), 0);
+    const double listening = (3 * scenario.machine.timing.freshness_slots + 30) * bench.slot_s();
+    (void)bench.await([&] { return bench.watch().phase() == MachinePhase::Idle; }, listening, "power-up");
+    for (const WrongCommand& wrong : scenario.before_homing) { play_refusal(bench, wrong, at); }
+    bench.plan(scenario.homing_faults);
+    if (!bench.over()) { play_homing(bench, at, scenario.homing_emergency_s); }
+    bench.plan({});
+    make_ready(bench, at);
+    check_slides(bench, at);
+    for (const Task& task : scenario.tasks) {
+        for (const WrongCommand& wrong : task.before) { play_refusal(bench, wrong, at); }
+        bench.plan(task.faults);
+        if (!bench.over()) { JobPlayer(bench, task, at).play(); }
+        bench.plan({});
+        make_ready(bench, at);
+    }
+    if (!bench.over()) { check_places(bench, at); }
+}
+
+void play_on(Bench& bench, const Scenario& scenario, Played& played) {
+    played.recording.began = bench.vm().now();
+    play_all(scenario, bench);
+    played.recording.ended = bench.vm().now();
+    played.coverage.take(bench.vm().alterations());
+}
+
+}  // namespace
+
+Played play(const Scenario& scenario, VirtualObserver* also) {
+    Played played;
+    played.recording.machine = scenario.machine;
+    played.recording.network = scenario.network;
+    played.recording.axes.resize(scenario.machine.axes.size(), {.power_up = scenario.power_up});
+    for (std::size_t i = 0; i < scenario.clocks.size(); ++i) {
+        played.recording.axes[i].clock = scenario.clocks[i].device;
+    }
+    {
+        Bench bench(scenario, played);
+        if (also != nullptr) { bench.vm().observe(*also); }
+        play_on(bench, scenario, played);
+    }
+    append(played.violations, played.recording.untrue);
+    for (const std::string& trouble : played.recording.troubles) {
+        played.violations.push_back({"trouble", {}, {}, {}, trouble});
+    }
+    return played;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,291 @@
+#include "tests/simulation/simtest/run/play_job.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep::simtest {
+namespace {
+
+/// The program, made for where the axes stand.
+Program starting_at(const Counts& at, const MachineConfig& machine, Program program) {
+    if (!program.start_mm.empty()) { return program; }
+    for (const std::string& name : program.axes) {
+        const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
+        const bool known = axis != machine.axes.end();
+        const auto i = static_cast<std::size_t>(axis - machine.axes.begin());
+        program.start_mm.push_back(known ? static_cast<double>(at[i]) / axis->steps_per_mm : 0);
+    }
+    return program;
+}
+
+/// Far more than the protocol needs to come to rest and set out again, as often as it may have to.
+double protocol_seconds(const Bench& bench) {
+    const ProtocolTiming& t = bench.machine().timing;
+    const double rests = bench.lossy() ? 60 : 6;
+    return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
+}
+
+/// With a switch that has to be searched again and again.
+double homing_seconds(const Bench& bench) {
+    constexpr int kSearches = 4;
+    double seconds = protocol_seconds(bench);
+    for (const AxisConfig& axis : bench.machine().axes) {
+        const HomingConfig& h = axis.homing;
+        const double travel = axis.position_max_mm - axis.position_min_mm + 2 * axis.plant.travel_margin_mm;
+        const double search = travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
+                              2 * h.pulloff_mm / h.latch_velocity_mm_s;
+        seconds += kSearches * search + 2 * travel / axis.start_velocity_mm_s;
+    }
+    return seconds;
+}
+
+void end_record(Bench& bench, JobRecord& job) {
+    job.ended = bench.vm().now();
+    if (job.emergency) { bench.recording().emergencies.back().rests = job.ended; }
+    bench.recording().jobs.push_back(std::move(job));
+}
+
+std::string answer_text(const Reply& reply) {
+    return std::string(reply.status == ReplyStatus::Accepted ? "accepted" : "refused: ") +
+           (reply.fault == 0 ? "" : std::string(name_of(static_cast<FaultCode>(reply.fault)))) + " " + reply.text;
+}
+
+bool is_refusal(const Reply& reply, FaultCode why) {
+    return reply.status == ReplyStatus::Refused && reply.fault == static_cast<std::uint16_t>(why);
+}
+
+/// A machine in Fault does nothing before it is reset. Another owner may know of no fault.
+void ask_in_fault(Bench& bench) {
+    const auto before = bench.steps_made();
+    const Reply* reply = bench.ask(CommandKind::Home);
+    if (reply == nullptr) { return; }
+    const bool moves = bench.faulted() && bench.steps_made() != before;
+    if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
+}
+
+}  // namespace
+
+void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
+    const auto before = bench.steps_made();
+    const Tick asked = bench.vm().now();
+    std::uint64_t program = 0;
+    if (wrong.program) { program = bench.send_program(starting_at(at, bench.machine(), *wrong.program)); }
+    const Reply* reply = bench.ask(wrong.kind, program);
+    if (reply == nullptr) { return; }
+    const bool otherwise = reply->status == ReplyStatus::Refused && bench.disturbed_since(asked);
+    if (!otherwise && !is_refusal(*reply, wrong.refusal)) {
+        return bench.object("refusal", "expected " + std::string(name_of(wrong.refusal)) + ", " + answer_text(*reply));
+    }
+    bench.wait_slots(3);
+    if (bench.watch().phase() != MachinePhase::Idle || bench.steps_made() != before) {
+        bench.object("refusal", "a refused command was not without effect");
+    }
+}
+
+Tick play_emergency(Bench& bench) {
+    const Tick asked = bench.vm().now();
+    bench.recording().emergencies.push_back({asked, asked});
+    const Reply* reply = bench.ask(CommandKind::EmergencyStop);
+    if (reply != nullptr && reply->status != ReplyStatus::Accepted) { bench.object("emergency", answer_text(*reply)); }
+    // A coordinator that ended in the meantime knows nothing of it.
+    const auto lost = [&] { return bench.disturbed_since(asked); };
+    (void)bench.await(lost, protocol_seconds(bench), "an emergency stop");
+    return asked;
+}
+
+void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
+    JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made(), .began = bench.vm().now()};
+    const double seconds = homing_seconds(bench);
+    const Reply* reply = bench.ask(CommandKind::Home);
+    if (reply == nullptr) { return; }
+    const bool accepted = reply->status == ReplyStatus::Accepted;
+    if (!accepted && !bench.disturbed_since(job.began)) { return bench.object("homing", answer_text(*reply)); }
+    const auto ended = [&] { return bench.watch().outcome().has_value(); };
+    if (accepted && emergency_s) {
+        const Tick due =
+            bench.vm().now() + Ticks{static_cast<std::int64_t>(*emergency_s * bench.machine().ticks_per_second())};
+        (void)bench.await([&] { return ended() || bench.vm().now() >= due; }, seconds, "homing");
+        if (!bench.over() && !ended()) { job.emergency = play_emergency(bench); }
+    } else if (accepted) {
+        (void)bench.await(ended, seconds, "homing");
+    }
+    const bool undisturbed =
+        !job.emergency && !bench.faulted() && !bench.disturbed_since(job.began) && !bench.vm().faults_pending();
+    if (!undisturbed) { bench.settle(seconds); }
+    job.end_step = bench.steps_made();
+    job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        if (job.end_step[i] == job.first_step[i]) { continue; }  // its turn never came
+        const AxisConfig& axis = bench.machine().axes[i];
+        at[i] = nearest_step(axis, axis.homing.park_mm);
+    }
+    end_record(bench, job);
+}
+
+void make_ready(Bench& bench, Counts& at) {
+    constexpr int kMostTries = 6;
+    const auto in = [&](MachinePhase phase) { return bench.watch().phase() == phase; };
+    const auto homed = [&] { return std::ranges::all_of(bench.watch().axes(), &AxisState::homed); };
+    for (int tries = 0; tries < kMostTries && !bench.over(); ++tries) {
+        if (in(MachinePhase::Idle) && homed()) { return; }
+        if (in(MachinePhase::Idle)) {
+            play_homing(bench, at);
+        } else if (bench.faulted()) {
+            if (bench.asks_in_fault()) { ask_in_fault(bench); }
+            const Reply* reply = bench.ask(CommandKind::Reset);
+            if (reply != nullptr && reply->status != ReplyStatus::Accepted) {
+                bench.object("reset", answer_text(*reply));
+            }
+        }
+        (void)bench.await([&] { return in(MachinePhase::Idle); }, protocol_seconds(bench), "becoming ready");
+    }
+    if (!bench.over()) { bench.object("liveness", "the machine cannot be made ready again"); }
+}
+
+void JobPlayer::play() {
+    job_.began = bench_.vm().now();
+    if (!start()) { return; }
+    const double seconds =
+        2 * job_.course.seconds +
+        protocol_seconds(bench_) * static_cast<double>(1 + task_.interrupts.size() + job_.course.pauses);
+    const Tick deadline =
+        bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
+    do {
+        while (goes_on()) {
+            go_on();
+            if (bench_.vm().now() > deadline && !disturbed()) {
+                bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s");
+            }
+        }
+        if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
+            bench_.settle(2 * job_.course.seconds + protocol_seconds(bench_));
+        } else {
+            (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
+        }
+    } while (goes_on());  // the fault was that of an owner which has another by now
+    record();
+}
+
+bool JobPlayer::start() {
+    job_.course = course_of(task_.program, bench_.machine(), at_, bench_.most_feed());
+    job_.first_step = bench_.steps_made();
+    const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
+    const Reply* reply = ask_in_time(CommandKind::Run, program);
+    if (reply == nullptr) { return false; }
+    begun_ = reply->status == ReplyStatus::Accepted;
+    if (!begun_) { refused("refusal", *reply); }
+    moving_since_ = bench_.vm().now();
+    return !bench_.over();
+}
+
+/// As a person does who is told to wait until the clocks are known well enough.
+const Reply* JobPlayer::ask_in_time(CommandKind kind, std::uint64_t program) {
+    constexpr double kLearning_s = 10;
+    const Tick patience = bench_.vm().now() + Ticks{std::llround(kLearning_s * bench_.machine().ticks_per_second())};
+    const Reply* reply = bench_.ask(kind, program);
+    while (reply != nullptr && is_refusal(*reply, FaultCode::ClockUncertain) && bench_.vm().now() < patience) {
+        bench_.wait(0.5);
+        reply = bench_.ask(kind, program);
+    }
+    return reply;
+}
+
+/// What an undisturbed machine does not refuse.
+void JobPlayer::refused(const char* what, const Reply& reply) {
+    if (!disturbed()) { bench_.object(what, "it was " + answer_text(reply)); }
+}
+
+/// To the next thing that happens, by itself or by what was drawn.
+void JobPlayer::go_on() {
+    if (in(MachinePhase::Paused)) { return resume(); }
+    const bool more = next_ < task_.interrupts.size();
+    const double after_s = more ? task_.interrupts[next_].after_s : 0;
+    const Tick due = moving_since_ + Ticks{static_cast<std::int64_t>(after_s * bench_.machine().ticks_per_second())};
+    const double ample = 2 * job_.course.seconds + protocol_seconds(bench_);
+    (void)bench_.await([&] { return ended() || in(MachinePhase::Paused) || (more && bench_.vm().now() >= due); }, ample,
+                       "a motion");
+    if (!bench_.over() && more && in(MachinePhase::Running) && bench_.vm().now() >= due) {
+        interrupt(task_.interrupts[next_++]);
+    }
+}
+
+void JobPlayer::interrupt(const Interrupt& interrupt) {
+    switch (interrupt.kind) {
+        case Interrupt::Kind::HoldAndResume:
+        case Interrupt::Kind::HoldAndStop: return hold(interrupt);
+        case Interrupt::Kind::Stop: return stop();
+        case Interrupt::Kind::EmergencyStop: return stop_at_once();
+        case Interrupt::Kind::WrongCommand: return give(interrupt.wrong);
+        case Interrupt::Kind::Override: return turn(interrupt.overrides);
+    }
+}
+
+/// Comes when the motion is over where it was sent just before that.
+void JobPlayer::hold(const Interrupt& interrupt) {
+    const Reply* reply = bench_.ask(CommandKind::Hold);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) {
+        if (bench_.watch().was_moving_at(reply->sequence)) { refused("hold", *reply); }
+        return;
+    }
+    const auto rests = [this] { return in(MachinePhase::Holding) || in(MachinePhase::Paused) || ended(); };
+    if (!bench_.await(rests, 2 * protocol_seconds(bench_) + job_.course.seconds, "coming to rest") || ended()) {
+        return;
+    }
+    const auto before = bench_.steps_made();
+    bench_.wait(interrupt.rest_s);
+    if (bench_.steps_made() != before) { return bench_.object("hold", "steps are made while the machine is held"); }
+    interrupt.kind == Interrupt::Kind::HoldAndStop ? stop() : resume();
+}
+
+void JobPlayer::stop() {
+    const Reply* reply = bench_.ask(CommandKind::Stop);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) {
+        if (bench_.watch().was_moving_at(reply->sequence)) { refused("stop", *reply); }
+        return;
+    }
+    (void)bench_.await([this] { return ended(); }, 2 * protocol_seconds(bench_) + job_.course.seconds, "a stop");
+}
+
+void JobPlayer::turn(const Overrides& overrides) {
+    const Reply* reply = bench_.turn(overrides);
+    const bool has_none = bench_.machine().coordination == StepMethod::Lai;
+    if (reply != nullptr && reply->status != ReplyStatus::Accepted && !has_none) { refused("override", *reply); }
+}
+
+void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }
+
+/// Refused while the machine moves. Home would be taken at the job's end: it is given long before that or not at all.
+void JobPlayer::give(const WrongCommand& wrong) {
+    const double long_s = (bench_.lossy() ? 400 : 40) * bench_.slot_s();
+    if (wrong.kind == CommandKind::Home && !(bench_.vm().state()->remaining_s > long_s)) { return; }
+    std::uint64_t program = 0;
+    if (wrong.program) { program = bench_.send_program(*wrong.program); }
+    const Reply* reply = bench_.ask(wrong.kind, program);
+    if (reply == nullptr) { return; }
+    if (bench_.watch().was_moving_at(reply->sequence) && !disturbed() && !is_refusal(*reply, wrong.refusal)) {
+        bench_.object("refusal", "expected " + std::string(name_of(wrong.refusal)) + ", " + answer_text(*reply));
+    }
+}
+
+void JobPlayer::resume() {
+    if (ended()) { return; }
+    const Reply* reply = ask_in_time(CommandKind::Resume);
+    if (reply == nullptr) { return; }
+    if (reply->status != ReplyStatus::Accepted) { return refused("resume", *reply); }
+    moving_since_ = bench_.vm().now();
+}
+
+void JobPlayer::record() {
+    job_.end_step = bench_.steps_made();
+    job_.outcome = begun_ ? bench_.watch().outcome().value_or(JobOutcome::Failed) : JobOutcome::Failed;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        for (std::size_t n = job_.first_step[i]; n < job_.end_step[i]; ++n) {
+            at_[i] += bench_.recording().axes[i].steps[n].direction;
+        }
+    }
+    end_record(bench_, job_);
+}
+
+}  // namespace lockstep::simtest

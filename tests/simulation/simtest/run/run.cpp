@@ -1,0 +1,47 @@
+#include "tests/simulation/simtest/run/run.hpp"
+
+#include "services/documents/machine_rules.hpp"
+#include "tests/simulation/simtest/check/checks.hpp"
+#include "tests/simulation/simtest/record/epoch_runs.hpp"
+#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/trace.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// A machine that no configuration could describe proves nothing.
+Violations check_configuration(const MachineConfig& machine) {
+    std::vector<Problem> problems = machine_problems(machine);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        for (Problem& problem : axis_problems(machine, i)) { problems.push_back(std::move(problem)); }
+    }
+    Violations violations;
+    for (const Problem& problem : problems) { violations.push_back({"configuration", {}, {}, {}, problem.message}); }
+    return violations;
+}
+
+}  // namespace
+
+Verdict run_seed(std::uint64_t seed, const RunOptions& options) {
+    const Scenario scenario = draw_scenario(seed, options.faults, options.machine);
+    Verdict verdict{.violations = check_configuration(scenario.machine)};
+    if (!verdict.violations.empty()) { return verdict; }
+    Trace trace(scenario.machine);
+    Played played = play(scenario, options.trace ? &trace : nullptr);
+    const Recording& recording = played.recording;
+    verdict.violations = std::move(played.violations);
+    verdict.fault = recording.fault;
+    verdict.coverage = std::move(played.coverage);
+    for (const auto& [number, runs] : epoch_runs(recording)) { verdict.parted += runs.apart ? 1 : 0; }
+    append(verdict.violations, check_all(recording));
+    verdict.steps = recording.steps();
+    verdict.hash = recording.hash();
+    verdict.simulated_s =
+        static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
+    if (options.twice && play(scenario).recording.hash() != verdict.hash) {
+        verdict.violations.push_back({"determinism", {}, {}, {}, "a second run of the same seed made other steps"});
+    }
+    return verdict;
+}
+
+}  // namespace lockstep::simtest

@@ -1,0 +1,72 @@
+#include "tests/simulation/simtest/run/watch.hpp"
+
+namespace lockstep::simtest {
+
+void Watch::on_coordinator(std::size_t process, Tick /*now*/, const CoordinatorOutputs& out) {
+    for (const Reply& reply : out.replies) { phase_at_command_.try_emplace(reply.sequence, phase()); }
+    for (const CoordinatorNotice& notice : out.notices) { take_notice(process, notice); }
+    for (const JobEvent& job : out.jobs) { take_job(process, job); }
+}
+
+/// Another one has taken the job's machine over when it has heard all axes follow it: then it waits no more. Unless it
+/// goes on with the job, and says so before.
+void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
+    using Kind = CoordinatorNotice::Kind;
+    if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
+    if (notice.kind == Kind::StoodDown && process == job_of_) { orphan(JobOutcome::Stopped); }
+    if (notice.kind == Kind::JobContinued) { go_on(process); }
+    if (notice.kind == Kind::Phase) { phases_[process] = static_cast<MachinePhase>(notice.number); }
+    if (notice.kind == Kind::Phase || notice.kind == Kind::StoodDown) { look_at_owner(); }
+}
+
+/// Of two that own the machine for a moment, the one that is left may have been idle before.
+void Watch::look_at_owner() {
+    const auto owner = vm_.owner();
+    const bool other = owner && (*owner != job_of_ || orphaned_);
+    if (other && phase() == MachinePhase::Idle) { cut_short(JobOutcome::Stopped); }
+}
+
+void Watch::take_job(std::size_t process, const JobEvent& job) {
+    if (job.kind == JobEvent::Kind::Begun) {
+        job_of_ = process;
+        orphaned_ = false;
+        outcome_.reset();
+    }
+    if (job.kind == JobEvent::Kind::Ended && process == job_of_) { outcome_ = job.outcome; }
+}
+
+void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
+    if (begins) { disturbed_ = now; }
+    moved_ = now;
+    if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process < axes_.size()) { return; }
+    phases_.erase(fault.process);
+    if (fault.process == job_of_) { orphan(JobOutcome::Failed); }
+}
+
+/// Also where the one before it has failed in it: cut off, he has lost the axes that follow this one.
+void Watch::go_on(std::size_t process) {
+    job_of_ = process;
+    orphaned_ = false;
+    outcome_.reset();
+}
+
+/// Its coordinator has left it: it is at its end, or another may go on with it.
+void Watch::orphan(JobOutcome outcome) {
+    orphaned_ = true;
+    if (on_takeover_ == OnTakeover::Stop) { cut_short(outcome); }
+}
+
+void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
+    if (vm_.device(axis).in_motion()) { moved_ = now; }  // also while a process made anew does not speak yet
+    if (!out.state) { return; }
+    axes_[axis] = *out.state;
+    if (!out.state->at_rest || out.state->velocity != Velocity{}) { moved_ = now; }
+}
+
+MachinePhase Watch::phase() const {
+    const auto owner = vm_.owner();
+    const auto phase = owner ? phases_.find(*owner) : phases_.end();
+    return phase == phases_.end() ? MachinePhase::Waiting : phase->second;
+}
+
+}  // namespace lockstep::simtest

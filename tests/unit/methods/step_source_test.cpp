@@ -1,0 +1,70 @@
+// A method's steps one at a time are those of its whole train.
+#include "core/methods/step_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/methods/methods.hpp"
+
+namespace lockstep::stepgen {
+namespace {
+
+void expect_same(const StepResult& train, StepMethod method, const StepMove& move) {
+    auto source = StepSource::of(method, move);
+    ASSERT_TRUE(train && source);
+    for (const double at_s : train->times_s) { ASSERT_EQ(source->next_s(), at_s) << name_of(method); }
+}
+
+TEST(StepSource, GivesTheTrainOfItsMethodAsPublished) {
+    const StepMove move{3'000, 500, 6'000, 42'000, 42'000};
+    const double one_pulse = 1 / (6.5e-3 * 6.5e-3);
+    expect_same(spielauer(move, Fit::Nearest), StepMethod::Spielauer, move);
+    expect_same(lai({3'000, 0, 6'000, one_pulse, one_pulse}, Fit::Nearest), StepMethod::Lai, move);
+    expect_same(lam({3'000, 0, 6'000, 42'000, 42'000}, Fit::Nearest), StepMethod::Lam, move);
+    expect_same(carrica({3'000, std::sqrt(500.0 * 500 - 4 * 42'000), 6'000, 42'000, 42'000}, Fit::Exact),
+                StepMethod::Carrica, move);
+}
+
+TEST(StepSource, RefusesWhatTheMethodRefuses) {
+    EXPECT_FALSE(StepSource::of(StepMethod::Lai, {10, 10, 100, 42'000, 42'000}));
+    EXPECT_FALSE(StepSource::of(StepMethod::Carrica, {kMaxSteps + 1, 10, 100, 42'000, 42'000}));
+    EXPECT_FALSE(StepSource::of(StepMethod::Ranade, {10, 10, 100, 42'000, 42'000}));
+}
+
+/// Carrica's counter as its paper has it: every clock period, one after the other.
+std::vector<double> counted(const StepMove& move, double clock_s) {
+    const auto fixed = [](double steps) { return static_cast<std::int64_t>(std::ceil(steps * 0x1p60)); };
+    const std::int64_t min = fixed(move.start * clock_s);
+    const std::int64_t max = fixed(move.max * clock_s);
+    const std::int64_t change = fixed(move.acceleration * clock_s * clock_s);
+    std::vector<double> times_s;
+    std::int64_t speed = min;
+    int slope = 1;
+    for (std::int64_t now = 1, n = 1; std::ssize(times_s) < move.steps; ++now, ++n) {
+        speed = std::clamp(speed + slope * change, min, max);
+        if (n * speed < std::int64_t{1} << 60) { continue; }
+        times_s.push_back(static_cast<double>(now) * clock_s);
+        n = 0;
+        const double v = static_cast<double>(speed) * 0x1p-60;
+        const double v0 = static_cast<double>(min) * 0x1p-60;
+        const double brake = (v * v - v0 * v0) / (2 * static_cast<double>(change) * 0x1p-60);
+        const bool too_fast = static_cast<double>(move.steps - std::ssize(times_s)) <= brake;
+        slope = too_fast ? -1 : slope == -1 ? 0 : slope;
+    }
+    return times_s;
+}
+
+TEST(CarricaSteps, AreThoseThatCountingFinds) {
+    for (const StepMove& move : {StepMove{2'000, 500, 6'000, 4'200, 4'200}, StepMove{3'000, 800, 90'000, 1e7, 1e7},
+                                 StepMove{40, 1, 3'000, 9'000, 9'000}, StepMove{500, 300, 300, 5, 5}}) {
+        auto steps = CarricaSteps::of(move, Fit::Exact);
+        ASSERT_TRUE(steps);
+        for (const double at_s : counted(move, CarricaParameters{}.clock_s)) { ASSERT_EQ(steps->next_s(), at_s); }
+    }
+}
+
+}  // namespace
+}  // namespace lockstep::stepgen

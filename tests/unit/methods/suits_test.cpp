@@ -1,0 +1,108 @@
+// Which method can make which axis's moves, and what is said where it cannot.
+#include "core/methods/suits.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/motion/limit_watch.hpp"
+
+namespace lockstep::stepgen {
+namespace {
+
+using testing::HasSubstr;
+
+/// 80 steps/mm: 10 mm/s to jump to, 100 mm/s, 1500 mm/s^2.
+constexpr SpeedLimits kBelt{800, 8'000, 120'000, 120'000, 1e-6};
+
+std::string why_not(StepMethod method, const SpeedLimits& limits) {
+    const auto result = suits(method, limits);
+    return result ? "" : result.error();
+}
+
+SpeedLimits changed(void (*change)(SpeedLimits&)) {
+    SpeedLimits limits = kBelt;
+    change(limits);
+    return limits;
+}
+
+TEST(Ranade, SuitsWhatTheProductCanDo) {
+    EXPECT_EQ(why_not(StepMethod::Ranade, kBelt), "");
+    EXPECT_EQ(why_not(StepMethod::Ranade, changed([](auto& l) { l.max = 499'000; })), "");
+}
+
+TEST(Spielauer, SuitsThoughItKnowsNoStartSpeed) {
+    EXPECT_EQ(why_not(StepMethod::Spielauer, kBelt), "");
+    EXPECT_EQ(why_not(StepMethod::Spielauer, changed([](auto& l) { l.deceleration = 60'000; })), "");
+}
+
+TEST(Spielauer, DoesNotSuitWhereItsFirstWaitsJumpTooFar) {
+    // Its second wait is a third of the first: a jump of sqrt(2 a), here 490 steps/s.
+    EXPECT_THAT(why_not(StepMethod::Spielauer, changed([](auto& l) { l.start = 50; })),
+                HasSubstr("its speed jumps by"));
+}
+
+TEST(Spielauer, DoesNotSuitSpeedsBeyondItsTimer) {
+    EXPECT_THAT(why_not(StepMethod::Spielauer, {800, 1'100'000, 1e8, 1e8, 1e-7}), HasSubstr("one count of the timer"));
+}
+
+TEST(Carrica, SuitsOneAccelerationBothWays) {
+    EXPECT_EQ(why_not(StepMethod::Carrica, kBelt), "");
+    EXPECT_THAT(why_not(StepMethod::Carrica, changed([](auto& l) { l.deceleration = 100'000; })),
+                HasSubstr("100000 steps/s^2 must equal the acceleration, 120000"));
+}
+
+TEST(Carrica, DoesNotSuitSpeedsBeyondItsClock) {
+    EXPECT_THAT(why_not(StepMethod::Carrica, {800, 1'300'000, 1e8, 1e8, 1e-7}), HasSubstr("one clock period"));
+}
+
+TEST(Lai, SuitsWhereItsPulsesComeEvenlyEnough) {
+    const SpeedLimits slow = changed([](auto& l) { l.max = 4'000; });
+    EXPECT_EQ(why_not(StepMethod::Lai, slow), "");
+    // 46 pulses in 256 clocks are 5 or 6 clocks apart: 7877 and 6564 steps/s by turns.
+    EXPECT_THAT(why_not(StepMethod::Lai, changed([](auto& l) { l.max = 7'100; })), HasSubstr("its speed jumps by"));
+}
+
+TEST(Lai, DoesNotSuitGentleAxesNorSpeedsItHasNoPulsesFor) {
+    EXPECT_THAT(why_not(StepMethod::Lai, changed([](auto& l) { l.deceleration = 23'000; })),
+                HasSubstr("23668.6 steps/s^2 at least"));
+    EXPECT_THAT(why_not(StepMethod::Lai, changed([](auto& l) { l.max = 40'000; })), HasSubstr("39230.8"));
+    EXPECT_THAT(why_not(StepMethod::Lai, {50, 150, 120'000, 120'000, 1e-6}), HasSubstr("153.846"));
+}
+
+TEST(Lam, SuitsAnAxisThatItsOwnRampsDoNotHurt) {
+    const SpeedLimits slide{1'000, 1'666, 100'000, 100'000, 1e-6};
+    EXPECT_EQ(why_not(StepMethod::Lam, slide), "");
+}
+
+TEST(Lam, DoesNotSuitWhereItsRampsBreakTheLimits) {
+    EXPECT_THAT(why_not(StepMethod::Lam, kBelt), HasSubstr("its speed jumps by"));
+    EXPECT_THAT(why_not(StepMethod::Lam, {1'000, 1'666, 100'000, 90'000, 1e-6}), HasSubstr("must equal"));
+}
+
+TEST(EveryOtherMethod, NeedsThreeTicksAStep) {
+    for (const StepMethod method : {StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam, StepMethod::Carrica}) {
+        EXPECT_THAT(why_not(method, changed([](auto& l) { l.max = 400'000; })),
+                    HasSubstr("a third of a step per tick"));
+    }
+}
+
+TEST(LimitWatch, AllowsOneJumpAndAnAcceleration) {
+    LimitWatch watch({.start = 100, .acceleration = 1'000, .deceleration = 500});
+    EXPECT_FALSE(watch.step(1.0 / 109));  // 9.2 ms: 109 steps/s may be had in it
+    EXPECT_FALSE(watch.step(1.0 / 117));  // 17.7 ms after rest
+    const auto breach = watch.step(1.0 / 160);
+    ASSERT_TRUE(breach);
+    EXPECT_DOUBLE_EQ(breach->allowed, 100);
+    EXPECT_GT(breach->change, 100);
+}
+
+TEST(LimitWatch, CountsTheRestAtTheEnd) {
+    LimitWatch watch({.start = 100, .acceleration = 1'000, .deceleration = 500});
+    EXPECT_FALSE(watch.step(1.0 / 100));
+    EXPECT_FALSE(watch.rest());
+    EXPECT_FALSE(watch.step(1.0 / 108));
+    EXPECT_TRUE(watch.rest());
+}
+
+}  // namespace
+}  // namespace lockstep::stepgen

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "clients/session/reports.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/text/words.hpp"
+#include "tests/unit/session/two_axes.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+proto::StatusReport running() {
+    proto::StatusReport status;
+    status.set_machine("mill");
+    status.set_phase("Running");
+    status.set_job(3);
+    status.set_line(120);
+    status.set_progress(0.428);
+    status.set_remaining_s(12.34);
+    status.set_age_ms(4);
+    const AxisState state{.homed = true,
+                          .phase = AxisPhase::Cruise,
+                          .position = Position::steps(-400),
+                          .velocity = {static_cast<std::int64_t>(-0x1p64 * 0.0008)}};
+    const MachineConfig machine = two_axes();
+    *status.add_axes() = axis_status(machine.axes[0], machine.tick_ns, &state, true);
+    *status.add_axes() = axis_status(machine.axes[1], machine.tick_ns, nullptr, false);
+    return status;
+}
+
+TEST(StatusText, SaysPhaseJobLineAndAge) {
+    EXPECT_THAT(status_text(running()),
+                HasSubstr("mill: Running, job 3, 42 %, line 120, 12.3 s left (heard 4 ms ago)\n"));
+}
+
+TEST(StatusText, SaysWhereEachAxisIsAndHowFast) {
+    EXPECT_THAT(status_text(running()),
+                HasSubstr("X                       -5.0000        -10.000   Cruise      yes\n"));
+    EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not heard   -\n"));
+}
+
+TEST(StatusText, SaysDegreesOfAnAxisThatTurns) {
+    proto::StatusReport status = running();
+    status.mutable_axes(0)->set_name("C");
+    EXPECT_THAT(status_text(status), HasSubstr("C (deg)                 -5.0000        -10.000   Cruise      yes\n"));
+}
+
+TEST(StatusText, SaysAFaultWithItsCauseAndRemedyOnce) {
+    proto::StatusReport status = running();
+    *status.mutable_fault() = fault_report(FaultCode::LimitHit, "X");
+    *status.mutable_axes(0)->mutable_fault() = fault_report(FaultCode::LimitHit, "X");
+    const std::string text = status_text(status);
+    EXPECT_THAT(text, HasSubstr("fault: axis X: limit-hit (103): a limit switch closed\n"));
+    EXPECT_THAT(text, HasSubstr("to do: see why the axis ran there"));
+    EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
+}
+
+TEST(StatusText, FitsInEightyColumnsWhateverTheFault) {
+    std::vector<FaultCode> codes;
+#define X(name, number, text, cause, by_hand, remedies) codes.push_back(FaultCode::name);
+    LOCKSTEP_FAULTS(X)
+#undef X
+    for (const FaultCode code : codes) {
+        proto::StatusReport status = running();
+        status.set_machine("a-machine-of-24-letters-");
+        status.mutable_axes(0)->set_name("AxisOfSixteenLet");
+        *status.mutable_fault() = fault_report(code, "AxisOfSixteenLet");
+        std::istringstream lines(status_text(status));
+        for (std::string line; std::getline(lines, line);) { EXPECT_LE(line.size(), 80u) << line; }
+    }
+}
+
+TEST(StatusText, SaysThatNobodyIsHeard) {
+    proto::StatusReport status;
+    status.set_machine("mill");
+    EXPECT_THAT(status_text(status), HasSubstr("mill: unknown (no coordinator heard)"));
+}
+
+TEST(MachineFault, NamesAnAxisOnlyWhereItIsOneAxiss) {
+    const auto limit =
+        fault_of({.fault = static_cast<std::uint16_t>(FaultCode::LimitHit), .fault_axis = 1}, two_axes());
+    EXPECT_EQ(limit->axis(), "Y");
+    const auto estop = fault_of({.fault = static_cast<std::uint16_t>(FaultCode::EmergencyStopped)}, two_axes());
+    EXPECT_FALSE(estop->has_axis());
+    EXPECT_FALSE(fault_of({}, two_axes()));
+}
+
+TEST(ProgressText, SaysPercentLineAndRemainingTime) {
+    EXPECT_EQ(progress_bar(running()), "[############                  ]  42 %  line 120  12.3 s left");
+    EXPECT_EQ(progress_text(running()), "Running: 42 %, line 120, 12.3 s left");
+}
+
+TEST(ProgressText, IsNotFullBeforeTheEnd) {
+    proto::StatusReport status = running();
+    status.set_progress(0.9999);
+    EXPECT_THAT(progress_bar(status), HasSubstr(" 99 %"));
+    status.set_progress(1);
+    EXPECT_THAT(progress_bar(status), HasSubstr("[##############################] 100 %"));
+}
+
+TEST(HomingText, SaysAPlaceOnceItMeansSomething) {
+    EXPECT_EQ(homing_text(running()), "X homed at -5.000   Y not heard");
+}
+
+TEST(Durations, AreReadable) {
+    EXPECT_EQ(duration_text(8.24), "8.2 s");
+    EXPECT_EQ(duration_text(59.97), "1 min 00 s");
+    EXPECT_EQ(duration_text(185), "3 min 05 s");
+    EXPECT_EQ(duration_text(7380), "2 h 03 min");
+}
+
+TEST(Numbers, HaveNoMinusZero) {
+    EXPECT_EQ(fixed(-0.00001, 3), "0.000");
+    EXPECT_EQ(fixed(-0.5, 1), "-0.5");
+}
+
+}  // namespace
+}  // namespace lockstep
