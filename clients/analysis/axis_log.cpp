@@ -55,4 +55,8 @@ std::int64_t AxisLog::unrecorded_steps() const {
     return at_end == 0 && farthest_position_ ? unrecorded_at(*farthest_position_) : at_end;
 }
 
+std::int64_t missing_steps_of(const AxisLog& axis) {
+    return axis.statistics().missing_steps() + std::abs(axis.unrecorded_steps());
+}
+
 }  // namespace lockstep::analysis

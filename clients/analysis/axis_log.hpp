@@ -103,4 +103,7 @@ private:
     StepStream stream_{{&statistics_, &trace_}};
 };
 
+/// At least so many of an axis's steps were made and are not in the log.
+std::int64_t missing_steps_of(const AxisLog& axis);
+
 }  // namespace lockstep::analysis

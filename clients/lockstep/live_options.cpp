@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "clients/supervisor/other_hosts.hpp"
+
 namespace lockstep {
 
 void add_live_options(CLI::App& verb, LiveOptions& options) {
@@ -10,6 +12,15 @@ void add_live_options(CLI::App& verb, LiveOptions& options) {
         "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
         "/etc/lockstep/machine.textproto");
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
+}
+
+CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
+    CLI::Option* asked = verb.add_flag(
+        "--all", all.asked, "on every host that the machine's file names: on the others over ssh, all at once");
+    verb.add_option("--ssh", all.ssh, "with --all: the command that runs another on a host, whose name follows it")
+        ->needs(asked)
+        ->capture_default_str();
+    return asked;
 }
 
 void add_detach(CLI::App& verb, bool& detach) {

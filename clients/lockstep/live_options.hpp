@@ -5,9 +5,12 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace lockstep {
+
+struct AllHosts;
 
 /// What every verb that speaks to a machine takes.
 struct LiveOptions {
@@ -16,6 +19,9 @@ struct LiveOptions {
 };
 
 void add_live_options(CLI::App& verb, LiveOptions& options);
+
+/// --all and --ssh.
+CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);
 
 /// --detach: for a verb that otherwise waits for its job's end.
 void add_detach(CLI::App& verb, bool& detach);

@@ -6,9 +6,6 @@
 namespace lockstep::merge {
 namespace {
 
-using analysis::grouped;
-using analysis::plural;
-
 constexpr std::size_t kLinesOfAnAxis = 10;  // --json has more
 
 std::string place(const std::optional<std::int64_t>& step, const std::optional<Tick>& tick, const char* otherwise) {

@@ -86,8 +86,7 @@ proto::ReplayReport to_report(const Findings& findings, const std::string& log) 
 }
 
 std::string to_text(const Findings& findings) {
-    const std::string counted =
-        analysis::plural(findings.steps, "step") + " of " + analysis::plural(findings.runs, "run");
+    const std::string counted = plural(findings.steps, "step") + " of " + plural(findings.runs, "run");
     std::string text;
     if (findings.difference) {
         text = "not exact: " + findings.difference->text + "\n";

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "clients/supervisor/machine_choice.hpp"
+#include "clients/session/chosen_machine.hpp"
 #include "clients/text/failure.hpp"
 #include "core/program.hpp"
 #include "core/protocol/axis_health.hpp"

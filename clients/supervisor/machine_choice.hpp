@@ -2,22 +2,15 @@
 // whose file is installed there.
 #pragma once
 
-#include <cstdint>
 #include <expected>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "clients/session/chosen_machine.hpp"
 #include "clients/text/failure.hpp"
-#include "core/machine.hpp"
 
 namespace lockstep {
-
-struct ChosenMachine {
-    std::filesystem::path file;
-    MachineConfig config;
-    std::uint64_t hash = 0;
-};
 
 /// Where a host's machine is installed; the units of systemd read it, too.
 inline constexpr const char* kInstalledMachine = "/etc/lockstep/machine.textproto";

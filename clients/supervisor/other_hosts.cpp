@@ -12,8 +12,6 @@
 #include <iterator>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
-
 #include "services/documents/placement.hpp"
 #include "services/network/host_name.hpp"
 
@@ -26,9 +24,9 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 /// What was named by option or environment, which other hosts do not know of.
-std::string named_file(const LiveOptions& options) {
+std::string named_file(const std::string& option) {
     const char* named = std::getenv("LOCKSTEP_MACHINE");
-    const std::string file = !options.machine_file.empty() ? options.machine_file : named == nullptr ? "" : named;
+    const std::string file = !option.empty() ? option : named == nullptr ? "" : named;
     return file.empty() ? "" : std::filesystem::absolute(file).string();
 }
 
@@ -56,23 +54,14 @@ std::string all_of(int pipe) {
 
 }  // namespace
 
-CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
-    CLI::Option* asked = verb.add_flag(
-        "--all", all.asked, "on every host that the machine's file names: on the others over ssh, all at once");
-    verb.add_option("--ssh", all.ssh, "with --all: the command that runs another on a host, whose name follows it")
-        ->needs(asked)
-        ->capture_default_str();
-    return asked;
-}
-
-OtherHosts::OtherHosts(const AllHosts& all, const MachineConfig& machine, const LiveOptions& options,
+OtherHosts::OtherHosts(const AllHosts& all, const MachineConfig& machine, const std::string& machine_file,
                        const std::vector<std::string>& verb) {
     for (const std::string& host : all.asked ? hosts_of(machine) : std::vector<std::string>{}) {
         if (same_host(host, host_name())) { continue; }
         std::vector<std::string> words = words_of(all.ssh);
         words.insert(words.end(), {host, "lockstep"});
         words.insert(words.end(), verb.begin(), verb.end());
-        if (const std::string file = named_file(options); !file.empty()) {
+        if (const std::string file = named_file(machine_file); !file.empty()) {
             words.insert(words.end(), {"--machine", file});
         }
         std::array<int, 2> ends{};

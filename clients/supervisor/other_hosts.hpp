@@ -4,14 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/lockstep/live_options.hpp"
 #include "clients/text/voice.hpp"
 #include "core/machine.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 namespace lockstep {
 
@@ -20,14 +14,11 @@ struct AllHosts {
     std::string ssh = "ssh -o BatchMode=yes";  // words, which the host's name follows
 };
 
-/// --all and --ssh.
-CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);
-
 /// While it lives, `lockstep VERB...` runs on every host that the machine's file names, but not on this one.
 class OtherHosts {
 public:
-    /// A machine file that was named is named there, too: the same path on all.
-    OtherHosts(const AllHosts& all, const MachineConfig& machine, const LiveOptions& options,
+    /// `machine_file`: as the option named it; empty: not named. The same path is named on all hosts.
+    OtherHosts(const AllHosts& all, const MachineConfig& machine, const std::string& machine_file,
                const std::vector<std::string>& verb);
     ~OtherHosts();
     OtherHosts(const OtherHosts&) = delete;

@@ -1,8 +1,6 @@
 #include "clients/text/numbers.hpp"
 
-#include <cstdlib>
-
-namespace lockstep::analysis {
+namespace lockstep {
 
 std::string grouped(std::int64_t number) {
     std::string text = std::to_string(number);
@@ -26,8 +24,4 @@ std::string in_words(const std::vector<std::string>& names) {
     return text;
 }
 
-std::int64_t missing_steps_of(const AxisLog& axis) {
-    return axis.statistics().missing_steps() + std::abs(axis.unrecorded_steps());
-}
-
-}  // namespace lockstep::analysis
+}  // namespace lockstep

@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/axis_log.hpp"
-
-namespace lockstep::analysis {
+namespace lockstep {
 
 /// "12 345"
 std::string grouped(std::int64_t number);
@@ -15,7 +13,5 @@ std::string grouped(std::int64_t number);
 std::string plural(std::int64_t count, const std::string& one);
 /// "X", "X and Y", "X, Y and Z"
 std::string in_words(const std::vector<std::string>& names);
-/// At least so many of an axis's steps were made and are not in the log.
-std::int64_t missing_steps_of(const AxisLog& axis);
 
-}  // namespace lockstep::analysis
+}  // namespace lockstep

@@ -7,7 +7,6 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/words.hpp"
-#include "core/coordinator/program_plan.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -148,37 +147,6 @@ ExitCode run_job(Session& session, const Job& job, Voice& voice) {
     report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
     if (report.lost_records() > 0) { voice.warn(record_loss_text(status_report(session))); }
     return end(session, job, *verdict, report, voice);
-}
-
-std::expected<std::vector<double>, Failure> start_places(Session& session) {
-    if (auto reached = session.reach_axes(); !reached) { return std::unexpected(reached.error()); }
-    std::vector<double> start_mm;
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        const auto count = static_cast<double>(session.axis(i)->state.position.count());
-        start_mm.push_back(to_mm(session.config().axes[i], count));
-    }
-    return start_mm;
-}
-
-std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
-                                               const std::vector<double>& start_mm) {
-    const MachineConfig& machine = session.config();
-    const Overrides overrides = session.state() ? session.state()->state.overrides : Overrides{};
-    AxisCounts start;
-    for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
-    const ProgramPlanner planner(machine);
-    auto legs = planner.plan(program, start);
-    if (!legs) {
-        return std::unexpected(
-            bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
-    }
-    double ticks = 0;
-    for (Leg& leg : *legs) {
-        if (leg.moves.empty()) { continue; }
-        ticks +=
-            static_cast<double>(planner.path(std::move(leg.moves), {}, overrides).duration().value) / kSubticksPerTick;
-    }
-    return ticks / machine.ticks_per_second();
 }
 
 }  // namespace lockstep

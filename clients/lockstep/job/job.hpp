@@ -25,11 +25,4 @@ struct Job {
 /// SIGHUP, a closed terminal, holds it. Both end this within some 15 s, whatever the machine does.
 ExitCode run_job(Session& session, const Job& job, Voice& voice);
 
-/// Where every axis stands, in mm and to the step. Error: an axis is not heard.
-std::expected<std::vector<double>, Failure> start_places(Session& session);
-
-/// How long a program takes from there with the session's overrides, s. Error: why it cannot be planned.
-std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
-                                               const std::vector<double>& start_mm);
-
 }  // namespace lockstep

@@ -5,6 +5,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/move_program.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 
 namespace lockstep {
 namespace {

@@ -10,6 +10,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/voice.hpp"
 #include "clients/text/words.hpp"
 #include "idl/proto/report.pb.h"

@@ -4,7 +4,9 @@
 #include "clients/lockstep/job/job.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/session/job_plan.hpp"
 #include "clients/session/move_program.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 
 namespace lockstep {
 namespace {

@@ -5,6 +5,7 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/voice.hpp"
 #include "core/motion/overrides.hpp"
 #include "idl/proto/report.pb.h"

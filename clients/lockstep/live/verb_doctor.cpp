@@ -10,6 +10,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/session.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/voice.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/axis/device_driver.hpp"

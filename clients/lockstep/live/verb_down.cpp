@@ -83,7 +83,7 @@ ExitCode down(const DownOptions& options) {
     if (!options.all.asked) { return down_here(options, voice); }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    OtherHosts others(options.all, machine->config, options, {"down"});
+    OtherHosts others(options.all, machine->config, options.machine_file, {"down"});
     const bool is_here = !placed_on(machine->config, host_name()).empty();
     const ExitCode here = is_here ? down_here(options, voice) : kExitDone;
     return others.finish(voice) ? here : std::max(here, kExitFailed);

@@ -12,6 +12,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/bring_up.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/supervisor/other_hosts.hpp"
 #include "clients/supervisor/take_down.hpp"
 #include "services/network/host_name.hpp"
@@ -119,7 +120,7 @@ ExitCode up(const UpOptions& options) {
     Voice voice(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return voice.fail(machine.error()); }
-    OtherHosts others(options.all, machine->config, options, words_of(options));
+    OtherHosts others(options.all, machine->config, options.machine_file, words_of(options));
     const bool is_here = !options.all.asked || !placed_on(machine->config, host_name()).empty();
     const ExitCode here = is_here ? up_here(options, *machine, voice) : up_elsewhere(options, *machine, voice);
     return others.finish(voice) ? here : std::max(here, kExitFailed);

@@ -9,6 +9,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/voice.hpp"
 
 namespace lockstep {

@@ -7,6 +7,7 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/colour.hpp"
 #include "clients/text/voice.hpp"
 #include "services/runtime/clock.hpp"

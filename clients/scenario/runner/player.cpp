@@ -1,7 +1,7 @@
 #include "clients/scenario/runner/player.hpp"
 
-#include "clients/lockstep/job/job.hpp"
 #include "clients/scenario/model/words.hpp"
+#include "clients/session/job_plan.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/text/words.hpp"

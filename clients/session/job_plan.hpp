@@ -1,0 +1,19 @@
+// Where a job starts, and how long it is planned to take.
+#pragma once
+
+#include <expected>
+#include <vector>
+
+#include "clients/session/session.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+/// Where every axis stands, in mm and to the step. Error: an axis is not heard.
+std::expected<std::vector<double>, Failure> start_places(Session& session);
+
+/// How long a program takes from there with the session's overrides, s. Error: why it cannot be planned.
+std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
+                                               const std::vector<double>& start_mm);
+
+}  // namespace lockstep
