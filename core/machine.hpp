@@ -5,25 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "core/protocol/rules.inc"
+#include "core/axis_set.hpp"
+#include "core/protocol/timing.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {
 
-inline constexpr std::size_t kMaxAxes = 64;
-
-/// Axes of a machine: bit i for the axis in place i of the configuration.
-using AxisSet = std::uint64_t;
-constexpr AxisSet axis_bit(std::size_t axis) { return AxisSet{1} << axis; }
-constexpr bool has_axis(AxisSet axes, std::size_t axis) { return (axes >> axis & 1) != 0; }
-constexpr AxisSet all_axes(std::size_t count) { return count == 0 ? 0 : ~AxisSet{0} >> (kMaxAxes - count); }
-
 /// How the steps of an axis's own moves are made (core/methods): homing, and moves from point to point by itself.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
-
-/// Where machine time comes from (core/clock). Shared: all processes read one host's clock. Network: axes estimate the
-/// coordinator's by asking. Ptp: every host's TAI clock is held to the others' by a PTP service.
-enum class TimeSource : std::uint8_t { Shared, Network, Ptp };
 
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
@@ -59,24 +48,6 @@ struct AxisConfig {
     StepMethod method = StepMethod::Ranade;
     HomingConfig homing;
     PlantConfig plant;
-};
-
-/// The setpoint protocol's times, in slots (see core/protocol). Lengths: slot_us microseconds each.
-struct ProtocolTiming {
-    std::int64_t slot_us = 10'000;
-    int stall_slots = 10;       // s: how long a process may stall and the machine still runs on
-    int freshness_slots = 11;   // m >= s + 1
-    int send_ahead_slots = 39;  // A >= V + m + s + 4
-    int frame_slots = 23;       // >= m + s + 2
-    TimeSource time_source = TimeSource::Shared;
-    std::int64_t clock_error_limit_us = 2500;  // of an axis's machine time, to move; at most most_clock_error_us()
-
-    constexpr int check_slots() const { return RULE_CHECK_AHEAD(stall_slots); }  // V
-    constexpr int send_deadline_slots() const {                                  // V + m + 3
-        return RULE_SEND_DEADLINE(check_slots(), freshness_slots);
-    }
-    /// What a hop leaves for the error of two clocks (core/protocol/rules.hpp), half a slot being the network's.
-    constexpr std::int64_t most_clock_error_us() const { return RULE_MOST_CLOCK_ERROR(slot_us, slot_us / 2); }
 };
 
 struct NetworkConfig {

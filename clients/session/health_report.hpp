@@ -1,6 +1,7 @@
 // An axis's live figures as its part of the status report, in the units people read.
 #pragma once
 
+#include "core/machine.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "idl/proto/report.pb.h"
 

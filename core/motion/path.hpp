@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/machine.hpp"
-#include "core/motion/overrides.hpp"
-#include "core/motion/path_place.hpp"
 #include "core/motion/profile.hpp"
+#include "core/overrides.hpp"
+#include "core/path_place.hpp"
 #include "core/static_vector.hpp"
 
 namespace lockstep {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
-#include "core/motion/overrides.hpp"
-#include "core/motion/path_place.hpp"
+#include "core/axis_set.hpp"
+#include "core/overrides.hpp"
+#include "core/path_place.hpp"
 #include "core/protocol/record_counts.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"

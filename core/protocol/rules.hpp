@@ -29,9 +29,9 @@
 #include <limits>
 #include <optional>
 
-#include "core/machine.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/protocol/rules.inc"
+#include "core/protocol/timing.hpp"
 
 namespace lockstep::rules {
 

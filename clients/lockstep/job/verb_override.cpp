@@ -7,7 +7,7 @@
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/voice.hpp"
-#include "core/motion/overrides.hpp"
+#include "core/overrides.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {

@@ -1,6 +1,6 @@
 #include "clients/scenario/model/act_rules.hpp"
 
-#include "core/motion/overrides.hpp"
+#include "core/overrides.hpp"
 
 namespace lockstep::scenario {
 namespace {

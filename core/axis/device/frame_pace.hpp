@@ -13,6 +13,7 @@
 
 #include "core/axis/device/retime.hpp"
 #include "core/clock/machine_time.hpp"
+#include "core/machine.hpp"
 
 namespace lockstep {
 
