@@ -8,9 +8,6 @@
 namespace lockstep::comparison {
 namespace {
 
-using stepgen::Ideal;
-using stepgen::StepMove;
-
 constexpr double kTicksPerSecond = 1e6;
 
 void measure_errors(const std::vector<double>& ideal_s, Outcome& outcome) {
@@ -41,8 +38,8 @@ void measure_speed(Outcome& outcome) {
     if (acceleration > 0) { outcome.peak_acceleration = acceleration; }
 }
 
-Row run(const StepMove& move, const Ideal& ideal, const stepgen::Method& method) {
-    auto train = method.run(move, stepgen::Fit::Nearest);
+Row run(const StepMove& move, const Ideal& ideal, const methods::Method& method) {
+    auto train = method.run(move, methods::Fit::Nearest);
     if (!train) { return {method, std::unexpected(train.error())}; }
     Outcome outcome{.train = *std::move(train)};
     measure_errors(ideal.step_times_s(method.crossing), outcome);
@@ -52,14 +49,14 @@ Row run(const StepMove& move, const Ideal& ideal, const stepgen::Method& method)
 
 }  // namespace
 
-Comparison compare(const StepMove& move, std::span<const stepgen::Method> methods) {
+Comparison compare(const StepMove& move, std::span<const methods::Method> methods) {
     const Ideal ideal(move);
     Comparison result{.move = move,
                       .ideal_s = ideal.duration_s(),
                       .ideal_peak = ideal.peak(),
                       .ideal = ideal.corners(),
                       .lines = line_deviations()};
-    for (const stepgen::Method& method : methods) { result.rows.push_back(run(move, ideal, method)); }
+    for (const methods::Method& method : methods) { result.rows.push_back(run(move, ideal, method)); }
     return result;
 }
 

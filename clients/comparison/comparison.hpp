@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "clients/comparison/lines.hpp"
-#include "core/methods/ideal.hpp"
 #include "core/methods/methods.hpp"
+#include "core/motion/ideal.hpp"
 
 namespace lockstep::comparison {
 
 /// What a method made of the move.
 struct Outcome {
-    stepgen::StepTrain train;
+    methods::StepTrain train;
     std::vector<double> errors_us;  // of each step
     double duration_s = 0;          // until the last step
     double ratio = 0;               // to the ideal's last step
@@ -32,20 +32,20 @@ struct Outcome {
 };
 
 struct Row {
-    stepgen::Method method;
+    methods::Method method;
     std::expected<Outcome, std::string> outcome;  // or why the method cannot make even a near move
 };
 
 struct Comparison {
-    stepgen::StepMove move;
+    StepMove move;
     double ideal_s = 0;
     double ideal_peak = 0;
-    std::vector<stepgen::Ideal::Corner> ideal;
+    std::vector<Ideal::Corner> ideal;
     std::vector<Row> rows;
     std::vector<LineDeviation> lines;
 };
 
-/// The move must pass stepgen::check(). In the methods' order as given.
-Comparison compare(const stepgen::StepMove& move, std::span<const stepgen::Method> methods);
+/// The move must pass methods::check(). In the methods' order as given.
+Comparison compare(const StepMove& move, std::span<const methods::Method> methods);
 
 }  // namespace lockstep::comparison

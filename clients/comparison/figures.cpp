@@ -8,7 +8,7 @@
 namespace lockstep::comparison {
 namespace {
 
-using stepgen::LaiPulses;
+using methods::LaiPulses;
 
 constexpr std::int64_t kVisiblePulses = 8;  // per unit
 
@@ -45,9 +45,9 @@ drawing::Chart error_chart(const Row& row, std::size_t place) {
     return chart;
 }
 
-drawing::Series line(std::int64_t from_x, const std::vector<stepgen::LaiPoint>& points, std::string colour) {
+drawing::Series line(std::int64_t from_x, const std::vector<methods::LaiPoint>& points, std::string colour) {
     drawing::Series series{.stroke = {.colour = std::move(colour), .width = 2.5, .opacity = 0.7}};
-    for (const stepgen::LaiPoint& point : points) {
+    for (const methods::LaiPoint& point : points) {
         series.x.push_back(static_cast<double>(from_x) + static_cast<double>(point.x) / kVisiblePulses);
         series.y.push_back(static_cast<double>(point.y) / kVisiblePulses);
     }

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "core/methods/lai/lai.hpp"
+#include "core/methods/lai.hpp"
 
 namespace lockstep::comparison {
 namespace {
 
-using stepgen::LaiPoint;
-using stepgen::LaiPulses;
-using stepgen::PeriodPulses;
+using methods::LaiPoint;
+using methods::LaiPulses;
+using methods::PeriodPulses;
 
 constexpr std::int64_t kTo = 5;  // (5, 5)
 
@@ -19,14 +19,14 @@ PeriodPulses length(std::int64_t from_x, std::int64_t pulses_per_unit) {
 
 /// The shortest time between two pulses of y, the longer axis of every line, as a rate.
 double peak_rate(const std::vector<LaiPoint>& points) {
-    std::int64_t shortest = stepgen::kDdaClocks;
+    std::int64_t shortest = methods::kDdaClocks;
     const LaiPoint* before = nullptr;
     for (std::size_t i = 1; i < points.size(); ++i) {
         if (points[i].y == points[i - 1].y) { continue; }
         if (before != nullptr) { shortest = std::min(shortest, points[i].clock - before->clock); }
         before = &points[i];
     }
-    return stepgen::kDdaClocks / (stepgen::LaiParameters{}.period_s * static_cast<double>(shortest));
+    return methods::kDdaClocks / (methods::LaiParameters{}.period_s * static_cast<double>(shortest));
 }
 
 LineDeviation deviation(std::int64_t from_x) {
@@ -43,7 +43,7 @@ LineDeviation deviation(std::int64_t from_x) {
 }  // namespace
 
 std::vector<LaiPoint> walk_line(std::int64_t from_x, std::int64_t pulses_per_unit, LaiPulses how) {
-    return walk_two_axes(plan_two_axes(length(from_x, pulses_per_unit), {}, stepgen::LaiRounding::FromTheStart, {}),
+    return walk_two_axes(plan_two_axes(length(from_x, pulses_per_unit), {}, methods::LaiRounding::FromTheStart, {}),
                          how);
 }
 

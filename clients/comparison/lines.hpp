@@ -2,12 +2,12 @@
 //
 // Source: Lai, Chien, Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives Design", Figs.
 // 14 and 15: at most four pulses per period of 6.5 ms, one more or fewer each period, both compensations on, the short
-// axis rounded from the start (core/methods/lai/lai_planner.hpp). A unit is 100 pulses.
+// axis rounded from the start (core/methods/lai_planner.hpp). A unit is 100 pulses.
 #pragma once
 
 #include <vector>
 
-#include "core/methods/lai/lai_dda.hpp"
+#include "core/methods/lai_dda.hpp"
 
 namespace lockstep::comparison {
 
@@ -24,7 +24,7 @@ struct LineDeviation {
 };
 
 /// The places line `from_x` passes, in pulses from its beginning.
-std::vector<stepgen::LaiPoint> walk_line(std::int64_t from_x, std::int64_t pulses_per_unit, stepgen::LaiPulses how);
+std::vector<methods::LaiPoint> walk_line(std::int64_t from_x, std::int64_t pulses_per_unit, methods::LaiPulses how);
 
 std::vector<LineDeviation> line_deviations();
 

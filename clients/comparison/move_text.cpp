@@ -8,8 +8,6 @@
 namespace lockstep::comparison {
 namespace {
 
-using stepgen::StepMove;
-
 template <typename Number>
 bool read(std::string_view text, Number& value) {
     const char* const end = text.data() + text.size();
@@ -42,7 +40,7 @@ std::expected<StepMove, std::string> parse_move(std::string_view text) {
     move.deceleration = move.acceleration;
     if (parts.size() == 5) { numbers = numbers && read(parts[4], move.deceleration); }
     if (!numbers) { return refused("START, MAX, ACCEL and DECEL must be numbers"); }
-    if (auto valid = stepgen::check(move); !valid) { return refused(valid.error()); }
+    if (auto valid = methods::check(move); !valid) { return refused(valid.error()); }
     return move;
 }
 

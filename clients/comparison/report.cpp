@@ -6,7 +6,7 @@ namespace {
 void fill(const Row& row, proto::ComparedMethod& report) {
     report.set_name(std::string(row.method.name));
     report.set_source(std::string(row.method.source));
-    report.set_step_at(row.method.crossing == stepgen::Crossing::Half ? "k - 1/2" : "k");
+    report.set_step_at(row.method.crossing == Crossing::Half ? "k - 1/2" : "k");
     if (!row.outcome) {
         report.set_refusal(row.outcome.error());
         return;

@@ -23,7 +23,7 @@ std::string row_text(const Row& row) {
                        fmt::format("{:.4f}", made.ratio), fmt::format("{:.1f}", made.peak_speed),
                        made.peak_acceleration ? fmt::format("{:.0f}", *made.peak_acceleration) : "-",
                        error_text(made.largest_error_us), error_text(made.rms_error_us),
-                       row.method.crossing == stepgen::Crossing::Half ? "k - 1/2" : "k");
+                       row.method.crossing == Crossing::Half ? "k - 1/2" : "k");
 }
 
 std::string method_table(const Comparison& comparison) {

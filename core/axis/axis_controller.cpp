@@ -3,12 +3,13 @@
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
-                               std::uint64_t config_hash, KeptOrNot kept)
+                               std::uint64_t config_hash, BeginSteps begin_steps, KeptOrNot kept)
     : axis_(axis),
       machine_(machine),
       limits_(limits_of(machine.axes[axis], machine.tick_ns)),
       identity_(identity),
       config_hash_(config_hash),
+      begin_steps_(begin_steps),
       slot_(machine.slot_ticks()),
       follower_(axis, machine),
       homing_(machine.axes[axis]),

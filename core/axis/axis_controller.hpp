@@ -88,9 +88,10 @@ using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;
 
 class AxisController {
 public:
-    /// `identity` is new at every start of the process. `kept`: what the one before it has left of the position.
+    /// `identity` is new at every start of the process. `begin_steps`: the methods of the axis's own moves. `kept`:
+    /// what the process before it has left of the position.
     AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
-                   KeptOrNot kept);
+                   BeginSteps begin_steps, KeptOrNot kept);
 
     AxisOutputs step(const AxisInputs& inputs);
 
@@ -177,6 +178,7 @@ private:
     AxisLimits limits_;
     Identity identity_;
     std::uint64_t config_hash_;
+    BeginSteps begin_steps_;
     Ticks slot_;
     SetpointFollower follower_;
     Homing homing_;

@@ -36,7 +36,7 @@ FaultCode AxisController::refusal_of(const AxisCommand& command, std::int64_t st
     }
     const AxisConfig& axis = machine_.axes[axis_];
     const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), axis.max_velocity_mm_s, command.ticks};
-    const bool possible = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request).has_value();
+    const bool possible = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request, begin_steps_).has_value();
     return possible ? FaultCode::None : FaultCode::BadProgram;
 }
 
@@ -67,9 +67,10 @@ void AxisController::take_homing_step(const HomingStep& step, AxisOutputs& out) 
 OwnMove AxisController::own_move(const LocalMove& move, Tick start) const {
     const AxisConfig& axis = machine_.axes[axis_];
     const OwnMoveRequest request{std::abs(move.steps), move.speed_mm_s, move.ticks};
-    auto pieces = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request);
+    auto pieces = OwnPieces::plan(axis, machine_.tick_ns, axis.method, request, begin_steps_);
     if (!pieces) {
-        pieces = OwnPieces::plan(axis, machine_.tick_ns, StepMethod::Ranade, {request.steps, move.speed_mm_s});
+        pieces =
+            OwnPieces::plan(axis, machine_.tick_ns, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
     }
     const bool backward = move.steps < 0;
     const Position from = rest_position(device_.position.count() - zero_count_, backward);

@@ -9,9 +9,10 @@
 namespace lockstep {
 
 Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
-                         std::optional<OnTakeover> standby)
+                         BeginSteps begin_steps, std::optional<OnTakeover> standby)
     : machine_(machine),
       config_hash_(config_hash),
+      begin_steps_(begin_steps),
       standby_(standby),
       slot_(machine.slot_ticks()),
       ownership_(identity, machine.timing),

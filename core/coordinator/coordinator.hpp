@@ -15,6 +15,7 @@
 #include "core/coordinator/takeover.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
+#include "core/motion/step_source.hpp"
 #include "core/program.hpp"
 #include "core/protocol/client_memory.hpp"
 #include "core/protocol/messages.hpp"
@@ -86,8 +87,9 @@ struct CoordinatorOutputs {
 class Coordinator {
 public:
     /// `identity` is the machine time of its start in ticks, and so new at every start. It listens before it claims the
-    /// machine; where another owns it, it stands by if it is told what to do on a takeover.
-    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
+    /// machine; where another owns it, it stands by if it is told what to do on a takeover. `begin_steps`: the methods
+    /// of the axes' own moves.
+    Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, BeginSteps begin_steps,
                 std::optional<OnTakeover> standby = std::nullopt);
 
     /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
@@ -203,6 +205,7 @@ private:
 
     MachineConfig machine_;
     std::uint64_t config_hash_;
+    BeginSteps begin_steps_;
     std::optional<OnTakeover> standby_;  // none: it does not stand by
     Ticks slot_;
     Ownership ownership_;

@@ -6,8 +6,7 @@
 
 #include "core/axis/own_moves/own_pieces.hpp"
 #include "core/coordinator/coordinator.hpp"
-#include "core/methods/ideal.hpp"
-#include "core/methods/suits.hpp"
+#include "core/motion/ideal.hpp"
 
 namespace lockstep {
 
@@ -41,15 +40,15 @@ std::optional<Reply> Coordinator::refuse_own(const Command& command, std::size_t
         return refused(command, FaultCode::NotHomed, "axis " + config.name + " is not homed");
     }
     const OwnMoveRequest move{steps, config.max_velocity_mm_s, command.ticks};
-    const auto pieces = OwnPieces::plan(config, machine_.tick_ns, config.method, move);
+    const auto pieces = OwnPieces::plan(config, machine_.tick_ns, config.method, move, begin_steps_);
     return pieces ? std::nullopt : std::optional(refused(command, FaultCode::BadProgram, pieces.error()));
 }
 
 /// As asked, or as the continuous ideal has it: methods differ from that by what they round.
 double Coordinator::planned_seconds(std::size_t axis, std::int64_t steps, Ticks asked) const {
     if (asked > Ticks{}) { return static_cast<double>(asked.value) / machine_.ticks_per_second(); }
-    const auto limits = stepgen::speed_limits_of(machine_.axes[axis], machine_.tick_ns);
-    return stepgen::Ideal({steps, limits.start, limits.max, limits.acceleration, limits.deceleration}).duration_s();
+    const AxisConfig& config = machine_.axes[axis];
+    return Ideal(step_move_of(config, {steps, config.max_velocity_mm_s})).duration_s();
 }
 
 void Coordinator::begin_own(Job job, Ticks ticks, CoordinatorOutputs& out) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <tuple>
 
-#include "core/methods/lai/lai_dda.hpp"
-#include "core/methods/lai/lai_planner.hpp"
-#include "core/methods/number_text.hpp"
+#include "core/methods/lai_dda.hpp"
+#include "core/methods/lai_planner.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
@@ -21,7 +21,7 @@ constexpr std::int64_t kStopPeriods = 80;  // from more than so many changes of 
 std::int64_t change_of(const AxisLimits& axis, double period) {
     const double acceleration = std::min(axis.max_acceleration, axis.max_deceleration);
     return std::max<std::int64_t>(
-        1, stepgen::whole_pulses(std::min(acceleration * period * period, axis.start_velocity * period) / 2));
+        1, methods::whole_pulses(std::min(acceleration * period * period, axis.start_velocity * period) / 2));
 }
 
 class LaiPlanner {
@@ -38,8 +38,8 @@ public:
     /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
     void straight(const PathMove& move, std::uint32_t part) {
         AxisCounts at = move.from;
-        std::vector<std::optional<stepgen::LaiShortAxis>> followers = followers_of(move);
-        stepgen::LaiLongAxis lead(move.lead, speeds_of(move), stepgen::LaiLeftOver::WithinTheFall);
+        std::vector<std::optional<methods::LaiShortAxis>> followers = followers_of(move);
+        methods::LaiLongAxis lead(move.lead, speeds_of(move), methods::LaiLeftOver::WithinTheFall);
         while (lead.remaining() > 0) {
             const std::int64_t pulses = lead.next();
             AxisCounts to = at;
@@ -61,33 +61,33 @@ private:
     }
 
     /// One for each axis but the long one.
-    std::vector<std::optional<stepgen::LaiShortAxis>> followers_of(const PathMove& move) const {
-        std::vector<std::optional<stepgen::LaiShortAxis>> followers(limits_.size());
+    std::vector<std::optional<methods::LaiShortAxis>> followers_of(const PathMove& move) const {
+        std::vector<std::optional<methods::LaiShortAxis>> followers(limits_.size());
         bool led = false;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const std::int64_t length = std::abs(move.to[i] - move.from[i]);
             if (!led && length == move.lead) {
                 led = true;
             } else {
-                followers[i].emplace(length, move.lead, 0, stepgen::LaiRounding::FromTheStart, stepgen::kUncompensated);
+                followers[i].emplace(length, move.lead, 0, methods::LaiRounding::FromTheStart, methods::kUncompensated);
             }
         }
         return followers;
     }
 
     /// Of the long axis, so that no axis breaks its limits, rounding to whole pulses included.
-    stepgen::LaiSpeeds speeds_of(const PathMove& move) const {
-        std::int64_t change = stepgen::kMaxPeriodPulses;
-        double top = std::min(static_cast<double>(stepgen::kMaxPeriodPulses), move.asked_velocity({}) * period());
+    methods::LaiSpeeds speeds_of(const PathMove& move) const {
+        std::int64_t change = methods::kMaxPeriodPulses;
+        double top = std::min(static_cast<double>(methods::kMaxPeriodPulses), move.asked_velocity({}) * period());
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double share = std::abs(move.share(i));
             if (share == 0) { continue; }
             change =
-                std::min(change, stepgen::whole_pulses(static_cast<double>(change_of(limits_[i], period())) / share));
+                std::min(change, methods::whole_pulses(static_cast<double>(change_of(limits_[i], period())) / share));
             if (share < 1) { top = std::min(top, (limits_[i].max_velocity * period() - 1) / share); }
         }
         return {.start = 0,
-                .max = std::clamp<std::int64_t>(stepgen::whole_pulses(top), 1, kStopPeriods * change),
+                .max = std::clamp<std::int64_t>(methods::whole_pulses(top), 1, kStopPeriods * change),
                 .change = change};
     }
 
@@ -121,10 +121,10 @@ private:
 
 /// Whether an axis has the least of something, in its user's unit.
 std::expected<void, std::string> at_least(const AxisConfig& axis, const char* key, double value, double least) {
-    if (value >= least * (1 - stepgen::kPulseHair)) { return {}; }
+    if (value >= least * (1 - methods::kPulseHair)) { return {}; }
     return std::unexpected("axis " + axis.name +
                            ": coordination LAI changes speed by whole pulses per 6.5 ms, which takes " + key +
-                           " of at least " + stepgen::number(least) + "; it is " + stepgen::number(value) +
+                           " of at least " + short_number(least) + "; it is " + short_number(value) +
                            " (more steps_per_mm help too, or coordination: RANADE)");
 }
 
@@ -141,7 +141,7 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
     const std::int64_t least_ns = bounds_of(machine).least_move.value * machine.tick_ns;
     if (kPeriod_ns < least_ns) {
         return std::unexpected("coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " +
-                               stepgen::number(static_cast<double>(least_ns) * 1e-6) +
+                               short_number(static_cast<double>(least_ns) * 1e-6) +
                                " ms; lower timing.frame_slots or timing.slot_us");
     }
     const double period_s = static_cast<double>(kPeriod_ns) * 1e-9;
@@ -160,10 +160,10 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
 
 std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
     const double pulses = move.asked_velocity({}) * static_cast<double>(kPeriod_ns / tick_ns);
-    if (move.lead == 0 || pulses >= 1 - stepgen::kPulseHair) { return {}; }
+    if (move.lead == 0 || pulses >= 1 - methods::kPulseHair) { return {}; }
     const double slowest = move.mm_per_lead() / (static_cast<double>(kPeriod_ns) * 1e-9);
     return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +
-                           stepgen::number(slowest) + " mm/s here");
+                           short_number(slowest) + " mm/s here");
 }
 
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,

@@ -1,7 +1,7 @@
 // Coordinated moves of two and more axes by Lai's velocity planner instead of the look-ahead.
 //
 // Source: Lai, Chien, Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives Design" (see
-// core/methods/lai/lai_planner.hpp). Every 6.5 ms each axis is given a whole number of pulses: the axis with the most
+// core/methods/lai_planner.hpp). Every 6.5 ms each axis is given a whole number of pulses: the axis with the most
 // leads, every other follows it with its slope, as if there were no third. Each period is a straight move at constant
 // speed, which the step engine spreads evenly, as the paper's DDA does; so holds, stops, tails and frames are those of
 // every path. Each move of a program comes to rest before the next: the paper has no look-ahead. What falling leaves

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 #include "core/program.hpp"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/axis_unit.hpp"
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {

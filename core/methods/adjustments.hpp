@@ -6,7 +6,7 @@
 
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 class Adjustments {
 public:
@@ -27,4 +27,4 @@ private:
     std::string text_;
 };
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/methods/adjustments.hpp"
-#include "core/methods/number_text.hpp"
+#include "core/number_text.hpp"
 #include "core/units.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr double kOne = 0x1p60;  // a step, where speeds are steps per clock period
@@ -28,12 +28,12 @@ StepMove expressible(const StepMove& move, Adjustments& changed) {
     StepMove made = move;
     if (move.acceleration != move.deceleration) {
         made.acceleration = made.deceleration = std::min(move.acceleration, move.deceleration);
-        changed.add("has no deceleration of its own", number(made.acceleration) + " steps/s^2 both ways");
+        changed.add("has no deceleration of its own", short_number(made.acceleration) + " steps/s^2 both ways");
     }
     const double first = std::min(move.max, std::sqrt(2 * made.acceleration));
     if (move.start == 0) {
         made.start = first;
-        changed.add("has no reference speed at rest", "starts and ends at " + number(first) + " steps/s");
+        changed.add("has no reference speed at rest", "starts and ends at " + short_number(first) + " steps/s");
     }
     return made;
 }
@@ -94,8 +94,8 @@ std::expected<CarricaSteps, std::string> CarricaSteps::of(const StepMove& move, 
     const double clock_s = parameters.clock_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     if (move.max * clock_s > 1) {
-        return std::unexpected("a step takes at least one clock period of " + number(clock_s * 1e9) +
-                               " ns: the maximum must not be above " + number(1 / clock_s) + " steps/s");
+        return std::unexpected("a step takes at least one clock period of " + short_number(clock_s * 1e9) +
+                               " ns: the maximum must not be above " + short_number(1 / clock_s) + " steps/s");
     }
     Adjustments changed;
     const StepMove made = expressible(move, changed);
@@ -116,4 +116,4 @@ StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& param
     return train_of(CarricaSteps::of(move, fit, parameters), move.steps);
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

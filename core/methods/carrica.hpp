@@ -15,7 +15,7 @@
 
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 struct CarricaParameters {
     double clock_s = 800e-9;  // T_c of the experiment of Figs. 6 and 7; 400 ns for Fig. 8
@@ -65,4 +65,4 @@ private:
 /// Step k is where the position is k. Error: the maximum is above 1/T_c.
 StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& parameters = {});
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/methods/adjustments.hpp"
-#include "core/methods/number_text.hpp"
+#include "core/number_text.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr double kShortestDelay = 2;  // a pulse is high for one count and low for one
@@ -21,9 +21,9 @@ LamParameters expressible(const StepMove& move, const LamParameters& parameters,
     made.cruise_delay = delay_for(move.max, f);
     if (move.start > 0) { made.start_delay = delay_for(move.start, f); }
     made.start_delay = std::max(made.start_delay, made.cruise_delay);
-    changed.add("has whole counts of " + number(f / 1e3) + " kHz",
-                "from " + number(f / static_cast<double>(made.start_delay)) + " to " +
-                    number(f / static_cast<double>(made.cruise_delay)) + " steps/s");
+    changed.add("has whole counts of " + short_number(f / 1e3) + " kHz",
+                "from " + short_number(f / static_cast<double>(made.start_delay)) + " to " +
+                    short_number(f / static_cast<double>(made.cruise_delay)) + " steps/s");
     changed.add("has no acceleration to choose", std::to_string(made.acceleration) + " counts fewer each pulse");
     changed.add("has no deceleration to choose", std::to_string(made.deceleration) + " counts more each of the last " +
                                                      std::to_string(made.brake_pulses) + " pulses");
@@ -55,4 +55,4 @@ StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters) {
     return train_of(LamSteps::of(move, fit, parameters), move.steps);
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -7,7 +7,7 @@
 #include "core/methods/lam_controller.hpp"
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 /// When pulses fall, one after the other.
 class LamSteps {
@@ -34,4 +34,4 @@ private:
 /// Step k is where the position is k.
 StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters = {});
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 LamController::LamController(const LamParameters& parameters)
     : parameters_(parameters), delay_(parameters.start_delay), left_of_delay_(parameters.start_delay) {}
@@ -87,4 +87,4 @@ void LamController::choose_delay() {
     left_of_delay_ = delay_;
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -16,7 +16,7 @@
 
 #include <cstdint>
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 /// Counts of the 10 kHz clock, and pulses.
 struct LamParameters {
@@ -80,4 +80,4 @@ private:
     bool right_ = false;
 };
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -1,9 +1,8 @@
 // What the published step generation methods have in common: a planned move in, the times of its steps out.
 //
 // Each method is as its authors published it, with their numbers as defaults. They are compared with each other and
-// with the continuous ideal, and an axis may make its own moves by any of them (step_source.hpp,
-// core/axis/own_moves/own_pieces.hpp). Programs run by core/motion, or by Lai's planner
-// (core/coordinator/lai_path.hpp).
+// with the continuous ideal, and an axis may make its own moves by any of them (paper_steps.hpp). Programs run by
+// core/motion, or by Lai's planner (core/coordinator/lai_path.hpp).
 #pragma once
 
 #include <cstdint>
@@ -13,24 +12,13 @@
 #include <utility>
 #include <vector>
 
-namespace lockstep::stepgen {
+#include "core/motion/step_move.hpp"
+
+namespace lockstep::methods {
 
 inline constexpr std::int64_t kMaxSteps = 10'000'000;
 /// How many periods of its clock a method is followed for.
 inline constexpr double kMaxClocks = 5e8;
-
-/// A straight move from rest to rest. Speeds in steps/s, accelerations in steps/s^2.
-struct StepMove {
-    std::int64_t steps = 0;
-    double start = 0;  // jumped to from rest, and from it to rest
-    double max = 0;
-    double acceleration = 0;
-    double deceleration = 0;
-    bool operator==(const StepMove&) const = default;
-};
-
-/// Where a method means a step to fall: step k where the position is k, or where it is k - 1/2.
-enum class Crossing { Whole, Half };
 
 /// What to do with a move that a method cannot express: refuse it, or make the nearest it can.
 enum class Fit { Exact, Nearest };
@@ -62,4 +50,4 @@ StepResult train_of(std::expected<Steps, std::string> steps, std::int64_t count)
 /// Error where following the move by a clock of `clock_s` would take more than kMaxClocks.
 std::expected<void, std::string> check_length(const StepMove& move, double clock_s);
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

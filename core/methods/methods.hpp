@@ -7,7 +7,7 @@
 #include "core/machine.hpp"
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 struct Method {
     std::string_view name;    // "ranade"
@@ -18,10 +18,7 @@ struct Method {
 
 std::span<const Method> methods();
 
-/// "ranade" and the like.
-std::string_view name_of(StepMethod method);
-
 /// Nothing where no method has that name.
 const Method* find_method(std::string_view name);
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -9,7 +9,7 @@
 
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 struct RanadeParameters {
     double tick_s = 1e-6;
@@ -18,4 +18,4 @@ struct RanadeParameters {
 /// Expresses every move. Error: faster than one step per two ticks.
 StepResult ranade(const StepMove& move, Fit fit, const RanadeParameters& parameters = {});
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/methods/adjustments.hpp"
-#include "core/methods/number_text.hpp"
+#include "core/number_text.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr double kCorrection = 0.08;
@@ -40,7 +40,7 @@ std::expected<SpielauerSteps, std::string> SpielauerSteps::of(const StepMove& mo
     const double fastest = parameters.timer_hz * parameters.step_length;
     if (move.max > fastest) {
         return std::unexpected("a step takes at least one count of the timer: the maximum must not be above " +
-                               number(fastest) + " steps/s");
+                               short_number(fastest) + " steps/s");
     }
     Adjustments changed;
     if (move.start > 0) { changed.add("knows no start speed", "starts and ends at rest"); }
@@ -104,4 +104,4 @@ StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& p
     return train_of(SpielauerSteps::of(move, fit, parameters), move.steps);
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

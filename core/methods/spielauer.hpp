@@ -22,7 +22,7 @@
 
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 struct SpielauerParameters {
     double timer_hz = 1e6;
@@ -77,4 +77,4 @@ std::vector<std::int64_t> spielauer_counts(const StepMove& move, const Spielauer
 /// Starts and ends at rest whatever the start speed. Step k is where the position is k. Error: faster than the timer.
 StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& parameters = {});
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -4,11 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include "core/methods/number_text.hpp"
-#include "core/methods/step_source.hpp"
+#include "core/methods/lai.hpp"
+#include "core/methods/paper_steps.hpp"
 #include "core/motion/limit_watch.hpp"
+#include "core/number_text.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 using Suits = std::expected<void, std::string>;
@@ -20,8 +21,8 @@ Suits unsuited(std::string why) { return std::unexpected(std::move(why)); }
 
 Suits brakes_as_it_accelerates(const SpeedLimits& limits) {
     if (limits.acceleration == limits.deceleration) { return {}; }
-    return unsuited("it has no deceleration of its own: " + number(limits.deceleration) +
-                    " steps/s^2 must equal the acceleration, " + number(limits.acceleration));
+    return unsuited("it has no deceleration of its own: " + short_number(limits.deceleration) +
+                    " steps/s^2 must equal the acceleration, " + short_number(limits.acceleration));
 }
 
 /// Lai's acceleration: one pulse per period and period.
@@ -34,28 +35,28 @@ Suits changes_by_whole_pulses(const SpeedLimits& limits) {
     const double least = one_pulse();
     const double most = std::min(limits.acceleration, limits.deceleration);
     if (least <= most) { return {}; }
-    return unsuited("it changes its speed by whole pulses per 6.5 ms, " + number(least) +
+    return unsuited("it changes its speed by whole pulses per 6.5 ms, " + short_number(least) +
                     " steps/s^2 at least: acceleration and deceleration must not be below that, and one is " +
-                    number(most));
+                    short_number(most));
 }
 
 /// Every step of one move; the wait for each against all before it.
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t steps) {
-    auto source = StepSource::of(method, {steps, limits.start, limits.max, limits.acceleration, limits.deceleration});
+    auto source = begin_steps(method, {steps, limits.start, limits.max, limits.acceleration, limits.deceleration});
     if (!source) { return unsuited(source.error()); }
     LimitWatch watch({limits.start, limits.acceleration, limits.deceleration});
     std::optional<LimitWatch::Breach> breach;
     double before_s = 0;
     for (std::int64_t i = 0; i < steps && !breach; ++i) {
-        const double at_s = source->next_s();
+        const double at_s = (*source)->next_s();
         breach = watch.step(at_s - before_s);
         before_s = at_s;
     }
     if (!breach) { breach = watch.rest(); }
     if (!breach) { return {}; }
-    return unsuited("in a move of " + std::to_string(steps) + " steps its speed jumps by " + number(breach->change) +
-                    " steps/s beyond what the acceleration allows; the start velocity allows " +
-                    number(breach->allowed));
+    return unsuited(
+        "in a move of " + std::to_string(steps) + " steps its speed jumps by " + short_number(breach->change) +
+        " steps/s beyond what the acceleration allows; the start velocity allows " + short_number(breach->allowed));
 }
 
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
@@ -84,8 +85,8 @@ Suits suits(StepMethod method, const SpeedLimits& limits) {
     if (method == StepMethod::Ranade) { return {}; }
     const double fastest = 1 / (kMinTicksPerStep * limits.tick_s);
     if (limits.max > fastest) {
-        return unsuited("its steps are rounded to ticks: the maximum velocity is " + number(limits.max) +
-                        " steps/s and must not be above a third of a step per tick, " + number(fastest));
+        return unsuited("its steps are rounded to ticks: the maximum velocity is " + short_number(limits.max) +
+                        " steps/s and must not be above a third of a step per tick, " + short_number(fastest));
     }
     if (method == StepMethod::Carrica || method == StepMethod::Lam) {
         if (auto same = brakes_as_it_accelerates(limits); !same) { return same; }
@@ -96,4 +97,4 @@ Suits suits(StepMethod method, const SpeedLimits& limits) {
     return keeps_limits(method, limits);
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -11,7 +11,7 @@
 
 #include "core/machine.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 /// Steps/s, steps/s^2, and the tick that step times are rounded to, s.
 struct SpeedLimits {
@@ -27,4 +27,4 @@ SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns);
 /// Error: what the method cannot do, with the value and the limit, and what would help.
 std::expected<void, std::string> suits(StepMethod method, const SpeedLimits& limits);
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace lockstep::stepgen {
+namespace lockstep {
 
 /// The mean speed of a wait is one step over it, and the axis has it at some instant of that wait. So no lawful motion,
 /// one that speeds up by at most a, slows down by at most d, and jumps by at most the start velocity, has
@@ -57,4 +57,4 @@ private:
     double fastest_ = 0;  // the most that they may all have fallen to
 };
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/methods/paper_steps.hpp"
+
 namespace lockstep {
 
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
@@ -16,7 +18,7 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
     : open_(std::move(open)),
       machine_(setup.machine),
       lacks_("not looked for yet"),
-      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, setup.kept),
+      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
       time_(setup.axis, setup.machine) {}
 
 AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {

@@ -9,6 +9,7 @@
 
 #include "core/coordinator/coordinator.hpp"
 #include "core/flight/coordinator_flight.hpp"
+#include "core/methods/paper_steps.hpp"
 #include "core/protocol/names.hpp"
 #include "services/coordinator/coordinator_network.hpp"
 #include "services/coordinator/program_inbox.hpp"
@@ -45,7 +46,7 @@ public:
                        std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby)
         : machine_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
-          coordinator_(machine, identity, config_hash(machine), standby),
+          coordinator_(machine, identity, config_hash(machine), methods::begin_steps, standby),
           network_(std::move(network)),
           sink_(std::move(sink)),
           flight_log_(open_flight(machine, "", identity)),

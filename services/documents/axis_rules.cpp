@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/methods/methods.hpp"
 #include "core/methods/suits.hpp"
+#include "core/motion/step_source.hpp"
 #include "core/program.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
@@ -193,10 +193,10 @@ private:
         constexpr std::array<std::string_view, 5> kLimits{"steps_per_mm", "start_velocity_mm_s", "max_velocity_mm_s",
                                                           "max_accel_mm_s2", "max_decel_mm_s2"};
         if (!std::ranges::all_of(kLimits, is_sound)) { return; }
-        const auto suits = stepgen::suits(axis_.method, stepgen::speed_limits_of(axis_, machine_.tick_ns));
+        const auto suits = methods::suits(axis_.method, methods::speed_limits_of(axis_, machine_.tick_ns));
         problems_.require(suits.has_value(), "method",
-                          "method is " + std::string(stepgen::name_of(axis_.method)) + "; " +
-                              (suits ? "" : suits.error()) + "; change the limits, or choose another method");
+                          "method is " + std::string(name_of(axis_.method)) + "; " + (suits ? "" : suits.error()) +
+                              "; change the limits, or choose another method");
     }
 
     void check_place() {

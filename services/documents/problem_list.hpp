@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 #include "services/documents/machine_rules.hpp"
 
 namespace lockstep {

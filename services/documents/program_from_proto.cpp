@@ -1,8 +1,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/gcode/number_text.hpp"
 #include "core/machine.hpp"
+#include "core/number_text.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/documents/program_proto.hpp"

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/methods/paper_steps.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -53,7 +55,7 @@ void VirtualMachine::power_up() {
 void VirtualMachine::start(std::size_t process) {
     if (is_coordinator(process)) {
         const Identity identity = static_cast<Identity>(now_.value) + process;
-        coordinator(process).emplace(options_.machine, identity, options_.config_hash,
+        coordinator(process).emplace(options_.machine, identity, options_.config_hash, methods::begin_steps,
                                      coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
     } else {
         const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash,

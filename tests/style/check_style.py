@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rules of the code that a machine can check: layers, what core may not touch, sizes, format.
+"""The rules of the code that a machine can check: layers (check_layers.py), what core may not touch, sizes, format.
 
 Usage: check_style.py ROOT    Prints each breach as file:line: what; exits 1 where there is one.
 """
@@ -8,20 +8,14 @@ import re
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True
+import check_layers  # noqa: E402
+
 SOURCES = ("core", "sim_fpga", "services", "clients", "tests")
-# What each layer may include of the others. Nothing points back.
-MAY_INCLUDE = {
-    "core": {"core"},
-    "sim_fpga": {"core", "sim_fpga"},
-    "services": {"core", "sim_fpga", "idl", "services"},
-    "clients": {"core", "sim_fpga", "idl", "services", "clients"},
-    "tests": {"core", "sim_fpga", "idl", "services", "clients", "tests"},
-}
 # Core is fed with messages and time: it does no I/O, starts no threads, reads no clocks.
 FORBIDDEN_IN_CORE = re.compile(
     r"#include <(chrono|thread|mutex|iostream|fstream|ctime|condition_variable|filesystem|unistd\.h|sys/.*)>"
     r"|clock_gettime|std::chrono|std::rand\b|random_device|spdlog")
-CORE_MAY_USE = {"core/step/many": "hwy/"}  # the vector engine's library
 MAX_LINES = 500
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
 
@@ -39,10 +33,6 @@ def breaches(root, layer, path):
     if len(lines) > MAX_LINES:
         yield f"{name}:{MAX_LINES}: {len(lines)} lines; split it into ideas"
     for number, line in enumerate(lines, 1):
-        include = re.match(r'#include "(\w+)/', line)
-        folders = set(SOURCES) | {"idl"}
-        if include and include.group(1) in folders and include.group(1) not in MAY_INCLUDE[layer]:
-            yield f"{name}:{number}: {layer} does not depend on {include.group(1)}"
         if layer == "core" and FORBIDDEN_IN_CORE.search(line):
             yield f"{name}:{number}: core has no I/O, threads or clocks: {line.strip()}"
         if UNFINISHED.search(line):
@@ -61,6 +51,7 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     files = list(sources(root))
     found = [b for layer, path in files for b in breaches(root, layer, path)]
+    found += check_layers.breaches(root, check_layers.load(root))
     found += format_breaches(root, [path for _, path in files])
     print("\n".join(found) if found else f"{len(files)} files are in order")
     return 1 if found else 0

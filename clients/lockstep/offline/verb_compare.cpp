@@ -27,12 +27,12 @@ struct CompareOptions {
     bool json = false;
 };
 
-std::expected<std::vector<stepgen::Method>, std::string> chosen(const std::vector<std::string>& names) {
-    const auto all = stepgen::methods();
-    if (names.empty()) { return std::vector<stepgen::Method>(all.begin(), all.end()); }
-    std::vector<stepgen::Method> found;
+std::expected<std::vector<methods::Method>, std::string> chosen(const std::vector<std::string>& names) {
+    const auto all = methods::methods();
+    if (names.empty()) { return std::vector<methods::Method>(all.begin(), all.end()); }
+    std::vector<methods::Method> found;
     for (const std::string& name : names) {
-        const stepgen::Method* method = stepgen::find_method(name);
+        const methods::Method* method = methods::find_method(name);
         if (method == nullptr) {
             std::string known;
             for (const auto& one : all) { known += " " + std::string(one.name); }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clients/scenario/model/scenario.hpp"
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 #include "services/documents/text_source.hpp"
 
 namespace lockstep::scenario {

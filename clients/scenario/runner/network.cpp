@@ -1,6 +1,6 @@
 #include "clients/scenario/runner/network.hpp"
 
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::scenario {
 namespace {

@@ -17,7 +17,7 @@
 #include "clients/supervisor/flight_files.hpp"
 #include "clients/supervisor/program_folder.hpp"
 #include "clients/text/words.hpp"
-#include "core/gcode/number_text.hpp"
+#include "core/number_text.hpp"
 #include "services/axis/device_window.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/files/text_file.hpp"

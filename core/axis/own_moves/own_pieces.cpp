@@ -4,34 +4,38 @@
 #include <cmath>
 #include <utility>
 
-#include "core/methods/methods.hpp"
-#include "core/methods/number_text.hpp"
 #include "core/motion/interpolate.hpp"
 #include "core/motion/profile.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
 
-using stepgen::number;
-
 /// What a move in a given time lacks, in the units of its user.
 std::string text_of(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns, const OwnMoveRequest& move) {
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
-    const std::string time = number(static_cast<double>(move.ticks.value) * tick_s) + " s";
-    return number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
+    const std::string time = short_number(static_cast<double>(move.ticks.value) * tick_s) + " s";
+    return short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
            " would break the limits of axis " + axis.name + ": it takes at least " +
-           number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and in " + time + " at most " +
-           number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
+           short_number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and in " + time + " at most " +
+           short_number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
 }
 
 }  // namespace
 
+StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
+    const double per_mm = axis.steps_per_mm;
+    const double max = move.speed_mm_s * per_mm;
+    return {move.steps, std::min(axis.start_velocity_mm_s * per_mm, max), max, axis.max_accel_mm_s2 * per_mm,
+            axis.max_decel_mm_s2 * per_mm};
+}
+
 std::expected<OwnPieces, std::string> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
-                                                      const OwnMoveRequest& move) {
+                                                      const OwnMoveRequest& move, BeginSteps begin_steps) {
     if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
-    if (move.ticks == Ticks{}) { return stepped(axis, tick_ns, method, move); }
+    if (move.ticks == Ticks{}) { return stepped(axis, tick_ns, method, move, begin_steps); }
     return std::unexpected("axis " + axis.name + " cannot move in a given time by method " +
-                           std::string(stepgen::name_of(method)) + "; leave the time out, or configure RANADE");
+                           std::string(name_of(method)) + "; leave the time out, or configure RANADE");
 }
 
 std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
@@ -53,16 +57,14 @@ std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis,
 }
 
 std::expected<OwnPieces, std::string> OwnPieces::stepped(const AxisConfig& axis, std::int64_t tick_ns,
-                                                         StepMethod method, const OwnMoveRequest& move) {
-    const double per_mm = axis.steps_per_mm;
+                                                         StepMethod method, const OwnMoveRequest& move,
+                                                         BeginSteps begin_steps) {
     const double ticks_per_s = 1e9 / static_cast<double>(tick_ns);
-    const double max = move.speed_mm_s * per_mm;
-    const double start = axis.start_velocity_mm_s * per_mm;
-    const stepgen::StepMove asked{move.steps, std::min(start, max), max, axis.max_accel_mm_s2 * per_mm,
-                                  axis.max_decel_mm_s2 * per_mm};
-    auto source = stepgen::StepSource::of(method, asked);
+    const double start = axis.start_velocity_mm_s * axis.steps_per_mm;
+    const StepMove asked = step_move_of(axis, move);
+    auto source = begin_steps(method, asked);
     if (!source) { return std::unexpected("axis " + axis.name + ": " + source.error()); }
-    const stepgen::LimitWatch watch({start, asked.acceleration, asked.deceleration});
+    const LimitWatch watch({start, asked.acceleration, asked.deceleration});
     return OwnPieces(Stepped{std::move(*source), watch, ticks_per_s, move.steps});
 }
 
@@ -106,7 +108,7 @@ std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {
 
 /// None where it would break the limits.
 std::optional<double> OwnPieces::Stepped::next_step_s() {
-    const double at_s = source.next_s();
+    const double at_s = source->next_s();
     breach = watch.step(at_s - before_s).has_value();
     before_s = at_s;
     if (breach) { return std::nullopt; }

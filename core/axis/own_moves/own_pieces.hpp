@@ -1,11 +1,13 @@
 // A move of one axis by itself as add-only pieces, by the method its configuration names.
 //
 // Ranade's are planned as a profile (core/motion/profile.hpp), three pieces at most. The other methods give the times
-// of their steps (core/methods): rounded to ticks, they become the pieces that make these steps (step_pieces.hpp).
+// of their steps (core/motion/step_source.hpp): rounded to ticks, they become the pieces that make these steps
+// (step_pieces.hpp).
 #pragma once
 
 #include <cstdint>
 #include <expected>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,8 +15,8 @@
 
 #include "core/axis/own_moves/step_pieces.hpp"
 #include "core/machine.hpp"
-#include "core/methods/step_source.hpp"
 #include "core/motion/limit_watch.hpp"
+#include "core/motion/step_source.hpp"
 
 namespace lockstep {
 
@@ -25,11 +27,15 @@ struct OwnMoveRequest {
     Ticks ticks;             // how long it lasts, exactly; 0: as fast as the limits allow
 };
 
+/// The move in steps and seconds, within the axis's limits.
+StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move);
+
 class OwnPieces {
 public:
-    /// The axis's own method, or another. Error: what the move lacks, and what could be made instead.
+    /// By the axis's own method, or another. `begin_steps`: of methods other than Ranade's. Error: what the move lacks,
+    /// and what could be made instead.
     static std::expected<OwnPieces, std::string> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
-                                                      const OwnMoveRequest& move);
+                                                      const OwnMoveRequest& move, BeginSteps begin_steps);
 
     /// The next piece; it lasts little longer than `most` where a step or a profile allows it to be cut. None after the
     /// last one, or where the step to come would break the axis's limits.
@@ -51,8 +57,8 @@ private:
     };
     /// A method's steps.
     struct Stepped {
-        stepgen::StepSource source;
-        stepgen::LimitWatch watch;
+        std::unique_ptr<StepSource> source;
+        LimitWatch watch;
         double ticks_per_s;
         std::int64_t left;  // steps
         StepPieces pieces;
@@ -71,7 +77,8 @@ private:
     static std::expected<OwnPieces, std::string> planned(const AxisConfig& axis, std::int64_t tick_ns,
                                                          const OwnMoveRequest& move);
     static std::expected<OwnPieces, std::string> stepped(const AxisConfig& axis, std::int64_t tick_ns,
-                                                         StepMethod method, const OwnMoveRequest& move);
+                                                         StepMethod method, const OwnMoveRequest& move,
+                                                         BeginSteps begin_steps);
 
     Maker maker_;
 };

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/methods/carrica.hpp"
-#include "core/methods/ideal.hpp"
+#include "core/motion/ideal.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr StepMove kFigure6{12'000, 500, 6'000, 4'200, 4'200};
@@ -85,4 +85,4 @@ TEST(CarricaLimits, WhatItCannotDoIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -12,7 +12,7 @@
 namespace lockstep::comparison {
 namespace {
 
-Comparison standard() { return compare(*parse_move(kDefaultMove), stepgen::methods()); }
+Comparison standard() { return compare(*parse_move(kDefaultMove), methods::methods()); }
 
 const Outcome& of(const Comparison& comparison, std::string_view name) {
     return *std::ranges::find(comparison.rows, name, [](const Row& row) { return row.method.name; })->outcome;
@@ -54,7 +54,7 @@ TEST(Comparison, WhatAMethodCannotExpressIsSaid) {
 }
 
 TEST(Comparison, AMethodThatRefusesIsARowAndNoCurve) {
-    const Comparison comparison = compare({1'000, 0, 100'000, 50'000, 50'000}, stepgen::methods());
+    const Comparison comparison = compare({1'000, 0, 100'000, 50'000, 50'000}, methods::methods());
     EXPECT_NE(to_text(comparison).find("refused"), std::string::npos);
     EXPECT_EQ(comparison_figure(comparison).rows.size(), 1U + 4U);
     EXPECT_NE(to_report(comparison).methods(2).refusal().find("255"), std::string::npos);
@@ -72,7 +72,7 @@ TEST(Comparison, TheReportHasEveryMethodAndLine) {
 }
 
 TEST(Comparison, EveryStepIsALineOfTheTable) {
-    const std::string csv = to_csv(compare({100, 500, 6'000, 4'200, 4'200}, stepgen::methods()));
+    const std::string csv = to_csv(compare({100, 500, 6'000, 4'200, 4'200}, methods::methods()));
     EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 5 * 100);
 }
 
@@ -92,8 +92,8 @@ TEST(LaiFigures14And15, PulsesComeSmoothlyOnlyWithTheDda) {
 }
 
 TEST(MoveText, AMoveIsReadWithOrWithoutItsDeceleration) {
-    EXPECT_EQ(*parse_move("12000,500,6000,4200"), (stepgen::StepMove{12'000, 500, 6'000, 4'200, 4'200}));
-    EXPECT_EQ(*parse_move("10,0,1e3,2.5,3"), (stepgen::StepMove{10, 0, 1'000, 2.5, 3}));
+    EXPECT_EQ(*parse_move("12000,500,6000,4200"), (StepMove{12'000, 500, 6'000, 4'200, 4'200}));
+    EXPECT_EQ(*parse_move("10,0,1e3,2.5,3"), (StepMove{10, 0, 1'000, 2.5, 3}));
     EXPECT_EQ(move_text(*parse_move("12000,500,6000,4200")), "12000 steps, 500 to 6000 steps/s, 4200 steps/s²");
 }
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "core/methods/lai/lai.hpp"
-#include "core/methods/lai/lai_dda.hpp"
+#include "core/methods/lai.hpp"
+#include "core/methods/lai_dda.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 std::vector<int> pulses_of_a_period(Dda& dda, std::int64_t pulses) {
@@ -81,4 +81,4 @@ TEST(LaiMethod, WhatItCannotDoIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/lai_planner.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr LaiSpeeds kUncapped{.max = 1'000};
@@ -90,4 +90,4 @@ TEST(LaiCompensations, EveryLineEndsExactlyAndNoSpeedChangesByMoreThanOne) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

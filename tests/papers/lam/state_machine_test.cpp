@@ -6,7 +6,7 @@
 
 #include "core/methods/lam.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 /// The slide: the head's place in pulses, a switch at either end.
@@ -153,4 +153,4 @@ TEST(LamMethod, WhatItCannotDoIsRefusedByNameOrMadeNearly) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

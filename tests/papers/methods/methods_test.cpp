@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "core/methods/ideal.hpp"
 #include "core/methods/methods.hpp"
+#include "core/motion/ideal.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr std::array kMoves{StepMove{12'000, 500, 6'000, 4'200, 4'200}, StepMove{4'000, 0, 1'000, 1'000, 1'000},
@@ -83,4 +83,4 @@ TEST(Ideal, AShortMoveIsATriangle) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

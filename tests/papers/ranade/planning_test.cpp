@@ -43,7 +43,7 @@ TEST(RanadePlanning, TwoThousandStepsAreInfeasibleAndTheCallerHearsOfThe1860That
 }
 
 TEST(RanadePlanning, AHundredThousandStepsASecondAsTheArticleNeeded) {
-    const auto train = stepgen::ranade({400'000, 1'000, 100'000, 200'000, 200'000}, stepgen::Fit::Exact);
+    const auto train = methods::ranade({400'000, 1'000, 100'000, 200'000, 200'000}, methods::Fit::Exact);
     ASSERT_TRUE(train.has_value());
     EXPECT_EQ(train->times_s.size(), 400'000U);
     EXPECT_NEAR(train->times_s[200'001] - train->times_s[200'000], 10e-6, 1.01e-6);

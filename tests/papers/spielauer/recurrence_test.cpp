@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/methods/ideal.hpp"
 #include "core/methods/spielauer.hpp"
+#include "core/motion/ideal.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 constexpr StepMove kLong{4'000, 0, 1'000, 1'000, 1'000};
@@ -107,4 +107,4 @@ TEST(SpielauerLimits, AStartSpeedIsRefusedOrLeftOut) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

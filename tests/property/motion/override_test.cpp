@@ -45,7 +45,7 @@ struct TurnedRun {
     }
 };
 
-void expect_tail(const TurnedRun& run, LimitWatch watch, Ticks from) {
+void expect_tail(const TurnedRun& run, PathLimitWatch watch, Ticks from) {
     const Path tail = brake_from(run.path, subticks(from), run.machine.limits);
     ASSERT_LE(tail.moves.size(), run.bounds.stop_moves);
     if (!tail.empty()) { ASSERT_NO_FATAL_FAILURE(watch.follow(tail, Ticks{0}, tail.duration().ceil())); }
@@ -58,7 +58,7 @@ TEST(Overrides, TurnedAtAnyTimeKeepEveryLimitInBodiesAndTailsAndEndInTheSamePlac
     for (std::uint64_t seed = 0; seed < 600; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         TurnedRun run(seed);
-        LimitWatch watch(run.machine, run.path);
+        PathLimitWatch watch(run.machine, run.path);
         for (Ticks now; now < run.path.duration().ceil();) {
             run.maybe_turn(now);
             const Ticks end = std::min(now + run.frame, run.path.duration().ceil());

@@ -83,7 +83,7 @@ TEST(JoinedMoves, KeepEveryAxisWithinItsLimitsThroughEveryCorner) {
         const Machine m = random_machine(random, 1 + random() % 5);
         const Path path = plan_path(random_moves(random, m, 1 + random() % 40), {}, m.limits, kBounds);
         SCOPED_TRACE(run);
-        LimitWatch watch(m, path);
+        PathLimitWatch watch(m, path);
         ASSERT_NO_FATAL_FAILURE(watch.follow(path, Ticks{0}, path.duration().ceil()));
         ASSERT_NO_FATAL_FAILURE(watch.expect_rest());
         for (std::size_t i = 0; i < m.limits.size(); ++i) { EXPECT_EQ(watch.at()[i].count(), path.moves.back().to[i]); }

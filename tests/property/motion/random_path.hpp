@@ -62,9 +62,9 @@ inline std::vector<PathMove> random_moves(Random& random, const Machine& m, std:
 inline constexpr PathBounds kBounds{Ticks{400}, 24};
 
 /// Where the axes stand and how fast they are: checks every limit of each as it follows its pieces.
-class LimitWatch {
+class PathLimitWatch {
 public:
-    LimitWatch(const Machine& machine, const Path& path) : limits_(machine.limits), axes_(machine.limits.size()) {
+    PathLimitWatch(const Machine& machine, const Path& path) : limits_(machine.limits), axes_(machine.limits.size()) {
         for (std::size_t i = 0; i < axes_.size(); ++i) { axes_[i].at = start_of(path, i, 0); }
     }
 

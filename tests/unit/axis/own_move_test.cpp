@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/axis/following/frame_check.hpp"
-#include "core/methods/methods.hpp"
+#include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
 namespace {
@@ -32,7 +33,7 @@ struct ByMethod : testing::TestWithParam<StepMethod> {
 
     OwnMove move(std::int64_t steps, bool backward) const {
         const OwnMoveRequest request{steps, axis.max_velocity_mm_s};
-        return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request).value(),
+        return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request, methods::begin_steps).value(),
                        {rest_position(0, backward), backward, steps, kStart}, limits, kSpan);
     }
     AxisConfig axis = axis_by(GetParam());
@@ -93,15 +94,15 @@ TEST_P(ByMethod, EveryTailRestsWithinTheLimitsAndNotBeyondTheMove) {
 INSTANTIATE_TEST_SUITE_P(All, ByMethod,
                          testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
                                          StepMethod::Carrica),
-                         [](const auto& method) { return std::string(stepgen::name_of(method.param)); });
+                         [](const auto& method) { return std::string(name_of(method.param)); });
 
 TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
     AxisConfig axis = axis_by(StepMethod::Lam);
     axis.max_velocity_mm_s = 100;
     const AxisLimits limits = limits_of(axis, 1000);
-    auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, axis.max_velocity_mm_s});
+    auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, axis.max_velocity_mm_s}, methods::begin_steps);
     ASSERT_TRUE(pieces);
-    OwnMove frames(*pieces, {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000});
+    OwnMove frames(std::move(*pieces), {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000});
     Position rest;
     while (!frames.all_made()) {
         const HeldFrame frame = frames.next();
@@ -115,8 +116,10 @@ TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
 }
 
 TEST(OwnPieces, InATimeAreRanadesAlone) {
-    EXPECT_TRUE(OwnPieces::plan(axis_by(StepMethod::Ranade), 1000, StepMethod::Ranade, {80, 150, Ticks{100'000}}));
-    const auto other = OwnPieces::plan(axis_by(StepMethod::Lai), 1000, StepMethod::Lai, {80, 50, Ticks{100'000}});
+    EXPECT_TRUE(OwnPieces::plan(axis_by(StepMethod::Ranade), 1000, StepMethod::Ranade, {80, 150, Ticks{100'000}},
+                                methods::begin_steps));
+    const auto other = OwnPieces::plan(axis_by(StepMethod::Lai), 1000, StepMethod::Lai, {80, 50, Ticks{100'000}},
+                                       methods::begin_steps);
     ASSERT_FALSE(other);
     EXPECT_NE(other.error().find("method lai"), std::string::npos) << other.error();
 }

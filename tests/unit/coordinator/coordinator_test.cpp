@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/methods/paper_steps.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -45,7 +47,7 @@ protected:
         slot(std::span(&command, 1));
     }
 
-    Coordinator coordinator_{machine(), 1'000'000, 1};
+    Coordinator coordinator_{machine(), 1'000'000, 1, methods::begin_steps};
     AxisState axis_{.identity = 5, .stamp = 1000, .homed = true, .phase = AxisPhase::Standby, .config_hash = 1};
     MachineState state_;
     std::uint64_t sequence_ = 0;

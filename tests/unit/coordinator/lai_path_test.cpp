@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/axis/following/frame_check.hpp"
-#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/lai_planner.hpp"
 #include "core/motion/interpolate.hpp"
 
 namespace lockstep {
@@ -123,7 +123,7 @@ TEST(LaiPath, NoPeriodChangesTheSpeedByMoreThanItMay) {
         for (std::int64_t length = 1; length < 1000; ++length) {
             std::int64_t before = 0;
             std::int64_t sum = 0;
-            stepgen::LaiLongAxis axis(length, {.max = 60, .change = change}, stepgen::LaiLeftOver::WithinTheFall);
+            methods::LaiLongAxis axis(length, {.max = 60, .change = change}, methods::LaiLeftOver::WithinTheFall);
             while (axis.remaining() > 0) {
                 const std::int64_t pulses = axis.next();
                 ASSERT_LE(std::abs(pulses - before), change) << length << " by " << change;

@@ -6,7 +6,7 @@
 
 #include "core/motion/limit_watch.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 using testing::HasSubstr;
@@ -105,4 +105,4 @@ TEST(LimitWatch, CountsTheRestAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

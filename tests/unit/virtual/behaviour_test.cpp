@@ -1,6 +1,7 @@
 // What the machine does when asked, and when things go wrong: each a small story.
 #include <cmath>
 
+#include "core/methods/paper_steps.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -246,9 +247,9 @@ CoordinatorOutputs meet_owner(Coordinator& coordinator, const MachineConfig& mac
 
 TEST(Coordinators, WhoHearsAnOwnerBeforeItOwnsAnythingEnds) {
     const MachineConfig machine = small_machine();
-    Coordinator second(machine, 2'000, 1);
+    Coordinator second(machine, 2'000, 1, methods::begin_steps);
     EXPECT_TRUE(meet_owner(second, machine, SecondProcess::kStatesThatProve, 1).must_quit);
-    Coordinator to_stand_by(machine, 2'000, 1, OnTakeover::Stop);
+    Coordinator to_stand_by(machine, 2'000, 1, methods::begin_steps, OnTakeover::Stop);
     const auto out = meet_owner(to_stand_by, machine, SecondProcess::kStatesThatProve, 1);
     EXPECT_FALSE(out.must_quit);
     EXPECT_EQ(out.state->phase, MachinePhase::Standby);
@@ -256,14 +257,14 @@ TEST(Coordinators, WhoHearsAnOwnerBeforeItOwnsAnythingEnds) {
 
 TEST(Coordinators, StatesOfAnEarlierCoordinatorSentAgainEndNone) {
     const MachineConfig machine = small_machine();
-    Coordinator second(machine, 2'000, 1);
+    Coordinator second(machine, 2'000, 1, methods::begin_steps);
     const Slot old = rules::silence_slots(machine.timing) + 1;
     EXPECT_FALSE(meet_owner(second, machine, 10 * SecondProcess::kStatesThatProve, old).must_quit);
 }
 
 TEST(Coordinators, StatesOfAnEarlierProcessOfAnAxisDoNotReplaceThoseOfTheOneThatRuns) {
     const MachineConfig machine = small_machine();
-    Coordinator coordinator(machine, 2'000, 1);
+    Coordinator coordinator(machine, 2'000, 1, methods::begin_steps);
     const Tick now = listen_until_owner(coordinator, machine);
     const Slot slot = rules::slot_of(now, machine.slot_ticks());
     const AxisState current{.identity = 9, .stamp = slot, .config_hash = 1};
@@ -277,7 +278,7 @@ TEST(Coordinators, StatesOfAnEarlierProcessOfAnAxisDoNotReplaceThoseOfTheOneThat
 
 TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {
     const MachineConfig machine = small_machine();
-    Coordinator coordinator(machine, 2'000, 1);
+    Coordinator coordinator(machine, 2'000, 1, methods::begin_steps);
     const Tick now = listen_until_owner(coordinator, machine);
     const AxisState other{.identity = 5, .axis = 1, .stamp = 10, .config_hash = 2};
     (void)coordinator.step({.now = now, .axes = {&other, 1}});
@@ -286,7 +287,7 @@ TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {
 
 TEST(Coordinators, ACommandThatComesTwiceIsDoneOnceAndAnsweredTwice) {
     const MachineConfig machine = small_machine();
-    Coordinator coordinator(machine, 2'000, 1);
+    Coordinator coordinator(machine, 2'000, 1, methods::begin_steps);
     const Tick now = listen_until_owner(coordinator, machine);
     const Command stop{.client = 9, .sequence = 1, .kind = CommandKind::Stop};
     const std::vector<Command> twice{stop, stop};
@@ -316,7 +317,7 @@ TEST(Determinism, TheSameOptionsGiveTheSameSteps) {
 TEST(Coordinator, DoesNotTakeItsOwnStallForTheSilenceOfOthers) {
     MachineConfig machine = small_machine();
     machine.axes.pop_back();
-    Coordinator coordinator(machine, 1, 1);
+    Coordinator coordinator(machine, 1, 1, methods::begin_steps);
     const AxisState axis{.identity = 7, .stamp = 10, .config_hash = 1};
     (void)coordinator.step({.now = {10'000}, .axes = {&axis, 1}});
     const auto after_a_stall = coordinator.step({.now = {5'000'000}});

@@ -2,9 +2,9 @@
 #include <set>
 
 #include "core/axis/own_moves/homing.hpp"
-#include "core/methods/methods.hpp"
 #include "core/methods/suits.hpp"
 #include "core/motion/limit_watch.hpp"
+#include "core/motion/step_source.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -101,9 +101,9 @@ private:
             to_steps(axis, speed * 1e-6 * static_cast<double>(slots * vm.machine().timing.slot_us) + braking_mm) + 2);
     }
     void expect_newest_run_within_limits(std::size_t i) const {
-        const auto limits = stepgen::speed_limits_of(vm.machine().axes[i], vm.machine().tick_ns);
+        const auto limits = methods::speed_limits_of(vm.machine().axes[i], vm.machine().tick_ns);
         const double rounding = 1.1 * limits.max * limits.max * limits.tick_s;
-        stepgen::LimitWatch watch({limits.start + rounding, limits.acceleration, limits.deceleration});
+        LimitWatch watch({limits.start + rounding, limits.acceleration, limits.deceleration});
         Tick before = log_.axes[i].run_begins;
         bool is_first = true;
         for (const Tick step : log_.axes[i].steps) {
@@ -145,7 +145,7 @@ TEST_P(HomingStops, EndItSoonInEveryStageAndItWorksAgain) {
 INSTANTIATE_TEST_SUITE_P(All, HomingStops,
                          testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
                                          StepMethod::Carrica),
-                         [](const auto& method) { return std::string(stepgen::name_of(method.param)); });
+                         [](const auto& method) { return std::string(name_of(method.param)); });
 
 class HomingRig : public Rig {
 protected:

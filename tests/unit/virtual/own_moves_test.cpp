@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/methods/methods.hpp"
+#include "core/methods/paper_steps.hpp"
 #include "core/methods/ranade.hpp"
-#include "core/methods/step_source.hpp"
 #include "core/methods/suits.hpp"
 #include "core/motion/limit_watch.hpp"
 #include "tests/unit/virtual/rig.hpp"
@@ -75,21 +75,21 @@ protected:
 
     /// The method's own times, rounded to ticks.
     std::vector<std::int64_t> expected_ticks(std::int64_t steps) const {
-        const auto limits = stepgen::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
-        const stepgen::StepMove move{steps, limits.start, limits.max, limits.acceleration, limits.deceleration};
-        auto source = stepgen::StepSource::of(GetParam(), move);
+        const auto limits = methods::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
+        const StepMove move{steps, limits.start, limits.max, limits.acceleration, limits.deceleration};
+        auto source = methods::begin_steps(GetParam(), move);
         std::vector<double> times_s;
-        for (std::int64_t k = 0; source && k < steps; ++k) { times_s.push_back(source->next_s()); }
-        if (!source) { times_s = stepgen::ranade(move, stepgen::Fit::Exact)->times_s; }
+        for (std::int64_t k = 0; source && k < steps; ++k) { times_s.push_back((*source)->next_s()); }
+        if (!source) { times_s = methods::ranade(move, methods::Fit::Exact)->times_s; }
         std::vector<std::int64_t> ticks;
         for (const double at_s : times_s) { ticks.push_back(std::llround(at_s * 1e6)); }
         return ticks;
     }
     /// By the steps alone, but for what a tick more or less makes of the speed.
     void expect_within_limits() const {
-        const auto limits = stepgen::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
+        const auto limits = methods::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
         const double rounding = 1.1 * limits.max * limits.max * limits.tick_s;
-        stepgen::LimitWatch watch({limits.start + rounding, limits.acceleration, limits.deceleration});
+        LimitWatch watch({limits.start + rounding, limits.acceleration, limits.deceleration});
         // Ranade's first step falls half a step on its way.
         const std::int64_t first = (log.steps.front().tick - log.tracks.front().start).value;
         EXPECT_FALSE(watch.step(static_cast<double>(GetParam() == StepMethod::Ranade ? 2 * first : first) * 1e-6));
@@ -113,7 +113,7 @@ protected:
 
 TEST_P(ByEachMethod, AMoveEndsExactlyAndEveryStepIsAtTheMethodsOwnTick) {
     const AxisConfig& axis = vm.machine().axes[0];
-    const auto suits = stepgen::suits(GetParam(), stepgen::speed_limits_of(axis, vm.machine().tick_ns));
+    const auto suits = methods::suits(GetParam(), methods::speed_limits_of(axis, vm.machine().tick_ns));
     ASSERT_TRUE(suits) << suits.error();
     home();
     for (const double to_mm : {75.0, 4.0, 4.01, 4.06, 3.99, 60.0, 0.0}) {
@@ -180,7 +180,7 @@ TEST_P(ByEachMethod, OneThatStallsForLongRestsAndGoesOnByItself) {
 INSTANTIATE_TEST_SUITE_P(All, ByEachMethod,
                          testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
                                          StepMethod::Carrica),
-                         [](const auto& method) { return std::string(stepgen::name_of(method.param)); });
+                         [](const auto& method) { return std::string(name_of(method.param)); });
 
 TEST_F(OwnMoves, AxesArriveWhenTheyArrive) {
     home();

@@ -1,9 +1,9 @@
-#include "core/methods/ideal.hpp"
+#include "core/motion/ideal.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lockstep::stepgen {
+namespace lockstep {
 namespace {
 
 /// The time to cover x from speed v under acceleration a: the root of x = v t + a t^2 / 2, written so that nothing
@@ -43,4 +43,4 @@ std::vector<Ideal::Corner> Ideal::corners() const {
     return {{0, move_.start}, {rise_s_, peak_}, {rise_s_ + cruise_s_, peak_}, {duration_s(), move_.start}};
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep

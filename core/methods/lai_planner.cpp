@@ -1,10 +1,10 @@
-#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/lai_planner.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 std::int64_t whole_root(std::int64_t value) {
@@ -100,4 +100,4 @@ PeriodPulses total(const std::vector<PeriodPulses>& periods) {
     return sum;
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -7,13 +7,13 @@
 
 #include <vector>
 
-#include "core/methods/method.hpp"
+#include "core/motion/step_move.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep {
 
 class Ideal {
 public:
-    /// The move must pass check() (method.hpp).
+    /// The move must be possible: steps, speeds and accelerations above 0, the start not above the maximum.
     explicit Ideal(const StepMove& move);
 
     double duration_s() const { return rise_s_ + cruise_s_ + fall_s_; }
@@ -39,4 +39,4 @@ private:
     double fall_s_;
 };
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep

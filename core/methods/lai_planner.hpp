@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 /// Pulses per period, and per period and period.
 struct LaiSpeeds {
@@ -110,4 +110,4 @@ std::vector<PeriodPulses> plan_two_axes(PeriodPulses lengths, const LaiSpeeds& s
 /// The sum over all periods: where the axes end.
 PeriodPulses total(const std::vector<PeriodPulses>& periods);
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -1,11 +1,11 @@
-#include "core/methods/lai/lai_dda.hpp"
+#include "core/methods/lai_dda.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 /// The pulse of an axis at a clock of its DDA.
@@ -69,4 +69,4 @@ double farthest_from_line(const std::vector<LaiPoint>& points, PeriodPulses end)
     return farthest;
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

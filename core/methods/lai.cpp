@@ -1,12 +1,12 @@
-#include "core/methods/lai/lai.hpp"
+#include "core/methods/lai.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/methods/adjustments.hpp"
-#include "core/methods/number_text.hpp"
+#include "core/number_text.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 bool differs(double made, double asked) { return std::abs(made - asked) > kPulseHair * std::max(made, asked); }
@@ -20,11 +20,11 @@ LaiSpeeds expressible(const StepMove& move, double period_s, Adjustments& change
     const double max = static_cast<double>(speeds.max) / period_s;
     const double change = static_cast<double>(speeds.change) / (period_s * period_s);
     if (differs(start, move.start) || differs(max, move.max)) {
-        changed.add("has whole pulses per " + number(period_s * 1e3) + " ms",
-                    "from " + number(start) + " to " + number(max) + " steps/s");
+        changed.add("has whole pulses per " + short_number(period_s * 1e3) + " ms",
+                    "from " + short_number(start) + " to " + short_number(max) + " steps/s");
     }
     if (differs(change, move.acceleration) || differs(change, move.deceleration)) {
-        changed.add("changes speed by whole pulses per period, alike both ways", number(change) + " steps/s^2");
+        changed.add("changes speed by whole pulses per period, alike both ways", short_number(change) + " steps/s^2");
     }
     return speeds;
 }
@@ -39,8 +39,9 @@ std::expected<LaiSteps, std::string> LaiSteps::of(const StepMove& move, Fit fit,
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double most = static_cast<double>(kMaxPeriodPulses) / period_s;
     if (move.max < (1 - kPulseHair) / period_s || move.max > most) {
-        return std::unexpected("speeds are 1 to 255 whole pulses per " + number(period_s * 1e3) +
-                               " ms: the maximum must be " + number(1 / period_s) + " to " + number(most) + " steps/s");
+        return std::unexpected("speeds are 1 to 255 whole pulses per " + short_number(period_s * 1e3) +
+                               " ms: the maximum must be " + short_number(1 / period_s) + " to " + short_number(most) +
+                               " steps/s");
     }
     Adjustments changed;
     const LaiSpeeds speeds = expressible(move, period_s, changed);
@@ -62,4 +63,4 @@ StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters) {
     return train_of(LaiSteps::of(move, fit, parameters), move.steps);
 }
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

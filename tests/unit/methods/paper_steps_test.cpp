@@ -1,5 +1,5 @@
 // A method's steps one at a time are those of its whole train.
-#include "core/methods/step_source.hpp"
+#include "core/methods/paper_steps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +7,21 @@
 #include <cmath>
 #include <vector>
 
-#include "core/methods/methods.hpp"
+#include "core/methods/carrica.hpp"
+#include "core/methods/lai.hpp"
+#include "core/methods/lam.hpp"
+#include "core/methods/spielauer.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 namespace {
 
 void expect_same(const StepResult& train, StepMethod method, const StepMove& move) {
-    auto source = StepSource::of(method, move);
+    auto source = begin_steps(method, move);
     ASSERT_TRUE(train && source);
-    for (const double at_s : train->times_s) { ASSERT_EQ(source->next_s(), at_s) << name_of(method); }
+    for (const double at_s : train->times_s) { ASSERT_EQ((*source)->next_s(), at_s) << name_of(method); }
 }
 
-TEST(StepSource, GivesTheTrainOfItsMethodAsPublished) {
+TEST(PaperSteps, GivesTheTrainOfItsMethodAsPublished) {
     const StepMove move{3'000, 500, 6'000, 42'000, 42'000};
     const double one_pulse = 1 / (6.5e-3 * 6.5e-3);
     expect_same(spielauer(move, Fit::Nearest), StepMethod::Spielauer, move);
@@ -28,10 +31,10 @@ TEST(StepSource, GivesTheTrainOfItsMethodAsPublished) {
                 StepMethod::Carrica, move);
 }
 
-TEST(StepSource, RefusesWhatTheMethodRefuses) {
-    EXPECT_FALSE(StepSource::of(StepMethod::Lai, {10, 10, 100, 42'000, 42'000}));
-    EXPECT_FALSE(StepSource::of(StepMethod::Carrica, {kMaxSteps + 1, 10, 100, 42'000, 42'000}));
-    EXPECT_FALSE(StepSource::of(StepMethod::Ranade, {10, 10, 100, 42'000, 42'000}));
+TEST(PaperSteps, RefusesWhatTheMethodRefuses) {
+    EXPECT_FALSE(begin_steps(StepMethod::Lai, {10, 10, 100, 42'000, 42'000}));
+    EXPECT_FALSE(begin_steps(StepMethod::Carrica, {kMaxSteps + 1, 10, 100, 42'000, 42'000}));
+    EXPECT_FALSE(begin_steps(StepMethod::Ranade, {10, 10, 100, 42'000, 42'000}));
 }
 
 /// Carrica's counter as its paper has it: every clock period, one after the other.
@@ -67,4 +70,4 @@ TEST(CarricaSteps, AreThoseThatCountingFinds) {
 }
 
 }  // namespace
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/lai_planner.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 inline constexpr int kDdaClocks = 256;  // in a period
 inline constexpr std::int64_t kMaxPeriodPulses = kDdaClocks - 1;
@@ -50,4 +50,4 @@ std::vector<LaiPoint> walk_two_axes(const std::vector<PeriodPulses>& periods, La
 /// The farthest of the points from the straight line between (0, 0) and `end`, in pulses, at a right angle.
 double farthest_from_line(const std::vector<LaiPoint>& points, PeriodPulses end);
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

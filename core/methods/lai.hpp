@@ -4,11 +4,11 @@
 // 6.5 ms a whole number of pulses (lai_planner.hpp), spread evenly by a DDA (lai_dda.hpp).
 #pragma once
 
-#include "core/methods/lai/lai_dda.hpp"
-#include "core/methods/lai/lai_planner.hpp"
+#include "core/methods/lai_dda.hpp"
+#include "core/methods/lai_planner.hpp"
 #include "core/methods/method.hpp"
 
-namespace lockstep::stepgen {
+namespace lockstep::methods {
 
 struct LaiParameters {
     double period_s = 6.5e-3;  // the sampling time of Section 3.1
@@ -40,4 +40,4 @@ private:
 /// below one pulse per period, or above what the DDA's register holds.
 StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
 
-}  // namespace lockstep::stepgen
+}  // namespace lockstep::methods

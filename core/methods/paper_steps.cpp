@@ -1,0 +1,67 @@
+#include "core/methods/paper_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/methods/carrica.hpp"
+#include "core/methods/lai.hpp"
+#include "core/methods/lam.hpp"
+#include "core/methods/spielauer.hpp"
+
+namespace lockstep::methods {
+namespace {
+
+/// Its machine ramps from rest, by one pulse more or fewer in each period: with more at once, short moves end too fast.
+StepMove for_lai(StepMove move) {
+    const double period_s = LaiParameters{}.period_s;
+    move.start = 0;
+    move.acceleration = move.deceleration = 1 / (period_s * period_s);
+    return move;
+}
+
+/// Its counter begins at its own delay.
+StepMove for_lam(StepMove move) {
+    move.start = 0;
+    return move;
+}
+
+/// It looks at its speed once a step: what two steps of acceleration add to V_min must not go beyond the start
+/// velocity.
+StepMove for_carrica(StepMove move) {
+    move.start = std::sqrt(std::max(0.0, move.start * move.start - 4 * move.acceleration));
+    return move;
+}
+
+template <typename Steps>
+class PaperSteps final : public StepSource {
+public:
+    explicit PaperSteps(Steps steps) : steps_(std::move(steps)) {}
+    double next_s() override { return steps_.next_s(); }
+
+private:
+    Steps steps_;
+};
+
+using Begun = std::expected<std::unique_ptr<StepSource>, std::string>;
+
+template <typename Steps>
+Begun begun(std::expected<Steps, std::string> steps) {
+    if (!steps) { return std::unexpected(std::move(steps.error())); }
+    return std::make_unique<PaperSteps<Steps>>(std::move(*steps));
+}
+
+}  // namespace
+
+Begun begin_steps(StepMethod method, const StepMove& move) {
+    switch (method) {
+        case StepMethod::Ranade: break;
+        case StepMethod::Spielauer: return begun(SpielauerSteps::of(move, Fit::Nearest));
+        case StepMethod::Lai: return begun(LaiSteps::of(for_lai(move), Fit::Nearest));
+        case StepMethod::Lam: return begun(LamSteps::of(for_lam(move), Fit::Nearest));
+        case StepMethod::Carrica: return begun(CarricaSteps::of(for_carrica(move), Fit::Nearest));
+    }
+    return std::unexpected(std::string("moves of this method are pieces, not single steps"));
+}
+
+}  // namespace lockstep::methods

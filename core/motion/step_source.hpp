@@ -1,0 +1,32 @@
+// The steps of a move, one after the other. Which method makes them is for the caller to choose: it hands in
+// BeginSteps.
+#pragma once
+
+#include <array>
+#include <expected>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/machine.hpp"
+#include "core/motion/step_move.hpp"
+
+namespace lockstep {
+
+/// "ranade" and the like.
+constexpr std::string_view name_of(StepMethod method) {
+    constexpr std::array<std::string_view, 5> kNames{"ranade", "spielauer", "lai", "lam", "carrica"};
+    return kNames[static_cast<std::size_t>(method)];
+}
+
+class StepSource {
+public:
+    virtual ~StepSource() = default;
+    /// When the next step falls, in s from the start of the move. Call it for each of the move's steps once.
+    virtual double next_s() = 0;
+};
+
+/// Begins a move by a method. Error: the method cannot make the move.
+using BeginSteps = std::expected<std::unique_ptr<StepSource>, std::string> (*)(StepMethod, const StepMove&);
+
+}  // namespace lockstep
