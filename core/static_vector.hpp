@@ -1,10 +1,12 @@
-// A vector that lives where it stands and has a named bound: nothing is allocated where motion is decided.
+// A vector with a named capacity, stored in place: the code that decides motion allocates nothing for it.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+
+#include "core/check.hpp"
 
 namespace lockstep {
 
@@ -13,9 +15,9 @@ class StaticVector {
 public:
     StaticVector() = default;
     StaticVector(std::initializer_list<T> values) {
-        for (const T& value : values) { (void)push_back(value); }
+        for (const T& value : values) { append(value); }
     }
-    /// What is beyond the size is not copied: room costs nothing where it is not used.
+    /// Copies only the values below the size: unused capacity costs nothing.
     StaticVector(const StaticVector& other) : size_(other.size_) { std::copy_n(other.begin(), size_, begin()); }
     StaticVector& operator=(const StaticVector& other) {
         if (this == &other) { return *this; }
@@ -31,25 +33,38 @@ public:
     bool full() const { return size_ == Capacity; }
     void clear() { size_ = 0; }
 
-    /// False, and nothing changed, when full.
+    /// False, and nothing has changed, if the vector is full.
     [[nodiscard]] bool push_back(const T& value) {
         if (full()) { return false; }
         items_[size_++] = value;
         return true;
     }
 
-    void pop_back() { --size_; }
-    /// The first so many; the others move up.
+    /// For values that cannot exceed the capacity: the check ends the process if they do.
+    void append(const T& value) { check(push_back(value), "a bounded vector has room for what is appended"); }
+
+    void pop_back() {
+        check(!empty(), "the last value of a vector exists");
+        --size_;
+    }
+    /// Removes the first `count` values; the others move up.
     void erase_front(std::size_t count) {
+        check(count <= size_, "a vector holds the values that are removed");
         std::move(begin() + count, end(), begin());
         size_ -= count;
     }
 
-    T& operator[](std::size_t i) { return items_[i]; }
-    const T& operator[](std::size_t i) const { return items_[i]; }
-    T& back() { return items_[size_ - 1]; }
-    const T& back() const { return items_[size_ - 1]; }
-    const T& front() const { return items_[0]; }
+    T& operator[](std::size_t i) {
+        check(i < size_, "an index is below its vector's size");
+        return items_[i];
+    }
+    const T& operator[](std::size_t i) const {
+        check(i < size_, "an index is below its vector's size");
+        return items_[i];
+    }
+    T& back() { return (*this)[size_ - 1]; }
+    const T& back() const { return (*this)[size_ - 1]; }
+    const T& front() const { return (*this)[0]; }
     T* begin() { return items_.data(); }
     T* end() { return items_.data() + size_; }
     const T* begin() const { return items_.data(); }

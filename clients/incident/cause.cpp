@@ -137,14 +137,7 @@ Cause cause_of(const Incident& incident, const Entry& symptom) {
 /// Where nobody noticed anything: somebody ended, or nothing was wrong.
 Cause cause_without_symptom(const Incident& incident) {
     for (const Process& process : incident.processes) {
-        if (process.ended) {
-            return {CauseKind::Ended,
-                    process.who,
-                    fmt::format("the process of {} ended without a word: killed, or crashed",
-                                peer_name(incident.machine, process.who)),
-                    process.last,
-                    {}};
-        }
+        if (process.ended) { return {CauseKind::Ended, process.who, end_text(incident, process), process.last, {}}; }
     }
     return {CauseKind::Asked, std::nullopt, "nothing was wrong: what was noted was asked for", std::nullopt, {}};
 }

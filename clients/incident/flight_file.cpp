@@ -29,6 +29,10 @@ public:
     void take(const LogEvent& event) {
         const LogPlace place{event.offset, event.bytes};
         if (const auto head = decode_lcm<flight_head_t>(event.data)) { return take_head(*head, place); }
+        if (const auto note = decode_lcm<flight_note_t>(event.data)) {
+            file_.note = note->text;
+            return;
+        }
         const auto message = decode_lcm<flight_event_t>(event.data);
         if (!message) { return damage(place, message.error() + " on " + std::string(event.channel)); }
         if (!has_head_) { return damage(place, "an event before any head"); }

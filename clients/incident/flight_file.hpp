@@ -16,6 +16,7 @@ struct FlightFile {
     FlightHead head;
     MachineConfig machine;  // as its process had it
     std::vector<NumberedEvent> events;
+    std::string note;  // why its process ended by itself; empty: unknown
     std::vector<analysis::Damage> damages;
 };
 

@@ -51,6 +51,7 @@ struct Life {
     FlightPeer who;
     std::map<std::uint64_t, FlightEvent> events;  // by number
     bool ended = false;
+    std::string note;
     bool was_asked = false;
     std::vector<std::string> files;
 };
@@ -62,6 +63,7 @@ std::vector<Life> lives_of(const Group& group) {
         Life& life = lives[{order_of(who), file->head.source.incarnation}];
         life.who = who;
         life.ended |= file->head.mark.reason == IncidentReason::Ended;
+        if (!file->note.empty()) { life.note = file->note; }
         life.was_asked |= file->head.mark.reason == IncidentReason::Asked;
         life.files.push_back(file->path.string());
         for (const NumberedEvent& noted : file->events) { life.events.emplace(noted.number, noted.event); }
@@ -75,6 +77,7 @@ void add(const Life& life, Incident& incident) {
     Process process{.name = name_of(incident.machine, life.who),
                     .who = life.who,
                     .ended = life.ended,
+                    .note = life.note,
                     .was_asked = life.was_asked,
                     .files = life.files};
     const auto before = std::ranges::count(incident.processes, life.who, &Process::who);

@@ -18,6 +18,7 @@ struct Process {
     Tick first;              // noted
     Tick last;               // noted
     bool ended = false;      // unasked, after `last`
+    std::string note;        // why it ended by itself; empty: unknown
     bool was_asked = false;  // its notes were read when somebody asked, whether it ran or not
     Ticks clock_error;       // its times are machine time within
     std::vector<std::string> files;

@@ -215,4 +215,12 @@ std::string duration(double seconds) {
     return size < 1 ? fmt::format("{:.0f} ms", seconds * 1e3) : fmt::format("{:.2f} s", seconds);
 }
 
+std::string end_text(const Incident& incident, const Process& process) {
+    const std::string name = peer_name(incident.machine, process.who);
+    if (process.note.empty()) {
+        return fmt::format("the process of {} ended without a word: killed, or crashed", name);
+    }
+    return fmt::format("the process of {} ended by itself: {}", name, process.note);
+}
+
 }  // namespace lockstep::incident

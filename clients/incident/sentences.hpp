@@ -18,6 +18,8 @@ std::string sentence(const Incident& incident, const Entry& entry);
 std::string peer_name(const MachineConfig& machine, FlightPeer peer);
 /// "axis X and axis Y"
 std::string axes_named(const MachineConfig& machine, AxisSet axes);
+/// How a process ended that nobody had asked to: "the process of axis X ended by itself: failed check: ..."
+std::string end_text(const Incident& incident, const Process& process);
 /// "143 ms", "2.31 s", "0.4 ms"
 std::string duration(double seconds);
 

@@ -44,12 +44,7 @@ std::optional<Cause> explain_by_end(const Incident& incident, FlightPeer suspect
     for (const Process& process : incident.processes) {
         if (process.who != suspect || !process.ended || process.last > at + hop(incident)) { continue; }
         if (has_successor_since(incident, suspect, process.last, at - reach(incident))) { continue; }
-        return Cause{CauseKind::Ended,
-                     suspect,
-                     fmt::format("the process of {} ended without a word: killed, or crashed",
-                                 peer_name(incident.machine, suspect)),
-                     process.last,
-                     {}};
+        return Cause{CauseKind::Ended, suspect, end_text(incident, process), process.last, {}};
     }
     for (const Entry& entry : incident.timeline) {
         const bool is_then = entry.tick >= at - reach(incident);

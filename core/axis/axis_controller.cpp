@@ -1,5 +1,7 @@
 #include "core/axis/axis_controller.hpp"
 
+#include "core/check.hpp"
+
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
@@ -214,7 +216,7 @@ void AxisController::take_frames(const AxisInputs& inputs, AxisOutputs& out) {
         } else if (follower_.open() && follower_.held() != held) {
             last_refusal_ = FaultCode::None;
             if (held == 0) { out.orders.emplace_back(device::BeginRun{++run_, Trigger::None}); }
-            load(*follower_.find(follower_.held()), out);
+            load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"), out);
         }
     }
 }

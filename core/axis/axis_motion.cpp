@@ -1,8 +1,9 @@
 // What the device has done since the last look.
-#include "core/axis/axis_controller.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/axis/axis_controller.hpp"
+#include "core/check.hpp"
 
 namespace lockstep {
 
@@ -56,11 +57,12 @@ void AxisController::record_progress(const DeviceStatus& device, AxisOutputs& ou
     if (!local) { ran_ = device.frame; }
     for (; recorded_ < device.frame; ++recorded_) {
         const FrameNumber k = recorded_ + 1;
-        const HeldFrame* frame = local ? local_->find(k) : follower_.find(k);
+        const HeldFrame& frame = check_found(local ? local_->find(k) : follower_.find(k),
+                                             "a frame that the device runs is held until it is recorded");
         if (k < device.frame) {
-            record(*frame, false, {}, out);
+            record(frame, false, {}, out);
         } else if (device.finished) {
-            record_end(*frame, device, out);
+            record_end(frame, device, out);
         } else {
             break;
         }

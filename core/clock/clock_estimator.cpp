@@ -89,7 +89,7 @@ void ClockEstimator::keep(const Sample& sample) {
     const auto is_young = [&](const Sample& s) { return s.own >= sample.own - window_; };
     const auto outdated = static_cast<std::size_t>(std::ranges::find_if(kept_, is_young) - kept_.begin());
     kept_.erase_front(std::max<std::size_t>(outdated, kept_.full() ? 1 : 0));
-    (void)kept_.push_back(sample);
+    kept_.append(sample);
     fit();
 }
 

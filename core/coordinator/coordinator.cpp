@@ -173,7 +173,7 @@ void Coordinator::enter(MachinePhase phase, CoordinatorOutputs& out) {
 
 AxisCounts Coordinator::counts() const {
     AxisCounts counts;
-    for (const AxisView& view : views_) { (void)counts.push_back(view.state ? view.state->position.count() : 0); }
+    for (const AxisView& view : views_) { counts.append(view.state ? view.state->position.count() : 0); }
     return counts;
 }
 

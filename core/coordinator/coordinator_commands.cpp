@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/check.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep {
 
 void Coordinator::take_command(const Command& command, CoordinatorOutputs& out) {
     if (is_old(command)) {
-        const Reply& last = *replies_.find(command.client);
+        const Reply& last = check_found(replies_.find(command.client), "a command that is not new has a reply");
         if (command.sequence == last.sequence) { out.replies.push_back(last); }
         return;
     }

@@ -3,6 +3,7 @@
 #include <ranges>
 #include <utility>
 
+#include "core/check.hpp"
 #include "core/coordinator/coordinator.hpp"
 
 namespace lockstep {
@@ -83,7 +84,9 @@ std::optional<TakeoverDoubt> Coordinator::doubt_of_inherited() const {
 
 /// Every axis follows this owner and rests.
 void Coordinator::go_on_with_inherited(CoordinatorOutputs& out) {
-    const auto& program = programs_.at(inherited_->program);
+    const auto found = programs_.find(inherited_->program);
+    check(found != programs_.end(), "the program of an inherited job is known");
+    const auto& program = found->second;
     auto rest = rest_of_job(*inherited_, *program, machine_, views_);
     if (!rest) { return cut_inherited(rest.error(), out); }
     const MachineState last = *std::exchange(inherited_, std::nullopt);

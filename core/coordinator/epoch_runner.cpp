@@ -83,7 +83,7 @@ Frame EpochRunner::make_frame() {
     std::vector<Piece> pieces(at_.size());
     PieceSource source(path_, made_, made_ + ticks, at_);
     while (source.next(pieces)) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) { (void)frame.axes[i].body.push_back(pieces[i]); }
+        for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].body.append(pieces[i]); }
     }
     made_ += ticks;
     frame.last = ended_ = made_ == whole;
@@ -103,7 +103,7 @@ EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
     std::vector<Piece> pieces(at_.size());
     PieceSource source(tail, Ticks{0}, tail.duration().ceil(), ending.positions);
     while (source.next(pieces)) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) { (void)frame.axes[i].tail.push_back(pieces[i]); }
+        for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].tail.append(pieces[i]); }
     }
     const PathMove& rests_in = tail.moves.back();
     const auto is_it = [&](const PathMove& m) { return m.block == rests_in.block && m.part == rests_in.part; };

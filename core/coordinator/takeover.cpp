@@ -36,8 +36,7 @@ AxisCounts start_of_job(const Program& program, const MachineConfig& machine, st
         const auto named = std::ranges::find(program.axes, machine.axes[i].name);
         const auto place = static_cast<std::size_t>(named - program.axes.begin());
         const bool is_named = named != program.axes.end() && place < program.start_mm.size();
-        (void)start.push_back(is_named ? to_steps(machine.axes[i], program.start_mm[place])
-                                       : axes[i].state->position.count());
+        start.append(is_named ? to_steps(machine.axes[i], program.start_mm[place]) : axes[i].state->position.count());
     }
     return start;
 }

@@ -127,6 +127,8 @@ public:
     virtual ~FlightLog() = default;
     /// Never waits.
     virtual void add(const FlightEvent& event) = 0;
+    /// Why the process is about to end by itself. Safe while the rest of the process is in an unknown state.
+    virtual void set_note(std::string_view text) = 0;
 
     void incident(Tick now, IncidentReason reason, FlightPeer about = {}) {
         add({.tick = now, .kind = FlightKind::Incident, .about = about, .detail = static_cast<std::uint8_t>(reason)});

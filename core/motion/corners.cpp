@@ -135,7 +135,7 @@ std::vector<double> limit_corners(std::span<PathMove> moves, const Entry& entry,
         Tolls tolls;
         for (std::size_t i = 0; i < limits.size(); ++i) {
             const double jump = (joined.jump(m, i, speed[m]) + joined.jump(m + 1, i, speed[m + 1])) / 2;
-            (void)tolls.push_back({jump, least_acceleration(limits[i]), std::abs(moves[m].slope(i))});
+            tolls.append({jump, least_acceleration(limits[i]), std::abs(moves[m].slope(i))});
         }
         const PathLimits& l = moves[m].limits;
         const double twice_mm = 2 * moves[m].mm_per_lead() * mm;

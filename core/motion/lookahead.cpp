@@ -144,7 +144,7 @@ PathMove remainder_of(const PathMove& move, Subticks t) {
     for (const Phase& phase : move.profile.phases) {
         if (into < phase.duration) {
             const auto entry = static_cast<std::int64_t>(std::llround(phase.velocity_at(into) * 0x1p48));
-            (void)rest.profile.phases.push_back({phase.at(into), phase.to, entry, phase.duration - into});
+            rest.profile.phases.append({phase.at(into), phase.to, entry, phase.duration - into});
         }
         into = std::max(Subticks{}, into - phase.duration);
     }

@@ -64,7 +64,7 @@ Profile build(Displacement from, const Shape& shape) {
     if (shape.rise == 0) { risen = from; }
     Profile profile;
     auto add = [&](Displacement a, Displacement b, std::int64_t entry, std::int64_t n) {
-        if (n > 0) { (void)profile.phases.push_back({a, b, entry, {n}}); }
+        if (n > 0) { profile.phases.append({a, b, entry, {n}}); }
     };
     add(from, risen, shape.entry, shape.rise);
     add(risen, falling, peak, shape.cruise);
@@ -92,7 +92,7 @@ Profile plan_slowing(const ProfileRequest& request) {
     ProfileRequest rest = request;
     rest.from = slowed;
     rest.entry = rest.limits.max_velocity = top;
-    for (const Phase& phase : plan_fastest(rest).phases) { (void)profile.phases.push_back(phase); }
+    for (const Phase& phase : plan_fastest(rest).phases) { profile.phases.append(phase); }
     return profile;
 }
 
@@ -174,8 +174,7 @@ Profile plan_fastest(const ProfileRequest& request) {
 Profile plan_brake_through(Displacement from, Displacement to, double entry, double exit) {
     const double subticks = 2 * (to - from).as_steps() / (entry + exit) * static_cast<double>(kSubticksPerTick);
     Profile profile;
-    (void)profile.phases.push_back(
-        {from, to, to_raw(entry), {std::max<std::int64_t>(1, static_cast<std::int64_t>(subticks))}});
+    profile.phases.append({from, to, to_raw(entry), {std::max<std::int64_t>(1, static_cast<std::int64_t>(subticks))}});
     return profile;
 }
 
@@ -186,20 +185,20 @@ Profile plan_brake_to(Displacement from, double entry, double deceleration, Subt
     const Subticks n = subticks(end) - start;
     const double distance = entry / 2 * static_cast<double>(n.value) / static_cast<double>(kSubticksPerTick);
     Profile profile;
-    (void)profile.phases.push_back({from, {from.raw + static_cast<Int128>(distance * 0x1p64)}, to_raw(entry), n});
+    profile.phases.append({from, {from.raw + static_cast<Int128>(distance * 0x1p64)}, to_raw(entry), n});
     return profile;
 }
 
 Profile plan_steady(Displacement from, Displacement to, Ticks ticks) {
     const Subticks n = subticks(ticks);
     Profile profile;
-    (void)profile.phases.push_back({from, to, static_cast<std::int64_t>((to - from).raw / n.value), n});
+    profile.phases.append({from, to, static_cast<std::int64_t>((to - from).raw / n.value), n});
     return profile;
 }
 
 Profile plan_dwell(Displacement at, Ticks ticks) {
     Profile profile;
-    (void)profile.phases.push_back({at, at, 0, subticks(ticks)});
+    profile.phases.append({at, at, 0, subticks(ticks)});
     return profile;
 }
 

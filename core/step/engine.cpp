@@ -1,34 +1,24 @@
 #include "core/step/engine.hpp"
 
-#include <cstdlib>
-
+#include "core/check.hpp"
 #include "core/step/executable.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Going on with a broken promise could move an axis: the process ends instead, and with it the pulses.
-void require(bool promise) {
-    if (!promise) { std::abort(); }
-}
-
-}  // namespace
-
 void StepEngine::begin(const Piece& piece) {
-    require(executable(piece));
+    check(executable(piece), "the engine begins only pieces that it can execute exactly");
     end_ = now_ + piece.ticks;
     velocity_ = piece.velocity;
     acceleration_ = piece.acceleration;
 }
 
 void StepEngine::wait(Tick until) {
-    require(idle() && until >= now_);
+    check(idle() && until >= now_, "the engine waits only at rest, and never backwards");
     now_ = until;
     end_ = until;
 }
 
 void StepEngine::rebase(Position at) {
-    require(idle());
+    check(idle(), "the position is set only at rest");
     position_ = at;
 }
 

@@ -14,6 +14,7 @@
 #include "services/documents/machine_file.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
+#include "services/flight/check_report.hpp"
 #include "services/flight/flight_recorder.hpp"
 #include "services/flight/stuck_process.hpp"
 #include "services/network/host_name.hpp"
@@ -204,6 +205,7 @@ private:
     AxisNetwork network_;
     std::unique_ptr<RecordSink> sink_;
     std::unique_ptr<FlightLog> flight_log_;
+    CheckReport checks_{*flight_log_};
     AxisFlight flight_;
     UserSignal user_signal_;  // a person asks for what was noted
     AxisRecorder recorder_;

@@ -14,6 +14,7 @@
 #include "services/coordinator/coordinator_network.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/flight/check_report.hpp"
 #include "services/flight/flight_recorder.hpp"
 #include "services/flight/stuck_process.hpp"
 #include "services/record/job_recorder.hpp"
@@ -190,6 +191,7 @@ private:
     CoordinatorNetwork network_;
     std::unique_ptr<RecordSink> sink_;
     std::unique_ptr<FlightLog> flight_log_;
+    CheckReport checks_{*flight_log_};
     CoordinatorFlight flight_;
     UserSignal user_signal_;  // a person asks for what was noted
     JobRecorder recorder_;

@@ -71,6 +71,16 @@ flight_event_t to_lcm(const FlightSource& source, const MachineConfig& machine, 
     return out;
 }
 
+flight_note_t to_lcm(const FlightSource& source, const IncidentMark& mark, const std::string& text) {
+    flight_note_t out{};
+    out.utime = utime_of(mark.tick, source.tick_ns);
+    out.machine = source.machine;
+    out.process = source.process;
+    out.incarnation = static_cast<std::int64_t>(source.incarnation);
+    out.text = text;
+    return out;
+}
+
 std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message) {
     const auto reason = incident_reason(message.reason);
     if (message.version != kFlightVersion || !reason || message.tick_ns < 1) {

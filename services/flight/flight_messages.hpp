@@ -5,6 +5,7 @@
 #include <expected>
 #include <lockstep/flight_event_t.hpp>
 #include <lockstep/flight_head_t.hpp>
+#include <lockstep/flight_note_t.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ struct IncidentMark {
 flight_head_t to_lcm(const FlightSource& source, const IncidentMark& mark);
 /// `machine` names whom events are about.
 flight_event_t to_lcm(const FlightSource& source, const MachineConfig& machine, const NumberedEvent& event);
+
+/// `text`: why the process ended by itself.
+flight_note_t to_lcm(const FlightSource& source, const IncidentMark& mark, const std::string& text);
 
 struct FlightHead {
     FlightSource source;

@@ -23,6 +23,7 @@ constexpr auto kLongestWait = 5s;  // ...but not longer after the first
 class NoFlight final : public FlightLog {
 public:
     void add(const FlightEvent& /*event*/) override {}
+    void set_note(std::string_view /*text*/) override {}
 };
 
 std::string how_to_read(const std::filesystem::path& file) {

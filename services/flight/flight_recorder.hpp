@@ -25,6 +25,7 @@ public:
     ~FlightRecorder() override;
 
     void add(const FlightEvent& event) override;
+    void set_note(std::string_view text) override { ring_.set_note(text); }
 
 private:
     FlightRecorder(FlightRing ring, std::filesystem::path directory, FlightSource source);

@@ -23,8 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMagic = 0x4c53464c49474854U;  // LSFLIGHT
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kHeaderBytes = kFlightSlotBytes;
+constexpr std::size_t kSourceAt = kHeaderBytes + kFlightNoteBytes;
 constexpr std::size_t kMaxBytes = std::size_t{128} << 20;  // more is no ring
 using EventSlot = NumberedSlot<FlightEvent>;
 static_assert(EventSlot::kWords * sizeof(std::uint64_t) == kFlightSlotBytes);
@@ -33,20 +34,27 @@ struct Header {
     std::uint64_t magic = kMagic;
     std::uint64_t version = kVersion;
     std::uint64_t events = 0;
-    std::uint64_t source_bytes = 0;  // behind the header
+    std::uint64_t source_bytes = 0;  // behind the note
     std::uint64_t slots_at = 0;      // byte
 };
 
 /// Whatever the file says, nothing beyond it is looked at.
 std::optional<Header> header_of(const SharedMapping& mapping) {
     Header header;
-    if (mapping.bytes() < kHeaderBytes) { return std::nullopt; }
+    if (mapping.bytes() < kSourceAt) { return std::nullopt; }
     std::memcpy(static_cast<void*>(&header), mapping.words(), sizeof header);
     const bool is_ring =
         header.magic == kMagic && header.version == kVersion && header.slots_at % kFlightSlotBytes == 0;
-    const bool fits = header.slots_at <= mapping.bytes() && header.source_bytes <= mapping.bytes() - kHeaderBytes &&
+    const bool fits = header.slots_at <= mapping.bytes() && header.source_bytes <= mapping.bytes() - kSourceAt &&
                       header.events <= (mapping.bytes() - header.slots_at) / kFlightSlotBytes;
     return is_ring && fits ? std::optional(header) : std::nullopt;
+}
+
+std::uint8_t* bytes_of(const SharedMapping& mapping) { return reinterpret_cast<std::uint8_t*>(mapping.words()); }
+
+std::string note_of(const SharedMapping& mapping) {
+    const auto* const note = reinterpret_cast<const char*>(bytes_of(mapping) + kHeaderBytes);
+    return {note, std::find(note, note + kFlightNoteBytes, '\0')};
 }
 
 }  // namespace
@@ -61,7 +69,7 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
     const fs::path path = directory / (name + ".ring");
     const std::vector<std::uint8_t> source_bytes = encode_source(source);
     const std::size_t slots_at =
-        (kHeaderBytes + source_bytes.size() + kFlightSlotBytes - 1) / kFlightSlotBytes * kFlightSlotBytes;
+        (kSourceAt + source_bytes.size() + kFlightSlotBytes - 1) / kFlightSlotBytes * kFlightSlotBytes;
     const std::size_t bytes = slots_at + events * kFlightSlotBytes;
     const int file = open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
     if (file < 0) { return cannot(unfinished, "make it"); }
@@ -77,8 +85,7 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
     std::memset(mapping.words(), 0, bytes);  // and touched, so that no store waits for it
     const Header header{.events = events, .source_bytes = source_bytes.size(), .slots_at = slots_at};
     std::memcpy(mapping.words(), &header, sizeof header);
-    std::memcpy(reinterpret_cast<std::uint8_t*>(mapping.words()) + kHeaderBytes, source_bytes.data(),
-                source_bytes.size());
+    std::memcpy(bytes_of(mapping) + kSourceAt, source_bytes.data(), source_bytes.size());
     std::error_code error;
     fs::rename(unfinished, path, error);  // whoever sees it finds it whole, and locked
     return FlightRing(path, file, std::move(mapping), slots_at, events);
@@ -103,6 +110,11 @@ void FlightRing::add(const FlightEvent& event) {
     EventSlot::write(slots_ + before % events_ * EventSlot::kWords, before + 1, event);
 }
 
+void FlightRing::set_note(std::string_view text) {
+    const std::size_t bytes = std::min(text.size(), kFlightNoteBytes);
+    std::memcpy(bytes_of(mapping_) + kHeaderBytes, text.data(), bytes);
+}
+
 std::expected<FlightSnapshot, std::string> read_ring(const fs::path& path) {
     const int file = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     if (file < 0) { return cannot(path, "open it"); }
@@ -113,10 +125,9 @@ std::expected<FlightSnapshot, std::string> read_ring(const fs::path& path) {
     close(file);
     const auto header = mapping.words() == nullptr ? std::nullopt : header_of(mapping);
     if (!header) { return std::unexpected(path.string() + ": is no ring of a flight recorder of this version"); }
-    const auto* const source_at = reinterpret_cast<const std::uint8_t*>(mapping.words()) + kHeaderBytes;
-    auto source = decode_source({source_at, header->source_bytes});
+    auto source = decode_source({bytes_of(mapping) + kSourceAt, header->source_bytes});
     if (!source) { return std::unexpected(path.string() + ": " + source.error()); }
-    FlightSnapshot snapshot{*std::move(source), {}};
+    FlightSnapshot snapshot{.source = *std::move(source), .events = {}, .note = note_of(mapping)};
     std::uint64_t* const slots = mapping.words() + header->slots_at / sizeof(std::uint64_t);
     for (std::size_t i = 0; i < header->events; ++i) {
         if (const auto read = EventSlot::read(slots + i * EventSlot::kWords)) {

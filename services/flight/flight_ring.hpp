@@ -1,8 +1,9 @@
 // The newest events of a process, in a file in memory (/dev/shm) that it has mapped: writing is a store of 64 bytes, no
 // disk is ever waited for, and when the process is killed, or stopped, all that it noted can be read all the same.
 //
-// The file: eight words (magic, version, events, bytes of the source, where events begin), the source, and the events,
-// each with its number before it, which is 0 while it is written. One process writes; any may read at any time.
+// The file: eight words (magic, version, events, bytes of the source, where events begin), a note of 256 bytes (empty
+// unless the process ends by itself), the source, and the events, each with its number before it, which is 0 while it
+// is written. One process writes; any may read at any time.
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "services/flight/flight_source.hpp"
@@ -19,6 +21,7 @@
 namespace lockstep {
 
 inline constexpr std::size_t kFlightSlotBytes = 64;
+inline constexpr std::size_t kFlightNoteBytes = 256;
 
 class FlightRing {
 public:
@@ -32,6 +35,9 @@ public:
 
     /// From any thread. Never waits, allocates nothing.
     void add(const FlightEvent& event);
+    /// Why the process is about to end by itself. Safe in a process whose other state is damaged: it copies bytes into
+    /// memory that is mapped already, at most kFlightNoteBytes of them.
+    void set_note(std::string_view text);
     const std::filesystem::path& path() const { return path_; }
 
 private:

@@ -31,6 +31,7 @@ struct NumberedEvent {
 struct FlightSnapshot {
     FlightSource source;
     std::vector<NumberedEvent> events;
+    std::string note = {};  // why the process ended by itself; empty: it did not, or it could not say
 };
 
 /// The name of a process, as the machine's file has its axes; empty for the coordinator.

@@ -59,6 +59,9 @@ bool write_events(const FlightSnapshot& snapshot, const IncidentMark& mark, LogW
     const std::string channel = flight_channel(source.machine, source.process);
     const Ticks before{static_cast<std::int64_t>(machine.ticks_per_second()) * kFlightSeconds};
     bool written = log.write_message(channel, utime_of(mark.tick, source.tick_ns), to_lcm(source, mark));
+    if (!snapshot.note.empty()) {
+        written &= log.write_message(channel, utime_of(mark.tick, source.tick_ns), to_lcm(source, mark, snapshot.note));
+    }
     for (const NumberedEvent& event : snapshot.events) {
         if (event.event.tick + before < mark.tick) { continue; }
         written &=

@@ -53,7 +53,7 @@ void OwnMove::fill_body(HeldFrame& frame) {
     while (frame.ticks < span_ && !frame.track.body.full()) {
         const auto piece = pieces_.next(span_);
         if (!piece) { return; }
-        (void)frame.track.body.push_back(directed(*piece));
+        frame.track.body.append(directed(*piece));
         frame.ticks += piece->ticks;
         gone_ = gone_ + piece->covered();
         const double a = piece->acceleration.steps_per_tick2();
@@ -71,7 +71,7 @@ void OwnMove::fill_tail(HeldFrame& frame) const {
     const double ticks = std::ceil(2 * way.as_steps() / (brake.entry + brake.exit));
     const Piece piece = solve_piece(Position{}, Position{way.raw}, {static_cast<std::int64_t>(ticks)},
                                     (brake.exit - brake.entry) / ticks);
-    (void)frame.track.tail.push_back(directed(piece));
+    frame.track.tail.append(directed(piece));
 }
 
 /// Backward motion is the exact mirror of forward motion.

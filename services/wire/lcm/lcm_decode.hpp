@@ -12,6 +12,7 @@
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/flight_event_t.hpp>
 #include <lockstep/flight_head_t.hpp>
+#include <lockstep/flight_note_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <lockstep/record_loss_t.hpp>
@@ -33,6 +34,8 @@ template <>
 inline constexpr std::string_view kLcmLayout<flight_event_t> = "8ss888ss4s88888";
 template <>
 inline constexpr std::string_view kLcmLayout<flight_head_t> = "84ss888s8s";
+template <>
+inline constexpr std::string_view kLcmLayout<flight_note_t> = "8ss8s";
 template <>
 inline constexpr std::string_view kLcmLayout<job_t> = "8s888sss88888844ssn8";
 template <>

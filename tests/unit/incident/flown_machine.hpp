@@ -12,6 +12,8 @@ namespace lockstep {
 
 /// What one life of a process noted.
 struct VirtualFlight : FlightLog {
+    void set_note(std::string_view text) override { note = text; }
+    std::string note;
     explicit VirtualFlight(std::size_t of) : process(of) {}
     void add(const FlightEvent& event) override { events.push_back({events.size() + 1, event}); }
     std::size_t process;

@@ -87,6 +87,14 @@ flight_event_t a_flight_event() {
     return event;
 }
 
+flight_note_t a_flight_note() {
+    flight_note_t note{};
+    note.machine = "mill";
+    note.process = "axis-X";
+    note.text = "failed check: a frame has room for its pieces (core/frame.cpp:17)";
+    return note;
+}
+
 template <typename Message>
 void expect_decodes_back(const Message& message) {
     const Bytes bytes = encoded(message);
@@ -103,6 +111,7 @@ TEST(LcmDecode, EveryMessageOfTheRecordComesBack) {
     expect_decodes_back(a_health());
     expect_decodes_back(a_flight_head());
     expect_decodes_back(a_flight_event());
+    expect_decodes_back(a_flight_note());
 }
 
 TEST(LcmDecode, AnotherTypeIsRefused) { EXPECT_FALSE(decode_lcm<run_t>(encoded(a_batch()))); }
@@ -131,6 +140,7 @@ TEST(LcmDecode, DamageIsRefusedOrHarmless) {
     expect_survives_damage(a_health());
     expect_survives_damage(a_flight_head());
     expect_survives_damage(a_flight_event());
+    expect_survives_damage(a_flight_note());
 }
 
 TEST(LcmDecode, ACountThatLiesIsRefused) {

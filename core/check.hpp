@@ -1,0 +1,37 @@
+// Checks of what this code promises itself: pre-conditions and invariants. They are on in every build.
+//
+// A failed check is a defect of the program, never bad input. Continuing could move an axis to a wrong place, so the
+// process reports the check and ends. That is the safe state of the machine: a device executes only frames that all
+// axes have agreed on, and each of them ends at rest on the path (see ARCHITECTURE.md).
+#pragma once
+
+#include <source_location>
+#include <string_view>
+
+namespace lockstep {
+
+/// Receives the promise that does not hold and the place of its check, just before the process aborts. It must not
+/// throw, and must not rely on the state of the code that failed.
+using CheckReporter = void (*)(std::string_view promise, const std::source_location& where);
+
+/// Replaces the reporter of this process and returns the one before. The first one writes a line to standard error.
+CheckReporter set_check_reporter(CheckReporter reporter);
+
+/// Reports the promise as broken, and aborts.
+[[noreturn]] void fail_check(std::string_view promise, const std::source_location& where);
+
+/// `promise`: what must hold, as a short statement: "a frame has room for its pieces".
+inline void check(bool holds, std::string_view promise,
+                  const std::source_location& where = std::source_location::current()) {
+    if (!holds) [[unlikely]] { fail_check(promise, where); }
+}
+
+/// What `pointer` points at, which must be there.
+template <typename T>
+T& check_found(T* pointer, std::string_view promise,
+               const std::source_location& where = std::source_location::current()) {
+    check(pointer != nullptr, promise, where);
+    return *pointer;
+}
+
+}  // namespace lockstep
