@@ -7,8 +7,8 @@
 
 #include "services/flight/flight_recorder.hpp"
 #include "services/flight/incident_file.hpp"
-#include "services/wire/lcm_decode.hpp"
-#include "services/wire/lcm_log.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_log.hpp"
 #include "tests/unit/flight/flight_makers.hpp"
 
 namespace lockstep {
