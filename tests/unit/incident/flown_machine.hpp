@@ -12,12 +12,12 @@ namespace lockstep {
 
 /// What one life of a process noted.
 struct VirtualFlight : FlightLog {
-    void set_note(std::string_view text) override { note = text; }
-    std::string note;
     explicit VirtualFlight(std::size_t of) : process(of) {}
     void add(const FlightEvent& event) override { events.push_back({events.size() + 1, event}); }
+    void set_note(std::string_view text) override { note = text; }
     std::size_t process;
     std::vector<NumberedEvent> events;
+    std::string note;
 };
 using VirtualFlights = std::shared_ptr<std::deque<VirtualFlight>>;
 
@@ -74,6 +74,7 @@ protected:
                                       .head = {},
                                       .machine = vm.machine(),
                                       .events = flight.events,
+                                      .note = flight.note,
                                       .damages = {}};
             file.head.source = {
                 .machine = "rig", .process = flight_process(axis), .incarnation = i, .config = {}, .directory = {}};

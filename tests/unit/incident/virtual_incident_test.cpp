@@ -59,6 +59,15 @@ TEST_F(Flown, AnAxisThatEndedIsFound) {
     expect(verdict(), CauseKind::Ended, flight_axis(kY));
 }
 
+TEST_F(Flown, AFailedCheckIsNamedAsTheCause) {
+    start_job();
+    flights->at(kY).set_note("failed check: one exceeds two (core/numbers.cpp:17)");
+    befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
+    wait(2);
+    EXPECT_EQ(verdict().story[0],
+              "the process of axis Y ended by itself: failed check: one exceeds two (core/numbers.cpp:17)");
+}
+
 TEST_F(Flown, AnAxisThatEndedAtRestIsFound) {
     home();
     befall({.kind = Kind::Crash, .process = kX, .lasts = seconds(0.3)});
