@@ -39,24 +39,27 @@ void find_step(const Run& planned, const Run& seen, RunDifference& difference) {
     if (found.next() != nullptr) { difference.tick_seen = found.next()->tick; }
 }
 
-constexpr double kStretchSlack_ticks = 512;     // pieces of a tick each keep theirs
-constexpr Displacement kHair{Int128{1} << 40};  // 2^-24 step: what rounding leaves of a piece, and more
+constexpr double kStretchSlack_ticks = 512;  // pieces of a tick each keep theirs
 
-constexpr std::size_t kEndWithin_ticks = 2;  // of a piece, from its planned end; a piece is a tick or more
+/// The speed at which the plan passes from one piece to the next, the slower of both; 0 where it turns. 2^-64 step.
+Int128 joint_speed(const Piece& before, const Piece& after) {
+    const Int128 ends = before.velocity_after(before.ticks) + before.acceleration.raw / 2;
+    const Int128 begins = Int128{after.velocity.raw} + after.acceleration.raw / 2;
+    if ((ends < 0) != (begins < 0)) { return 0; }
+    return ends < 0 ? std::min(-ends, -begins) : std::min(ends, begins);
+}
 
-/// How far an axis may be from the planned end of piece `i`: the piece ends at a tick of the device's clock close by.
-Displacement end_reach(const Run& planned, std::size_t i) {
-    const std::size_t first = i + 1 < kEndWithin_ticks ? 0 : i + 1 - kEndWithin_ticks;
-    const std::size_t end = std::min(planned.pieces.size(), i + 1 + kEndWithin_ticks);
-    Int128 fastest = 0;
-    for (std::size_t k = first; k < end; ++k) {
-        const Piece& piece = planned.pieces[k];
-        for (const Ticks at : {Ticks{1}, piece.ticks}) {
-            const Int128 velocity = piece.velocity_after(at);
-            fastest = std::max(fastest, velocity < 0 ? -velocity : velocity);
-        }
-    }
-    return Displacement{fastest * static_cast<Int128>(kEndWithin_ticks) + kHair.raw};
+/// How far the end of piece `i`, not the last, may be from its planned place. A piece ends at a tick of the device's
+/// clock, where the plan is by then, so the place is off by what the axis moves between the planned end and that tick.
+/// The start of the run and the places of all ends are known exactly, so nothing adds up over the pieces: the nearest
+/// tick is half a tick away at most. Where pieces of a tick each leave no room for the nearest,
+/// core/axis/device/retime.cpp limits the distance to half a tick as well. Velocities are whole numbers: n ticks leave
+/// up to n / 2 units of 2^-64 step, which the next piece makes up for; kDoubles is for the product of a speed and a
+/// part of a tick.
+Displacement end_reach(const Run& planned, const Run& seen, std::size_t i) {
+    constexpr Int128 kDoubles = 1 << 12;
+    const Int128 half_tick = joint_speed(planned.pieces[i], planned.pieces[i + 1]) / 2;
+    return Displacement{half_tick + seen.pieces[i].ticks.value / 2 + kDoubles};
 }
 
 /// The first piece after which the axis would not be where it is planned to be; none: everywhere it is.
@@ -71,7 +74,7 @@ std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) 
         const bool last = i + 1 == planned.pieces.size();
         if (last && split) { found = found + seen.pieces.back().covered(); }
         const Displacement off = found - expected;
-        const Displacement reach = last ? Displacement{} : end_reach(planned, i);
+        const Displacement reach = last ? Displacement{} : end_reach(planned, seen, i);
         if (off > reach || -off > reach) { return i + 1; }
     }
     return std::nullopt;

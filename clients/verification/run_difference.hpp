@@ -25,7 +25,7 @@ std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen);
 inline constexpr double kMostStretch = 2e-3;
 
 /// For a device with a clock of its own, whose run is `planned` retimed (core/axis/device/retime.hpp): commanded for
-/// the very times planned, at the end of each piece where the plan is within two ticks of it, at both ends of the run
+/// the very times planned, at the end of each piece where the plan is within half a tick of it, at both ends of the run
 /// bit for bit, and of a length that clocks can differ by. `joins`: when the run before it ended, by the same clock.
 std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins);
 
