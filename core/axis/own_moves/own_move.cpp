@@ -15,10 +15,12 @@ struct Brake {
     double exit = 0;
 };
 
-/// The first whole step that can be reached, but never one beyond the move's last. Where that is nearer than the way to
-/// brake, by what a method rounds, the speed jumps down first, within the start velocity. At rest it jumps by half of
-/// it: a method's pulses may come as unevenly as the other half allows. `jumped`: of the start velocity, what the
-/// method's pulses have just used up.
+/// The first whole step that can be reached, but never one beyond the move's last. At rest the speed jumps by half of
+/// the start velocity, if there is way enough: a method's pulses may come as unevenly as the other half allows. Towards
+/// its last step a move is planned to slow down to the start velocity alone, so there the speed at rest is what the way
+/// left makes of it, v^2 - 2 d s, up to the start velocity. Where that is still too fast, by what a method rounds, the
+/// speed jumps down first, within the start velocity. `jumped`: of the start velocity, what the method's pulses have
+/// just used up.
 Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits) {
     const double d = limits.max_deceleration;
     const double jump = std::max(0.0, limits.start_velocity - jumped);
@@ -27,8 +29,10 @@ Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t la
     const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
     const Int128 whole = (end + kOneStep - 1) / kOneStep * kOneStep;
     brake.to = std::min(Displacement{whole}, Displacement::steps(last_step));
-    const double left = (brake.to - from).as_steps();
-    const double steepest = std::sqrt(brake.exit * brake.exit + 2 * d * std::max(0.0, left));
+    const double left = std::max(0.0, (brake.to - from).as_steps());
+    const double needed = std::sqrt(std::max(0.0, speed * speed - 2 * d * left));
+    if (needed <= jump) { brake.exit = std::max(brake.exit, needed); }
+    const double steepest = std::sqrt(brake.exit * brake.exit + 2 * d * left);
     brake.entry = std::min(speed, std::max(steepest, speed - jump));
     return brake;
 }

@@ -51,7 +51,6 @@ public:
           rounding_(own_clock(recording.machine).rounding),
           hurry_(own_clock(recording.machine).hurry),
           ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
-          halts_(job.homing && job.outcome != JobOutcome::Done),
           violations_(violations) {
         // Steps beyond the course are another check's matter.
         if (course_ != nullptr) { steps_ = steps_.first(std::min(steps_.size(), course_->move_of_step.size())); }
@@ -102,8 +101,7 @@ private:
             if (!ceases_ || end < steps_.size()) { check_to_rest(end - 1, end, m); }
             const std::size_t stride = std::max<std::size_t>(1, m / 4);
             for (std::size_t n = begin; n + m < end; n += stride) { check_speed(n, m); }
-            const double jump = halts_ && end == steps_.size() ? limits_.start : 0;
-            for (std::size_t n = begin + m; n + m < end; n += stride) { check_change(n, m, jump); }
+            for (std::size_t n = begin + m; n + m < end; n += stride) { check_change(n, m); }
         }
     }
 
@@ -116,8 +114,7 @@ private:
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
-    /// `jump`: a fall that is allowed at once.
-    void check_change(std::size_t n, std::size_t m, double jump) {
+    void check_change(std::size_t n, std::size_t m) {
         const double t1 = time(n - m, n);
         const double t2 = time(n, n + m);
         const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
@@ -127,7 +124,7 @@ private:
         const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
         const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
         const double most_rise = limits_.accel * between;
-        const double most_fall = limits_.decel * between + jump;
+        const double most_fall = limits_.decel * between;
         if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }
         if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
@@ -190,7 +187,6 @@ private:
     double rounding_;  // ticks, of the time between two steps
     double hurry_;     // of a feed, by a clock of the device's own
     bool ceases_;      // the last step may be followed by none, at any speed
-    bool halts_;       // in the last move, where the way left is too short to brake, the speed falls at once
     Violations& violations_;
 };
 
