@@ -1,8 +1,11 @@
 #include "services/network/multicast.hpp"
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <array>
 
 #include "services/network/lcm_url.hpp"
 #include "services/network/route.hpp"
@@ -18,15 +21,18 @@ std::string remedy(const std::string& interface) {
            (interface == "lo" ? " (and, if nothing is heard: ip link set lo multicast on)" : "");
 }
 
-/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. True: it succeeded.
+/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. True: it succeeded. It does not fork: a copy of the pages
+/// of a process in motion would delay its loop.
 bool change_loopback_route(const char* verb) {
-    const pid_t child = fork();
-    if (child < 0) { return false; }
-    if (child == 0) {
-        dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);  // what failed is said by the caller
-        execlp("ip", "ip", "route", verb, kMulticastRange, "dev", "lo", static_cast<char*>(nullptr));
-        _exit(127);
-    }
+    std::array<const char*, 7> words{"ip", "route", verb, kMulticastRange, "dev", "lo", nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    // The caller reports what failed.
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    const int error = posix_spawnp(&child, "ip", &actions, nullptr, const_cast<char**>(words.data()), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) { return false; }
     int status = 0;
     waitpid(child, &status, 0);
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -10,7 +10,7 @@ std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std:
     if (published) {
         auto publisher = LcmPublisher::open(machine.network);
         if (publisher) {
-            sinks.push_back(std::make_unique<LcmSink>(std::move(*publisher)));
+            sinks.push_back(std::make_unique<LcmSink>(std::move(*publisher), watch_route(machine.network)));
         } else {
             log_warning("nothing is published of the record: " + publisher.error());
         }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/record/record_sink.hpp"
+#include "services/record/route_watch.hpp"
 #include "services/wire/lcm/lcm_log.hpp"
 #include "services/wire/lcm/lcm_publisher.hpp"
 
@@ -14,7 +15,9 @@ namespace lockstep {
 
 class LcmSink : public RecordSink {
 public:
-    explicit LcmSink(LcmPublisher publisher) : publisher_(std::move(publisher)) {}
+    /// watch: of the route by which it publishes; it may be null.
+    explicit LcmSink(LcmPublisher publisher, std::unique_ptr<RouteWatch> watch = nullptr)
+        : publisher_(std::move(publisher)), watch_(std::move(watch)) {}
     void write(const std::string& channel, std::int64_t /*utime*/, std::span<const std::uint8_t> bytes) override {
         (void)publisher_.publish_bytes(channel, bytes);
     }
@@ -22,6 +25,7 @@ public:
 
 private:
     LcmPublisher publisher_;
+    std::unique_ptr<RouteWatch> watch_;
 };
 
 class LogSink : public RecordSink {

@@ -1,0 +1,47 @@
+// lo goes down and comes up again, without its multicast route: the record is published again all the same.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <lcm/lcm-cpp.hpp>
+
+#include "services/network/route.hpp"
+#include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/wire/eventually.hpp"
+
+namespace lockstep {
+namespace {
+
+class LostRoute : public OwnMachine {
+protected:
+    /// Any message of the record comes within the bound.
+    bool is_published() const {
+        lcm::LCM lcm(lcm_url());
+        bool has_come = false;
+        struct Note {
+            bool* has_come;
+            void take(const lcm::ReceiveBuffer*, const std::string&) { *has_come = true; }
+        } note{&has_come};
+        lcm.subscribe(".*", &Note::take, &note);
+        return eventually([&] {
+            lcm.handleTimeout(10);
+            return has_come;
+        });
+    }
+};
+
+TEST_F(LostRoute, IsAddedAgainAndTheRecordGoesOn) {
+    if (geteuid() != 0) { GTEST_SKIP() << "a network of its own needs root"; }
+    bring_up();
+    ASSERT_TRUE(is_published());
+    ASSERT_EQ(std::system("ip link set lo down && ip link set lo up"), 0);
+    ASSERT_FALSE(route_interface("239.255.76.67")) << "so there is something to add";
+    EXPECT_TRUE(eventually([] { return route_interface("239.255.76.67") == "lo"; }));
+    EXPECT_TRUE(is_published());
+    EXPECT_NE((text_of_log("coordinator") + text_of_log("axis-X") + text_of_log("axis-Y"))
+                  .find("multicast is no longer routed to lo; its route was added again"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace lockstep
