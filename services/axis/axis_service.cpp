@@ -287,7 +287,7 @@ int serve_axis(const AxisServiceOptions& options) {
         std::cerr << "--fpga " << options.fpga << ": none of sim, shm:NAME and uio:PATH\n";
         return kServiceBadInput;
     }
-    if (auto log = open_log({"axis", config.name, options.log_file}); !log) {
+    if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {
         std::cerr << log.error() << '\n';
         return kServiceBadInput;
     }

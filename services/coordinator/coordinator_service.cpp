@@ -265,7 +265,7 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
                      "coordinator cannot tell apart; use stop, or coordination: RANADE\n";
         return kServiceBadInput;
     }
-    if (auto log = open_log({"coordinator", "", options.log_file}); !log) {
+    if (auto log = open_log({"coordinator", "", options.log_file, true}); !log) {
         std::cerr << log.error() << '\n';
         return kServiceBadInput;
     }

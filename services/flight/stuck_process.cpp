@@ -6,12 +6,18 @@
 #include "services/runtime/loop_watchdog.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{200};  // for the disk
+
+}  // namespace
 
 void end_stuck_process(FlightLog& flight, Tick now, std::int64_t tick_ns) {
     const Ticks stood{std::chrono::nanoseconds(kLongestLoop).count() / tick_ns};
     flight.add({.tick = now + stood, .kind = FlightKind::LoopStuck, .lasts = stood});
     log_error("the loop has not run for " + std::to_string(kLongestLoop.count()) +
               " s: a library call does not return; this process ends itself, to be started again");
+    drain_log(kPatience);
     std::abort();
 }
 

@@ -84,7 +84,7 @@ int fail(const std::string& why) {
 
 int serve_fpga(const FpgaOptions& options) {
     StopSignal stop;
-    if (const auto log = open_log({.service = "fpga", .axis = options.axis}); !log) {
+    if (const auto log = open_log({.service = "fpga", .axis = options.axis, .in_background = true}); !log) {
         std::cerr << log.error() << '\n';
         return 1;
     }

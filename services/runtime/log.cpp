@@ -9,6 +9,8 @@
 #include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
+#include "services/runtime/background_sink.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -27,11 +29,19 @@ std::expected<spdlog::sink_ptr, std::string> sink_for(const LogTarget& target) {
     return std::make_shared<spdlog::sinks::rotating_file_sink_mt>(target.file->string(), kLogFileBytes, kOlderLogFiles);
 }
 
+/// Null: the log is written at once.
+std::shared_ptr<BackgroundSink>& background_sink() {
+    static std::shared_ptr<BackgroundSink> sink;
+    return sink;
+}
+
 }  // namespace
 
 std::expected<void, std::string> open_log(const LogTarget& target) {
-    const auto sink = sink_for(target);
+    auto sink = sink_for(target);
     if (!sink) { return std::unexpected(sink.error()); }
+    background_sink() = target.in_background ? std::make_shared<BackgroundSink>(*sink) : nullptr;
+    if (background_sink()) { *sink = background_sink(); }
     auto logger = std::make_shared<spdlog::logger>(target.service, *sink);
     logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l " + word(target.service) + " " + word(target.axis) + " %v",
                         spdlog::pattern_time_type::utc);
@@ -39,6 +49,12 @@ std::expected<void, std::string> open_log(const LogTarget& target) {
     spdlog::set_default_logger(std::move(logger));
     return {};
 }
+
+void drain_log(std::chrono::milliseconds most) {
+    if (background_sink()) { background_sink()->drain(most); }
+}
+
+std::uint64_t lost_log_lines() { return background_sink() ? background_sink()->lost() : 0; }
 
 void log_event(spdlog::level::level_enum level, FaultCode code, std::string_view message) {
     spdlog::log(level, "{} {}", code == FaultCode::None ? "-" : name_of(code), message);

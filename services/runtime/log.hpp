@@ -1,6 +1,8 @@
 // The services' log: one line per event, "time level service axis code message", to standard error or a file.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <expected>
 #include <filesystem>
 #include <optional>
@@ -21,10 +23,17 @@ struct LogTarget {
     std::string service;                             // "coordinator", "axis", ...
     std::string axis;                                // empty: none
     std::optional<std::filesystem::path> file = {};  // none: standard error
+    bool in_background = false;                      // for a process with a loop, which never waits for the disk then
 };
 
 /// Makes it spdlog's default logger. Error: the file cannot be opened; the text names it and says why.
 std::expected<void, std::string> open_log(const LogTarget& target);
+
+/// Waits until the lines so far are written, but no longer than this.
+void drain_log(std::chrono::milliseconds most);
+
+/// Lines of a log in the background that were not written since it was opened, because the disk hung or was full.
+std::uint64_t lost_log_lines();
 
 /// One line about a fault: its stable name as the code, or "-" for FaultCode::None.
 void log_event(spdlog::level::level_enum level, FaultCode code, std::string_view message);
