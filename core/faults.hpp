@@ -113,7 +113,9 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(Held, 140, "held", "a job is held or paused", \
       "", either(Remedy::Resume, Remedy::Stop)) \
     X(NotReady, 141, "not-ready", "not every axis follows the coordinator and rests yet", \
-      "", in_order(Remedy::Wait, Remedy::Again))
+      "", in_order(Remedy::Wait, Remedy::Again)) \
+    X(CoordinatorSilent, 142, "coordinator-silent", "the coordinator fell silent while the axis moved by itself; the axis halted", \
+      "see the coordinator's log and the network, and start it where it does not run", in_order(Remedy::Reset, Remedy::Home))
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

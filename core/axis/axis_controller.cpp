@@ -27,7 +27,10 @@ AxisOutputs AxisController::step(const AxisInputs& inputs) {
     look(inputs, out);
     hear(inputs, out);
     take_frames(inputs, out);
-    if (mode_ == Mode::Local) { feed_local(out); }
+    if (mode_ == Mode::Local) {
+        watch_owner(slot, out);
+        feed_local(out);
+    }
     if (mode_ == Mode::Following) {
         const auto veto_before = follower_.veto();
         for (DeviceOrder& order : follower_.decide(slot)) { out.orders.push_back(std::move(order)); }

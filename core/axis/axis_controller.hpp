@@ -153,6 +153,7 @@ private:
     FaultCode refusal_of(const AxisCommand& command, std::int64_t steps) const;
     void take_homing_step(const HomingStep& step, AxisOutputs& out);
     void start_local(const LocalMove& move, int tries, AxisOutputs& out);
+    void watch_owner(Slot now, AxisOutputs& out);
     void feed_local(AxisOutputs& out);
     void halt_local(AxisOutputs& out);
     void end_local(const DeviceStatus& device, AxisOutputs& out);

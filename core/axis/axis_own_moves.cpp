@@ -92,6 +92,11 @@ void AxisController::start_local(const LocalMove& move, int tries, AxisOutputs& 
     feed_local(out);
 }
 
+/// Without its owner nobody can stop the axis: it stops itself. The fault halts the move.
+void AxisController::watch_owner(Slot now, AxisOutputs& out) {
+    if (fault_ == FaultCode::None && !hears_owner(now)) { fail(FaultCode::CoordinatorSilent, out); }
+}
+
 /// Frames are loaded until the device has enough ahead, or no room.
 void AxisController::feed_local(AxisOutputs& out) {
     LocalRun& run = *local_;

@@ -1,4 +1,4 @@
-// Homing that a person ends: at rest, said, and it works again.
+// Homing that a person ends, or that nobody could end any more: at rest, reported, and it works again.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -54,6 +54,22 @@ TEST_F(Homing, IsEndedWhenItsCommandIsInterrupted) {
     ASSERT_TRUE(becomes("Homing"));
     home.signal(SIGINT);
     expect_ended(home.wait());
+}
+
+TEST_F(Homing, IsEndedByTheAxisWhenTheCoordinatorIsKilled) {
+    Command home(LOCKSTEP_COMMAND, {"home"});
+    ASSERT_TRUE(becomes("Homing"));
+    kill(process("coordinator"), SIGKILL);
+    ASSERT_TRUE(becomes("Fault")) << "the coordinator is started again, and finds the axis halted";
+    EXPECT_NE(home.wait().code, 0);
+    const auto halted = status();
+    EXPECT_EQ(halted.axes(0).fault().name(), "coordinator-silent");
+    EXPECT_TRUE(halted.axes(0).at_rest());
+    EXPECT_FALSE(halted.axes(0).homed());
+    EXPECT_EQ(run_lockstep({"reset"}).code, 0);
+    ASSERT_TRUE(becomes("Idle"));
+    EXPECT_EQ(run_lockstep({"home"}).code, 0);
+    EXPECT_TRUE(status().axes(0).homed());
 }
 
 TEST_F(Homing, IsEndedBeforeTheMachineIsTakenDown) {

@@ -149,8 +149,11 @@ TEST_F(Standby, AnOwnerThatStalledInItsOwnMovesOrdersNothingMore) {
     ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 7).status, ReplyStatus::Accepted);
     wait(0.05);
     befall(Kind::Freeze, owner, 6);
-    wait(0.5);
-    EXPECT_EQ(vm.owner(), owner) << "nobody takes over while an axis moves";
+    ASSERT_TRUE(
+        vm.advance_until([&] { return vm.owner() == other && vm.state()->phase == MachinePhase::Fault; }, ticks(3)))
+        << describe();
+    EXPECT_EQ(fault(), FaultCode::CoordinatorSilent) << "the axes halted, so the other could take over";
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     ASSERT_TRUE(taken_over()) << describe();
     expect_moves_without_homing();
     wait(6);

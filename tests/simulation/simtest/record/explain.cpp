@@ -41,6 +41,10 @@ constexpr std::array kExplanations{
     Explanation{Cause::Corruption, FaultCode::PositionMismatch},
     Explanation{Cause::Freeze, FaultCode::FramesDiffer},
     Explanation{Cause::Freeze, FaultCode::AxisLost},
+    // Axes that move by themselves halt without their coordinator.
+    Explanation{Cause::Freeze, FaultCode::CoordinatorSilent},
+    Explanation{Cause::CrashOfCoordinator, FaultCode::CoordinatorSilent},
+    Explanation{Cause::Cut, FaultCode::CoordinatorSilent},
     // The first frame of a run, armed when its start has gone by: the device refuses it.
     Explanation{Cause::Stall, FaultCode::DeviceFault},
     Explanation{Cause::CrashOfAxis, FaultCode::AxisLost},
