@@ -33,6 +33,8 @@ struct VirtualFault {
     PlantContact contact = &PlantInputs::limit_min;  // Stick: which
     bool closed = true;                              // Stick: reads closed
     std::int64_t push_steps = 0;                     // Push
+    bool other_config = false;                       // Crash: what takes its place reads another configuration
+    bool ends_elsewhere = false;                     // DamageFrame: it joins the frame before and ends elsewhere
     bool garbage = true;                             // Overwrite: with noise; else with zeros
     bool outgoing = true;                            // Cut: what the process says is lost
     bool incoming = true;                            // Cut: what is said to it is lost

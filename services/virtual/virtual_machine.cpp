@@ -23,6 +23,16 @@ void damage_newest_frame(RegisterWindow& window) {
     }
 }
 
+/// Its last piece covers two steps more: the frame joins the one before and ends elsewhere.
+void mislead_newest_frame(RegisterWindow& window) {
+    using namespace registers;
+    const std::uint64_t newest = window.load(kSegmentHead) - 1;
+    const std::size_t entry = kSegmentRing + (newest % kSegmentRingEntries) * kSegmentRingEntryBytes;
+    const auto ticks = static_cast<double>(window.load(entry + kSegmentRingTicks));
+    const auto more = static_cast<std::uint64_t>(2 / ticks * 0x1p64);
+    window.store(entry + kSegmentRingVelocity, window.load(entry + kSegmentRingVelocity) + more);
+}
+
 }  // namespace
 
 VirtualMachine::VirtualMachine(const VirtualOptions& options)
@@ -52,14 +62,14 @@ void VirtualMachine::power_up() {
 }
 
 /// A new process, with an identity of its own; an axis's finds its device as it is.
-void VirtualMachine::start(std::size_t process) {
+void VirtualMachine::start(std::size_t process, bool other_config) {
+    const std::uint64_t config_hash = options_.config_hash + (other_config ? 1 : 0);
     if (is_coordinator(process)) {
         const Identity identity = static_cast<Identity>(now_.value) + process;
-        coordinator(process).emplace(options_.machine, identity, options_.config_hash, methods::begin_steps,
+        coordinator(process).emplace(options_.machine, identity, config_hash, methods::begin_steps,
                                      coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
     } else {
-        const AxisNode::Setup setup{process, options_.machine, axis_identities_++, options_.config_hash,
-                                    axes_[process].kept};
+        const AxisNode::Setup setup{process, options_.machine, axis_identities_++, config_hash, axes_[process].kept};
         axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
         axes_[process].node.emplace(setup, [this, process](Tick) { return open_device(process); });
     }
@@ -122,10 +132,11 @@ void VirtualMachine::crash(std::size_t process) {
     is_coordinator(process) ? coordinator(process).reset() : axes_[process].node.reset();
 }
 
-void VirtualMachine::restart(std::size_t process) {
+void VirtualMachine::restart(const VirtualFault& crash) {
+    const std::size_t process = crash.process;
     mail_.collect(network_, now_, process);  // nobody was there to receive it
     if (!is_coordinator(process)) { advance_device(process); }
-    start(process);
+    start(process, crash.other_config);
 }
 
 void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
@@ -156,7 +167,8 @@ void VirtualMachine::disturb(const VirtualFault& fault, bool begins) {
     } else if (fault.kind == VirtualFault::Kind::Push && begins) {
         device(i).plant().push(fault.push_steps);
     } else if (begins) {
-        damage_newest_frame(axes_[i].device.window);
+        RegisterWindow& window = axes_[i].device.window;
+        fault.ends_elsewhere ? mislead_newest_frame(window) : damage_newest_frame(window);
     }
     advance_device(i);
 }
@@ -177,7 +189,7 @@ void VirtualMachine::take_turn(const Turn& turn) {
             options_.clocks.resize(axes_.size());
             if (turn.begins) { options_.clocks.at(turn.fault.process).process.offset += turn.fault.set_by; }
             break;
-        case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault.process); break;
+        case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault); break;
         case VirtualFault::Kind::Cut: cut(turn.fault, turn.begins); break;
         case VirtualFault::Kind::Stick:
         case VirtualFault::Kind::Push:

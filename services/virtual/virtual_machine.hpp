@@ -126,7 +126,7 @@ private:
     void power_up();
     std::optional<std::size_t> next_process() const;
     void take_turn(const Turn& turn);
-    void start(std::size_t process);
+    void start(std::size_t process, bool other_config = false);
     std::expected<AxisDevice, std::string> open_device(std::size_t axis) const;
     void advance_device(std::size_t axis);
     void power_up_anew(std::size_t axis, RegisterWindow window);
@@ -134,7 +134,7 @@ private:
     void strike(const VirtualFault& fault, bool begins);
     void note_flight(std::size_t process);
     void crash(std::size_t process);
-    void restart(std::size_t process);
+    void restart(const VirtualFault& crash);
     void cut(const VirtualFault& fault, bool begins);
     void disturb(const VirtualFault& fault, bool begins);
 

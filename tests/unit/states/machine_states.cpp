@@ -33,6 +33,11 @@ void expect_phase(Walker& m, MachinePhase phase, double seconds = 3) {
     ASSERT_TRUE(m.reaches(phase, seconds)) << m.state_text();
 }
 
+void expect_fault(Walker& m, FaultCode code) {
+    EXPECT_EQ(m.vm.state()->phase, MachinePhase::Fault);
+    EXPECT_EQ(static_cast<FaultCode>(m.vm.state()->fault), code) << m.state_text();
+}
+
 void ask_for(Walker& m, CommandKind kind) { ASSERT_EQ(m.ask(kind).status, ReplyStatus::Accepted); }
 
 void unhomed(Walker& m) { expect_phase(m, MachinePhase::Idle); }
@@ -213,6 +218,40 @@ void frame_damaged(Walker& m) {
     expect_phase(m, MachinePhase::Fault);
 }
 
+/// In the last frame of the job: nothing follows that would have to join it.
+void ends_elsewhere(Walker& m) {
+    running(m);
+    ASSERT_TRUE(m.vm.advance_until([&] { return m.vm.state()->remaining_s < 0.008; }, Ticks{10'000'000}));
+    m.befall({.kind = Kind::DamageFrame, .process = kX, .ends_elsewhere = true}, 0);
+    expect_phase(m, MachinePhase::Fault);
+    expect_fault(m, FaultCode::PositionMismatch);
+}
+
+/// Y is cut off from the others just when it has their evidence for a frame and they do not have its own: it runs the
+/// frame, they do not. When that is depends on the frame.
+void frames_differ(Walker& m) {
+    running(m);
+    for (int tries = 0; tries < 40 && m.vm.state()->phase != MachinePhase::Fault; ++tries) {
+        m.befall({.kind = Kind::Cut, .process = kY, .incoming = false}, 0.012);
+        m.wait(0.005);
+        m.befall({.kind = Kind::Cut, .process = kY, .outgoing = false}, 0.007);
+        m.wait(0.2121);
+    }
+    expect_phase(m, MachinePhase::Fault);
+    expect_fault(m, FaultCode::FramesDiffer);
+}
+
+/// One axis is started with another file than the rest; by hand, it is started again with theirs.
+void other_configuration(Walker& m) {
+    m.home();
+    m.befall({.kind = Kind::Crash, .process = kY, .other_config = true}, 0.1);
+    m.wait(0.2);
+    VirtualFault by_hand{.kind = Kind::Crash, .process = kY, .at = m.vm.now() + Ticks{4'000'000}, .lasts = {100'000}};
+    m.vm.schedule(by_hand);
+    expect_phase(m, MachinePhase::Fault);
+    expect_fault(m, FaultCode::ConfigMismatch);
+}
+
 void device_lost(Walker& m) {
     running(m);
     m.befall({.kind = Kind::KillDevice, .process = kY}, 2);
@@ -266,6 +305,26 @@ void coordinator_restarted_in_motion(Walker& m) {
     m.wait(0.3);
 }
 
+void coordinator_silent_in_homing(Walker& m) {
+    homing(m);
+    m.befall({.kind = Kind::Crash, .process = kCoordinator}, 0.5);
+    m.wait(0.7);
+    expect_fault(m, FaultCode::CoordinatorSilent);
+}
+
+void coordinator_silent_in_own_move(Walker& m) {
+    own_move(m);
+    m.befall({.kind = Kind::Crash, .process = kCoordinator}, 0.5);
+    m.wait(0.7);
+    expect_fault(m, FaultCode::CoordinatorSilent);
+}
+
+/// A program is being sent: the last of its chunks has not come yet.
+void program_arriving(Walker& m) {
+    m.home();
+    m.send_all_but_the_last_chunk();
+}
+
 /// The owner ends in the middle of a job.
 void owner_replaced(Walker& m) {
     running(m);
@@ -293,6 +352,7 @@ const std::vector<MachineSituation>& situations() {
         {"homing", homing, on_one_clock},
         {"homing, stopping", homing_that_stops, on_one_clock},
         {"idle", idle, on_one_clock},
+        {"idle, a program arriving in chunks", program_arriving, on_one_clock},
         {"running", running, on_one_clock},
         {"stopping to hold", stopping_to_hold, on_one_clock},
         {"stopping", stopping, on_one_clock},
@@ -319,6 +379,9 @@ const std::vector<MachineSituation>& situations() {
         {"axis cut off", cut_off, on_one_clock},
         {"axis stood still", axis_stood_still, on_one_clock},
         {"frame damaged in the device", frame_damaged, on_one_clock},
+        {"an axis is not where its frames end", ends_elsewhere, on_one_clock},
+        {"the axes ran different frames", frames_differ, on_one_clock},
+        {"an axis has another configuration", other_configuration, on_one_clock},
         {"device lost", device_lost, on_one_clock},
         {"device lost, and back", device_lost_and_back, on_one_clock},
         {"device overwritten", device_overwritten, on_one_clock},
@@ -327,6 +390,8 @@ const std::vector<MachineSituation>& situations() {
         {"frames late", frames_late, on_one_clock},
         {"coordinator restarted", coordinator_restarted, on_one_clock},
         {"coordinator restarted in motion", coordinator_restarted_in_motion, on_one_clock},
+        {"coordinator silent in homing", coordinator_silent_in_homing, on_one_clock},
+        {"coordinator silent in an own move", coordinator_silent_in_own_move, on_one_clock},
         {"standby took over", owner_replaced, with_standby},
         {"standby took over, and goes on", owner_replaced, with_standby_that_goes_on},
         {"clock uncertain", clock_uncertain, on_clocks_apart},

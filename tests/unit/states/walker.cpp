@@ -1,6 +1,7 @@
 #include "tests/unit/states/walker.hpp"
 
 #include "core/protocol/names.hpp"
+#include "services/documents/program_document.hpp"
 
 namespace lockstep {
 namespace {
@@ -8,6 +9,7 @@ namespace {
 constexpr double kRestWithin_s = 2;  // a hold, a stop, an emergency stop, a reset
 constexpr double kJobWithin_s = 60;  // homing, and any job of these tests
 constexpr int kRounds = 8;           // of remedies, until a job runs
+constexpr std::uint64_t kNotSent = 999;
 
 bool is_begun(CommandKind kind) {
     return kind == CommandKind::Home || kind == CommandKind::Run || kind == CommandKind::Move ||
@@ -38,6 +40,18 @@ void Walker::befall(VirtualFault fault, double seconds) {
     fault.at = vm.now();
     fault.lasts = Ticks{static_cast<std::int64_t>(seconds * 1e6)};
     vm.schedule(fault);
+}
+
+void Walker::send_all_but_the_last_chunk() {
+    const std::vector<std::uint8_t> bytes = program_bytes(program_of({{40, 40}, {20, 20}}, 20));
+    const auto half = bytes.begin() + std::ssize(bytes) / 2;
+    const ProgramChunk first{.program = kNotSent, .count = 2, .bytes = {bytes.begin(), half}};
+    unsent_ = {.sequence = 1, .program = kNotSent, .index = 1, .count = 2, .bytes = {half, bytes.end()}};
+    deliver(first);
+}
+
+void Walker::deliver(const ProgramChunk& chunk) {
+    if (const auto taken = inbox_.take(chunk); taken.program) { vm.give_program(chunk.program, *taken.program); }
 }
 
 bool Walker::is_settled() const {
@@ -73,7 +87,7 @@ Reply Walker::put(const Question& question) {
         return reply == nullptr ? Reply{.status = ReplyStatus::Refused, .text = "no reply"} : *reply;
     }
     if (question.program == Question::Program::None) { return ask(question.kind); }
-    if (question.program == Question::Program::Unknown) { return ask(question.kind, 0, 999); }
+    if (question.program == Question::Program::Unknown) { return ask(question.kind, 0, kNotSent); }
     return go(question.kind, 12, 14, 40);
 }
 
@@ -126,8 +140,9 @@ std::size_t Walker::choices(FaultCode code) {
     return text != nullptr && text->remedies.is_choice ? text->remedies.count : 1;
 }
 
-/// By hand: what ails it passes.
+/// By hand: what is wrong passes, and what is missing is sent.
 void Walker::mend() {
+    if (const auto chunk = std::exchange(unsent_, std::nullopt)) { deliver(*chunk); }
     (void)vm.advance_until([this] { return !vm.faults_pending(); }, Ticks{120'000'000});
     wait(0.2);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "services/coordinator/program_inbox.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -35,6 +36,8 @@ public:
     /// A job of one straight line from where the axes stand; it pauses before, if so asked.
     Reply go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, bool pauses = false);
     void befall(VirtualFault fault, double seconds);
+    /// Of the program that Question::Program::Unknown names.
+    void send_all_but_the_last_chunk();
 
     /// Asks, and sees what comes of it. Fails where no answer comes in time, a refusal offers no remedy, or what was
     /// accepted has no effect in time.
@@ -52,6 +55,7 @@ public:
 private:
     void TestBody() override {}
 
+    void deliver(const ProgramChunk& chunk);
     bool settles(double seconds);
     bool is_settled() const;
     void mend();
@@ -60,6 +64,8 @@ private:
     void expect_effect(const Question& question, const Reply& reply, std::uint64_t jobs_before);
 
     std::uint64_t programs_ = 0;
+    ProgramInbox inbox_;
+    std::optional<ProgramChunk> unsent_;
 };
 
 }  // namespace lockstep
