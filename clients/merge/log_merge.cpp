@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "clients/merge/job_program.hpp"
 #include "clients/merge/written_lately.hpp"
 
 namespace lockstep::merge {
@@ -19,6 +20,7 @@ public:
         : options_(options),
           to_(to),
           missing_(options.span.from_us.has_value()),
+          program_(options.span.program),
           lately_(options.window_us * kWindowsRemembered) {}
 
     std::expected<void, std::string> open() {
@@ -56,7 +58,7 @@ public:
         }
         merged_.axes = missing_.finish();
         merged_.missing_job_events = missing_.missing_of_jobs(RecordKind::Job);
-        merged_.missing_program_parts = missing_.missing_of_jobs(RecordKind::ProgramPart);
+        merged_.missing_program_parts = std::max(missing_.missing_of_jobs(RecordKind::ProgramPart), program_.missing());
         merged_.end = missing_.end();
         return std::move(merged_);
     }
@@ -110,12 +112,23 @@ private:
     }
 
     void write(std::size_t from, const HeldMessage& message) {
-        if (!is_wanted(message.id.utime)) { return; }
+        const bool is_part_of_program = program_.takes(message);
+        if (!is_wanted(message.id.utime)) {
+            if (is_part_of_program && is_before(message)) { pass_on(from, message); }
+            return;
+        }
         if (!message.is_foreign && !is_new(message)) { return; }
+        missing_.take(message.id, message.data);
+        pass_on(from, message);
+    }
+
+    /// The parts of the program, and nothing else, are written from before the span: no numbers are missing there.
+    bool is_before(const HeldMessage& message) const { return message.id.utime < options_.span.from_us; }
+
+    void pass_on(std::size_t from, const HeldMessage& message) {
         merged_.late += message.id.utime < written_utime_ ? 1 : 0;
         written_utime_ = std::max(written_utime_, message.id.utime);
         to_.write(message.id.channel, message.id.utime, message.data);
-        missing_.take(message.id, message.data);
         merged_.foreign += message.is_foreign ? 1 : 0;
         ++merged_.messages;
         ++merged_.inputs[from].kept;
@@ -146,6 +159,7 @@ private:
     std::vector<MergeInput> inputs_;
     std::vector<std::size_t> waiting_;  // inputs not begun, the first to begin last
     MissingWatch missing_;
+    JobProgram program_;
     WrittenLately lately_;
     Merged merged_;
     std::int64_t written_utime_ = std::numeric_limits<std::int64_t>::min();

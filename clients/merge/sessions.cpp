@@ -20,7 +20,8 @@ using analysis::RecordingProcess;
 /// What a log says of who was there, and of jobs.
 struct Contents {
     std::set<RecordingProcess> processes;
-    std::vector<job_t> jobs;  // beginnings and ends, without their documents
+    std::vector<job_t> jobs;               // beginnings and ends, without their documents
+    std::vector<program_part_t> in_parts;  // which jobs run programs recorded in parts
 };
 
 void take_job(const LogEvent& event, Contents& contents) {
@@ -29,6 +30,11 @@ void take_job(const LogEvent& event, Contents& contents) {
     job->program.clear();
     job->config.clear();
     contents.jobs.push_back(std::move(*job));
+}
+
+void take_part(const LogEvent& event, Contents& contents) {
+    auto part = decode_lcm<program_part_t>(event.data);
+    if (part && part->job != 0) { contents.in_parts.push_back(std::move(*part)); }
 }
 
 std::expected<Contents, std::string> contents_of(const fs::path& path) {
@@ -40,6 +46,7 @@ std::expected<Contents, std::string> contents_of(const fs::path& path) {
         if (!event) { return std::unexpected(event.error()); }
         if (!*event) { return contents; }
         if (kind_of((*event)->channel) == RecordKind::Job) { take_job(**event, contents); }
+        if (kind_of((*event)->channel) == RecordKind::ProgramPart) { take_part(**event, contents); }
         if (kind_of((*event)->channel) != RecordKind::Mark) { continue; }
         if (const auto mark = decode_lcm<record_mark_t>((*event)->data)) {
             contents.processes.insert({mark->machine, mark->process, mark->incarnation});
@@ -85,7 +92,7 @@ std::vector<JobSpan> spans_of(std::vector<job_t> events) {
     std::vector<JobSpan> spans;
     for (const job_t& event : events) {
         if (event.event == "begun") {
-            spans.push_back({event.job, event.utime, {}});
+            spans.push_back({event.job, event.utime, {}, event.coordinator, {}});
             continue;
         }
         const auto its = std::ranges::find(spans.rbegin(), spans.rend(), event.job, &JobSpan::job);
@@ -94,6 +101,14 @@ std::vector<JobSpan> spans_of(std::vector<job_t> events) {
     const auto same = [](const JobSpan& a, const JobSpan& b) { return a.job == b.job && a.begun_us == b.begun_us; };
     spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());  // several logs have it
     return spans;
+}
+
+void note_programs(const Contents& log, std::vector<JobSpan>& spans) {
+    for (const program_part_t& part : log.in_parts) {
+        for (JobSpan& span : spans) {
+            if (span.job == part.job && span.coordinator == part.coordinator) { span.program = part.program; }
+        }
+    }
 }
 
 }  // namespace
@@ -126,6 +141,7 @@ std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& 
     }
     chosen.sessions_left_out = static_cast<std::int64_t>(left_out.size());
     chosen.jobs = spans_of(std::move(jobs));
+    for (const Contents& log : contents) { note_programs(log, chosen.jobs); }
     return chosen;
 }
 
@@ -133,6 +149,7 @@ std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64
     const auto found = std::ranges::find(jobs.rbegin(), jobs.rend(), job, &JobSpan::job);
     if (found == jobs.rend()) { return std::nullopt; }
     TimeSpan span;
+    if (found->program) { span.program = {found->coordinator, *found->program}; }
     if (const auto before = found + 1; before != jobs.rend()) {
         span.from_us = before->ended_us.value_or(before->begun_us) + 1;
     }

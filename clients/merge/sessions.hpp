@@ -22,6 +22,9 @@ struct JobSpan {
     std::int64_t job = 0;
     std::int64_t begun_us = 0;
     std::optional<std::int64_t> ended_us;
+    std::int64_t coordinator = 0;  // that began it
+    std::optional<std::int64_t>
+        program;  // of that coordinator, recorded in parts; none: recorded with the job, or none
 };
 
 struct ChosenLogs {
@@ -35,13 +38,20 @@ struct ChosenLogs {
 /// always chosen: nothing says what they belong to. `all`: every log.
 std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& given, bool all);
 
+/// A program that was recorded in parts: its coordinator, and its number there.
+struct ProgramInParts {
+    std::int64_t coordinator = 0;
+    std::int64_t program = 0;
+};
+
 /// A stretch of machine time, in microseconds; none: without that limit.
 struct TimeSpan {
     std::optional<std::int64_t> from_us;
-    std::optional<std::int64_t> until_us;  // not in it
+    std::optional<std::int64_t> until_us;   // not in it
+    std::optional<ProgramInParts> program;  // with all its parts, also those recorded before
 };
 
-/// The newest job of that number, with what its program was recorded in, and the rest behind it. None: there is none.
+/// The newest job of that number, with the program it runs, and the rest behind it. None: there is none.
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job);
 
 }  // namespace lockstep::merge

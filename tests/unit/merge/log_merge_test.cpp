@@ -361,5 +361,51 @@ TEST_F(Sessions, AJobIsTakenFromTheEndOfTheOneBeforeToTheBeginningOfTheNext) {
     EXPECT_TRUE(merged.is_complete()) << "what was not asked for is not missing";
 }
 
+/// A program that is recorded in parts before job 1, and run by jobs 1 and 2.
+class JobInParts : public Sessions {
+protected:
+    void write_part(LogWriter& log, std::int64_t sequence, std::int64_t job, std::int32_t part, std::int64_t utime) {
+        program_part_t message{};
+        message.utime = utime;
+        message.machine = "mill";
+        message.coordinator = 50;
+        message.sequence = sequence;
+        message.program = 9;
+        message.job = job;
+        message.part = part;
+        message.parts = job == 0 ? 3 : 0;
+        if (job == 0) { message.data.assign(20, static_cast<std::uint8_t>(part)); }
+        message.size = static_cast<std::int32_t>(message.data.size());
+        log.write_message(program_channel("mill"), utime, message);
+    }
+    Merged merge_job_2(std::int32_t parts_there) {
+        auto writer = LogWriter::open(folder / "parts.lcm").value();
+        for (std::int32_t part = 0; part < parts_there; ++part) { write_part(writer, part, 0, part, 100 + part); }
+        for (std::int64_t job = 1; job <= 2; ++job) {
+            const auto number = static_cast<std::uint64_t>(job);
+            write_part(writer, 2 + job, job, 0, job * 1000 - 1);
+            write_job(writer, number, 2 * number - 2, "begun", job * 1000);
+            write_job(writer, number, 2 * number - 1, "ended", job * 1000 + 500);
+        }
+        EXPECT_TRUE(writer.flush());
+        const ChosenLogs chosen = choose({folder});
+        const auto span = span_of_job(chosen.jobs, 2);
+        EXPECT_TRUE(span && span->program);
+        return merge_logs({.logs = chosen.logs, .span = *span, .progress = {}}, kept).value();
+    }
+};
+
+TEST_F(JobInParts, IsMergedWithAllPartsOfItsProgramThoughTheyWereRecordedEarlier) {
+    const Merged merged = merge_job_2(3);
+    EXPECT_EQ(kept.utimes, (std::vector<std::int64_t>{100, 101, 102, 1999, 2000, 2500}));
+    EXPECT_TRUE(merged.is_complete());
+}
+
+TEST_F(JobInParts, ReportsThePartsThatAreInNoLog) {
+    const Merged merged = merge_job_2(2);
+    EXPECT_EQ(merged.missing_program_parts, 1);
+    EXPECT_FALSE(merged.is_complete());
+}
+
 }  // namespace
 }  // namespace lockstep::merge
