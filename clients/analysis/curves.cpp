@@ -3,6 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/axis_unit.hpp"
+
 namespace lockstep::analysis {
 namespace {
 
@@ -26,7 +28,7 @@ Scaled scaled(const Analysis& analysis, const AxisLog& axis) {
     const auto steps_per_mm = analysis.steps_per_mm(axis);
     Scaled out{.origin = analysis.first_tick().value_or(Tick{})};
     out.curve.axis = axis.name();
-    out.curve.unit = steps_per_mm ? "mm" : "steps";
+    out.curve.unit = steps_per_mm ? unit_of(axis.name()) : "steps";
     out.length_per_step = steps_per_mm ? 1 / *steps_per_mm : 1;
     out.ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     for (const Break& what : axis.statistics().breaks()) {

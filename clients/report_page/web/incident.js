@@ -128,7 +128,8 @@ function rows() {
     if (states.length < 2) { return []; }
     const x = states.map((event) => event.at_s);
     const row = (kind, unit, key) => ({ kind, name, what: `${kind}, as it noted it`, unit, colour: lane, x, y: states.map((event) => event[key]), limits: [], missing: [] });
-    return [row("speed", "mm/s", "velocity_mm_s"), row("position", "mm", "position_mm")];
+    const unit = unitOf(name.replace(/^axis[ -]/, ""));
+    return [row("speed", `${unit}/s`, "velocity_mm_s"), row("position", unit, "position_mm")];
   });
 }
 

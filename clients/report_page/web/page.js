@@ -16,9 +16,15 @@ function showTime(from, to) {
   document.getElementById("time")?.scrollIntoView({ behavior: "smooth" });
 }
 
-const micro = (value) => (value === undefined ? "–" : (value * 1000).toFixed(1));
-const peak = (key) => (move) => Math.max(...move.axes.map((axis) => axis[key] ?? NaN).filter((value) => value > 0), -Infinity);
-const shownPeak = (digits) => (value) => (value === -Infinity ? "–" : value.toFixed(digits));
+// Along the linear axes; where only rotary ones move, theirs.
+const unitOfAxes = (axes) => (axes.length > 0 && axes.every((axis) => unitOf(axis.name) === "deg") ? "deg" : "mm");
+const unitOfMove = (move) => unitOfAxes(move.axes);
+const unitOfJob = (job) => unitOfAxes(job.moves.flatMap((move) => move.axes));
+const shownThousandths = (unit) => (value, row) =>
+  (value === undefined ? "–" : `${(value * 1000).toFixed(1)} ${smallUnitOf[unit(row)]}`);
+const peakAxis = (key, move) => move.axes.reduce((top, axis) => ((axis[key] ?? 0) > (top?.[key] ?? 0) ? axis : top), undefined);
+const peak = (key) => (move) => peakAxis(key, move)?.[key];
+const shownPeak = (digits, key, per) => fixedIn(digits, (move) => unitOf(peakAxis(key, move).name) + per);
 const sum = (key) => (move) => move.axes.reduce((all, axis) => all + Number(axis[key]), 0);
 const isWhole = (move) => move.axes.every((axis) => axis.asked_steps === axis.made_steps);
 
@@ -43,7 +49,7 @@ function jobs() {
     { head: "overridden", of: (job) => (job.overridden ? "yes" : "no"), text: true },
     { head: "took, s", of: (job) => job.real_s, show: fixed(3) },
     { head: "interrupted", of: (job) => Number(job.interruptions), grade: (job) => (Number(job.interruptions) ? "doubtful" : "") },
-    { head: "off the path, \u00b5m", of: (job) => job.largest_distance_mm, show: micro },
+    { head: "off the path", of: (job) => job.largest_distance_mm, show: shownThousandths(unitOfJob) },
     { head: "step time off, \u00b5s", of: (job) => job.step_time_error.max_us, show: fixed(1) },
   ];
   const onRow = (job) => showTime(job.begun_s ?? whole[0], (job.begun_s ?? 0) + (job.real_s ?? whole[1]));
@@ -58,14 +64,14 @@ function moves() {
     { head: "job", of: (move) => move.job },
     { head: "line", of: (move) => move.line },
     { head: "axes", of: (move) => move.axes.map((axis) => axis.name).join(" ") || "dwell", text: true },
-    { head: "length, mm", of: (move) => move.length_mm, show: fixed(3) },
+    { head: "length", of: (move) => move.length_mm, show: fixedIn(3, unitOfMove) },
     ...stepColumns(sum("asked_steps"), sum("made_steps"), wholeGrade),
     { head: "planned, s", of: (move) => move.planned_s, show: fixed(4) },
     { head: "took, s", of: (move) => move.real_s, show: fixed(4) },
     { head: "differs, ms", of: (move) => (move.real_s === undefined ? undefined : (move.real_s - move.planned_s) * 1000), show: fixed(3) },
-    { head: "peak, mm/s", of: peak("peak_velocity_mm_s"), show: shownPeak(2) },
-    { head: "peak, mm/s\u00b2", of: peak("peak_acceleration_mm_s2"), show: shownPeak(0) },
-    { head: "off the line, \u00b5m", of: (move) => move.largest_distance_mm, show: micro },
+    { head: "peak speed", of: peak("peak_velocity_mm_s"), show: shownPeak(2, "peak_velocity_mm_s", "/s") },
+    { head: "peak acceleration", of: peak("peak_acceleration_mm_s2"), show: shownPeak(0, "peak_acceleration_mm_s2", "/s\u00b2") },
+    { head: "off the line", of: (move) => move.largest_distance_mm, show: shownThousandths(unitOfMove) },
     { head: "step time off, \u00b5s: p50", of: (move) => move.step_time_error.p50_us, show: fixed(1) },
     { head: "p99", of: (move) => move.step_time_error.p99_us, show: fixed(1) },
     { head: "most", of: (move) => move.step_time_error.max_us, show: fixed(1) },
@@ -84,12 +90,12 @@ function moves() {
 
 function axes() {
   const columns = [
-    { head: "axis", of: (axis) => axis.name + (/^[ABC]$/i.test(axis.name) ? " (deg)" : ""), text: true },
+    { head: "axis", of: (axis) => axis.name, text: true },
     { head: "steps", of: (axis) => Number(axis.steps), show: count },
-    { head: "from, mm", of: (axis) => axis.position_start_mm, show: fixed(3) },
-    { head: "to, mm", of: (axis) => axis.position_end_mm, show: fixed(3) },
-    { head: "peak, mm/s", of: (axis) => axis.peak_velocity_mm_s, show: fixed(2) },
-    { head: "peak, mm/s\u00b2", of: (axis) => axis.peak_acceleration_mm_s2, show: fixed(0) },
+    { head: "from", of: (axis) => axis.position_start_mm, show: fixedIn(3, (axis) => unitOf(axis.name)) },
+    { head: "to", of: (axis) => axis.position_end_mm, show: fixedIn(3, (axis) => unitOf(axis.name)) },
+    { head: "peak speed", of: (axis) => axis.peak_velocity_mm_s, show: fixedIn(2, (axis) => unitOf(axis.name) + "/s") },
+    { head: "peak acceleration", of: (axis) => axis.peak_acceleration_mm_s2, show: fixedIn(0, (axis) => unitOf(axis.name) + "/s\u00b2") },
     { head: "missing steps", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "doubtful" : "") },
     { head: "step time off, \u00b5s: p50", of: (axis) => axis.step_time_error.p50_us, show: fixed(1) },
     { head: "p99", of: (axis) => axis.step_time_error.p99_us, show: fixed(1) },
@@ -108,7 +114,7 @@ function axes() {
 
 function events() {
   if (report.events.length === 0) { return; }
-  const place = (event) => event.positions.map((at) => `${at.name} ${at.position_mm ? at.position_mm.toFixed(3) : at.position_steps}`).join("  ");
+  const place = (event) => event.positions.map((at) => `${at.name} ${at.position_mm === undefined ? at.position_steps : `${at.position_mm.toFixed(3)} ${unitOf(at.name)}`}`).join("  ");
   section("Faults, stops and interruptions", table([
     { head: "at, s", of: (event) => event.at_s, show: fixed(3) },
     { head: "axis", of: (event) => event.axis ?? "all", text: true },

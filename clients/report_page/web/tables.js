@@ -7,10 +7,16 @@ const make = (tag, attributes = {}, ...children) => {
   return element;
 };
 
+// Of an axis's places, by its name: A, B and C turn (core/axis_unit.hpp). The report's keys say mm for both.
+const unitOf = (axis) => (/^[ABC]$/i.test(axis) ? "deg" : "mm");
+const smallUnitOf = { mm: "\u00b5m", deg: "mdeg" };
+
 const count = (value) => Number(value ?? 0).toLocaleString("en").replaceAll(",", "\u202f");
 const fixed = (digits) => (value) => (value === undefined ? "–" : Number(value).toFixed(digits));
+// unit: row -> text
+const fixedIn = (digits, unit) => (value, row) => (Number.isFinite(value) ? `${value.toFixed(digits)} ${unit(row)}` : "–");
 
-// columns: {head, of: row -> value, show: value -> text, grade: row -> class, text: left-aligned}
+// columns: {head, of: row -> value, show: (value, row) -> text, grade: row -> class, text: left-aligned}
 function table(columns, rows, { first = rows.length, onRow } = {}) {
   const body = make("tbody");
   let shown = first;
@@ -18,7 +24,7 @@ function table(columns, rows, { first = rows.length, onRow } = {}) {
   const cell = (column, row) => {
     const value = column.of(row);
     const kind = [column.text ? "text" : "", column.long ? "long" : "", column.grade?.(row) ?? ""].join(" ");
-    return make("td", { className: kind.trim() }, (column.show ?? String)(value));
+    return make("td", { className: kind.trim() }, column.show ? column.show(value, row) : String(value));
   };
   const line = (row) => {
     const tr = make("tr", {}, ...columns.map((column) => cell(column, row)));
