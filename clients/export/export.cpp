@@ -7,6 +7,7 @@
 #include "clients/analysis/log/log_step.hpp"
 #include "clients/export/csv_table.hpp"
 #include "clients/export/mcap_file.hpp"
+#include "clients/export/record_check.hpp"
 #include "services/files/unfinished_file.hpp"
 
 namespace lockstep::exporting {
@@ -20,19 +21,28 @@ public:
     using OnSample = std::function<void(const Sample&)>;
     explicit Samples(OnSample on_sample) : on_sample_(std::move(on_sample)) {}
 
-    void on_steps(const step_batch_t& /*message*/, LogPlace /*place*/) override {}
-    void on_run(const run_t& /*message*/, LogPlace /*place*/) override {}
-    void on_position(const axis_position_t& message, LogPlace /*place*/) override { take(message); }
-    void on_health(const axis_health_t& message, LogPlace /*place*/) override { take(message); }
-    void on_job(const job_t& message, LogPlace /*place*/) override { take(message); }
+    void on_steps(const step_batch_t& message, LogPlace /*place*/) override { check_.saw(RecordKind::Steps, message); }
+    void on_run(const run_t& message, LogPlace /*place*/) override { check_.saw(RecordKind::Run, message); }
+    void on_position(const axis_position_t& message, LogPlace /*place*/) override {
+        take(RecordKind::Position, message);
+    }
+    void on_health(const axis_health_t& message, LogPlace /*place*/) override { take(RecordKind::Health, message); }
+    void on_job(const job_t& message, LogPlace /*place*/) override { take(RecordKind::Job, message); }
+    void on_program_part(const program_part_t& message, LogPlace /*place*/) override {
+        check_.saw(RecordKind::ProgramPart, message);
+    }
+    void on_mark(const record_mark_t& message, LogPlace /*place*/) override { check_.take(message); }
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace /*place*/, std::string /*what*/) override { ++damages_; }
 
     std::int64_t samples() const { return samples_; }
     std::int64_t damages() const { return damages_; }
+    /// Call once, at the end.
+    analysis::RecordState record() { return check_.finish(); }
 
 private:
-    void take(const auto& message) {
+    void take(RecordKind kind, const auto& message) {
+        check_.saw(kind, message);
         if (!analysis::is_countable(message.utime)) {
             ++damages_;
             return;
@@ -44,6 +54,7 @@ private:
     OnSample on_sample_;
     std::int64_t samples_ = 0;
     std::int64_t damages_ = 0;
+    RecordCheck check_;
 };
 
 std::expected<std::unique_ptr<SampleWriter>, std::string> open_csv(const std::filesystem::path& log,
@@ -76,7 +87,7 @@ std::expected<Exported, std::string> export_log(const std::filesystem::path& log
     }
     if (const auto closed = (*writer)->close(); !closed) { return std::unexpected(closed.error()); }
     if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }
-    return Exported{samples.samples(), (*writer)->left_out(), samples.damages()};
+    return Exported{samples.samples(), (*writer)->left_out(), samples.damages(), samples.record()};
 }
 
 }  // namespace lockstep::exporting

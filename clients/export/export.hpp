@@ -8,6 +8,8 @@
 #include <functional>
 #include <string>
 
+#include "clients/analysis/record_state.hpp"
+
 namespace lockstep::exporting {
 
 enum class Format : std::uint8_t { Csv, Mcap };
@@ -16,6 +18,7 @@ struct Exported {
     std::int64_t samples = 0;
     std::int64_t left_out = 0;  // too late for their row, of too many topics, or of no time
     std::int64_t damages = 0;   // places in the log that could not be read
+    analysis::RecordState record;
 };
 
 /// `to` is made anew, and has its name only once it is whole. `progress` hears 0 ... 1 now and then. Error: the log

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "clients/analysis/record_state.hpp"
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/verdict.hpp"
 #include "clients/analysis/words.hpp"
@@ -34,6 +35,7 @@ std::string to_html(const Analysis& analysis) {
     return filled(kPageTemplate,
                   {{"TITLE", drawing::escape_xml(analysis.machine + ": " + analysis.log.filename().string())},
                    {"SUBTITLE", drawing::escape_xml(in_a_line(analysis))},
+                   {"RECORD", drawing::escape_xml(to_text(record_state(analysis)))},
                    {"GRADE", std::string(name_of(verdict(found)))},
                    {"FINDINGS", findings_list(found)},
                    {"REPORT", within_page(report_json(to_report(analysis)))},

@@ -37,6 +37,9 @@ proto::ExportReport to_report(const Exported& exported, const ExportOptions& opt
     report.set_samples(exported.samples);
     report.set_left_out(exported.left_out);
     report.set_damages(exported.damages);
+    report.set_complete(exported.record.is_complete());
+    for (const std::string& line : exported.record.missing) { report.add_missing(line); }
+    for (const std::string& line : exported.record.not_known) { report.add_not_known(line); }
     return report;
 }
 
@@ -67,7 +70,8 @@ ExitCode export_verb(const ExportOptions& options) {
     const auto exported =
         exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap, progress);
     if (!exported) { return voice.fail(bad_input(exported.error())); }
-    voice.say(to.string() + ": " + std::to_string(exported->samples) + " samples");
+    voice.say(to.string() + ": " + std::to_string(exported->samples) + " samples; the record is " +
+              analysis::to_text(exported->record));
     warn_of_losses(*exported, voice);
     voice.report(to_report(*exported, options));
     return kExitDone;

@@ -91,6 +91,23 @@ TEST_F(Export, WhatIsNoNumberLeavesItsCellEmptyAndTextIsQuotedWhereItMust) {
     EXPECT_EQ(table().at(1), "0,,0,0,0,0,0,\"a,\"\"b\"\"\",0,none");
 }
 
+TEST_F(Export, ReportsWhatTheRecordLacks) {
+    std::vector<axis_position_t> messages;
+    for (const std::int64_t sequence : {0, 1, 4}) {
+        messages.push_back(position("X", 1'000'000 + sequence, 1));
+        messages.back().sequence = sequence;
+    }
+    write(messages);
+    (void)table();
+    EXPECT_EQ(exported.record.missing, (std::vector<std::string>{"axis X: 2 messages of positions"}));
+    EXPECT_THAT(to_text(exported.record), StartsWith("missing: axis X: 2 messages"));
+    write({position("X", 1'000'000, 1)});
+    (void)table();
+    EXPECT_TRUE(exported.record.is_complete());
+    EXPECT_THAT(to_text(exported.record), StartsWith("complete as far as is known: "))
+        << "no mark says how much it was";
+}
+
 TEST_F(Export, IsNotBegunWhereThereIsNothingToExport) {
     write({});
     EXPECT_FALSE(export_log(log, out, Format::Csv));

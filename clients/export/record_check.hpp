@@ -1,0 +1,36 @@
+// Whether the log that is exported has the whole record: by the numbers of its messages, and by its processes' marks.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "clients/analysis/log_step.hpp"
+#include "clients/analysis/number_set.hpp"
+#include "clients/analysis/record_end.hpp"
+#include "clients/analysis/record_state.hpp"
+
+namespace lockstep::exporting {
+
+class RecordCheck {
+public:
+    void saw(RecordKind kind, const auto& message) {
+        if (!analysis::is_message_number(message.sequence)) { return; }
+        if constexpr (requires { message.axis; }) {
+            saw(kind, {message.machine, message.axis, message.incarnation}, message.sequence);
+        } else {
+            saw(kind, {message.machine, "", message.coordinator}, message.sequence);
+        }
+    }
+    void take(const record_mark_t& mark) { end_.take(mark); }
+    /// Call once, at the end.
+    analysis::RecordState finish();
+
+private:
+    void saw(RecordKind kind, const analysis::RecordingProcess& process, std::int64_t sequence);
+
+    std::map<std::pair<analysis::RecordingProcess, RecordKind>, analysis::NumberSet> seen_;
+    analysis::RecordEndCheck end_;
+};
+
+}  // namespace lockstep::exporting
