@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""deploy/make-compose serves any machine, and deploy/compose.yaml is what it makes of the example.
+"""deploy/make-compose serves any machine; deploy/compose.yaml and compose.peers.yaml are what it makes of the example.
 
 Usage: check_compose.py ROOT
 """
@@ -13,22 +13,23 @@ ROOT = pathlib.Path(sys.argv[1])
 EXAMPLE = ROOT / "deploy/examples/three-containers.textproto"
 
 
-def make(machine):
-    return subprocess.run([ROOT / "deploy/make-compose", machine], capture_output=True, text=True)
+def make(machine, *options):
+    return subprocess.run([ROOT / "deploy/make-compose", *options, machine], capture_output=True, text=True)
 
 
-def machine_of(axes, coordinator="planner"):
+def machine_of(axes, coordinator="planner", peers=()):
     """axis { host: "no" } in a comment is none."""
     text = f'name: "mill"\ncoordinator_host: "{coordinator}"  # axis {{ host: "no" }}\n'
+    text += "network { " + " ".join(f'peers: "{peer}"' for peer in peers) + " }\n"
     return text + "".join(f'axis {{ name: "{name}" plant {{ start_position_mm: 1 }} host: "{host}" }}\n'
                           for name, host in axes)
 
 
-def made_of(axes, **more):
+def made_of(axes, *options, **more):
     with tempfile.NamedTemporaryFile("w", suffix=".textproto") as file:
         file.write(machine_of(axes, **more))
         file.flush()
-        return make(file.name)
+        return make(file.name, *options)
 
 
 def expect(holds, what):
@@ -37,8 +38,28 @@ def expect(holds, what):
 
 
 expect(make(EXAMPLE).stdout == (ROOT / "deploy/compose.yaml").read_text(), "compose.yaml is not make-compose's any more")
+expect(make(EXAMPLE, "--peers").stdout == (ROOT / "deploy/compose.peers.yaml").read_text(),
+       "compose.peers.yaml is not make-compose --peers's any more")
+
+
+def peers_of(axes, **more):
+    """Each service's address, the subnet, and where the rest get theirs."""
+    made = made_of(axes, "--peers", **more)
+    services = re.findall(r"(?m)^  (\w+):\n    command: .*\n    networks: .*ipv4_address: ([\d.]+)", made.stdout)
+    return services, re.findall(r"subnet: (\S+), ip_range: ([\d./]+)", made.stdout)
+
+
 for count in (1, 2, 6):
     hosts = [f"board{i}" for i in range(count)]
+    axes = [(f"A{i}", host) for i, host in enumerate(hosts)]
+    services, network = peers_of(axes)
+    expect([name for name, _ in services] == ["coordinator", *hosts], f"{count} axes: the peers' services")
+    expect([address for _, address in services] == [f"10.213.76.{10 + i}" for i in range(count + 1)],
+           f"{count} axes: the addresses that are chosen")
+    given = [f"192.168.7.{200 + i}" for i in range(count + 1)]
+    services, network = peers_of(axes, peers=given)
+    expect([address for _, address in services] == given, f"{count} axes: the addresses of network.peers")
+    expect(network == [("192.168.7.0/24", "192.168.7.0/25")], f"{count} axes: {network}")
     text = made_of([(f"A{i}", host) for i, host in enumerate(hosts)]).stdout
     expect(re.findall(r"(?m)^  (\w+):\n    <<: \*axis\n    hostname: \1$", text) == hosts, f"{count} axes: the services")
     expect(re.findall(r"- (\w+):/records/\1:ro", text) == ["coordinator"] + hosts, f"{count} axes: the client's records")
@@ -46,5 +67,9 @@ for count in (1, 2, 6):
     expect(volumes == ["coordinator", *hosts, "log"], f"{count} axes: the volumes")
     expect("hostname: planner\n" in text and "axis-x" not in text.split("services:")[1], f"{count} axes: the rest")
 for wrong, says in ((made_of([("X", "a"), ("Y", "a")]), "host of its own"), (made_of([("X", "")]), "name the host"),
-                    (made_of([("X", "a")], coordinator=""), "coordinator_host"), (make("/nothing"), "no such file")):
+                    (made_of([("X", "a")], coordinator=""), "coordinator_host"), (make("/nothing"), "no such file"),
+                    (made_of([("X", "a")], "--peers", peers=["10.0.0.1"]), "each of the 2 containers"),
+                    (made_of([("X", "a")], "--peers", peers=["here", "there"]), "IPv4 address"),
+                    (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.1.2"]), "all in 10.0.0.0/24"),
+                    (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.0.200"]), "one half")):
     expect(wrong.returncode != 0 and says in wrong.stderr and not wrong.stdout, f"refusal: {says}: {wrong.stderr}")
