@@ -70,6 +70,7 @@ protected:
     }
     void expect_reset_and_home_lead_to_idle() {
         (void)vm.advance_until([&] { return !vm.faults_pending(); }, Ticks{5'000'000});
+        wait(0.2);
         ASSERT_TRUE(becomes(MachinePhase::Fault, 1)) << describe();
         ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
         ASSERT_TRUE(becomes(MachinePhase::Idle, 1)) << describe();
