@@ -1,5 +1,6 @@
 #include "services/axis/axis_node.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/methods/paper_steps.hpp"
@@ -19,7 +20,8 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
       machine_(setup.machine),
       lacks_("not looked for yet"),
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
-      time_(setup.axis, setup.machine) {}
+      time_(setup.axis, setup.machine),
+      clock_reset_(setup.machine.tick_ns) {}
 
 AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     AxisOutputs out = decide(own, mail, on_step);
@@ -35,6 +37,9 @@ AxisOutputs AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_st
     const bool shares_clock = !has_device() || found_->device.shares_clock;
     knows_time_ = time_.look(own, {status_.now, shares_clock}, !controller_.at_rest());
     AxisOutputs out = knows_time_ && !is_looking() ? control(mail) : AxisOutputs{};
+    const auto owns = [](const MachineState& state) { return state.phase != MachinePhase::Standby; };
+    must_restart_ = clock_reset_.must_restart(own, std::ranges::any_of(mail.coordinator, owns), controller_.at_rest(),
+                                              knows_time_ ? time_.error() : Ticks{});
     drain(own, on_step, out.device_clock);
     return out;
 }

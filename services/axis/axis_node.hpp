@@ -13,6 +13,7 @@
 #include "core/axis/device/device_watch.hpp"
 #include "core/axis/device_time.hpp"
 #include "core/axis/health_meter.hpp"
+#include "core/clock/clock_reset.hpp"
 #include "core/flight/axis_flight.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
@@ -79,6 +80,8 @@ public:
     std::string lacks() const { return has_device() || is_looking() ? std::string() : lacks_; }
     /// How far `now` may be off.
     Ticks clock_error() const { return time_.error(); }
+    /// The coordinator's clock began anew: this process is to end, and be started again.
+    bool must_restart() const { return must_restart_; }
 
     /// What was last wrong with the device; empty: nothing ever was.
     const std::string& trouble() const { return trouble_; }
@@ -119,6 +122,8 @@ private:
     bool has_begun_ = false;
     DeviceTime time_;
     bool knows_time_ = false;
+    ClockReset clock_reset_;
+    bool must_restart_ = false;
     DeviceStatus status_{.free_segments = registers::kSegmentRingEntries};  // the last there was
     std::uint64_t lost_captures_ = 0;                                       // of this device
     std::uint64_t lost_before_ = 0;                                         // of those before it

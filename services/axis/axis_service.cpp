@@ -98,6 +98,7 @@ public:
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         report_device();
         tend_network(now);
+        end_if_time_began_anew();
         complain(now);
         log_strangers(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
@@ -174,26 +175,17 @@ private:
         }
         if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
-        compare_time(now - machine_heard_ <= period);
         if (node_.trouble() != trouble_) {
             trouble_ = node_.trouble();
             log_event(spdlog::level::err, FaultCode::DeviceFault, trouble_);
         }
     }
 
-    /// A coordinator whose host has started anew has a clock that begins anew. Machine time never goes backwards in a
-    /// process: the one that is started after this takes it as it is.
-    void compare_time(bool coordinator_heard) {
-        const Ticks beyond_slewing{10'000'000'000 / setup_.machine.tick_ns};
-        const bool differs = coordinator_heard && node_.knows_time() && node_.controller().at_rest() &&
-                             node_.clock_error() > beyond_slewing;
-        if (differs && time_differed_) {
-            end_reason_ = "the coordinator's clock went back by " +
-                          std::to_string(node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000) +
-                          " s, was its host started anew? axis " + own_name() +
-                          " is to be started again, to take its time";
-        }
-        time_differed_ = differs;
+    void end_if_time_began_anew() {
+        if (!node_.must_restart()) { return; }
+        end_reason_ = "the coordinator's clock went back by " +
+                      std::to_string(node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000) +
+                      " s, was its host started anew? axis " + own_name() + " is to be started again, to take its time";
     }
 
     const std::string& own_name() const { return setup_.machine.axes[setup_.axis].name; }
@@ -218,7 +210,6 @@ private:
     std::uint64_t lost_records_ = 0;
     std::string trouble_;
     bool has_device_ = true;  // as reported
-    bool time_differed_ = false;
     SecondProcess older_{setup_.machine.timing};  // another process that speaks for this axis
     std::string end_reason_;
 };

@@ -33,6 +33,7 @@ struct VirtualFault {
     PlantContact contact = &PlantInputs::limit_min;  // Stick: which
     bool closed = true;                              // Stick: reads closed
     std::int64_t push_steps = 0;                     // Push
+    bool reboots = false;                            // Crash: of a coordinator's host, whose clock then begins anew
     bool other_config = false;                       // Crash: what takes its place reads another configuration
     bool ends_elsewhere = false;                     // DamageFrame: it joins the frame before and ends elsewhere
     bool garbage = true;                             // Overwrite: with noise; else with zeros

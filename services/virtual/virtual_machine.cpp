@@ -65,7 +65,7 @@ void VirtualMachine::power_up() {
 void VirtualMachine::start(std::size_t process, bool other_config) {
     const std::uint64_t config_hash = options_.config_hash + (other_config ? 1 : 0);
     if (is_coordinator(process)) {
-        const Identity identity = static_cast<Identity>(now_.value) + process;
+        const Identity identity = static_cast<Identity>(machine_time().value) + process;
         coordinator(process).emplace(options_.machine, identity, config_hash, methods::begin_steps,
                                      coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
     } else {
@@ -136,7 +136,15 @@ void VirtualMachine::restart(const VirtualFault& crash) {
     const std::size_t process = crash.process;
     mail_.collect(network_, now_, process);  // nobody was there to receive it
     if (!is_coordinator(process)) { advance_device(process); }
+    if (crash.reboots) { booted_ = now_ - options_.start; }
     start(process, crash.other_config);
+}
+
+/// As its supervisor would.
+void VirtualMachine::start_again(std::size_t axis) {
+    constexpr Ticks kPause{1'000'000};
+    crash(axis);
+    turns_.emplace(now_ + kPause, Turn{{.kind = VirtualFault::Kind::Crash, .process = axis}, false});
 }
 
 void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
@@ -238,7 +246,7 @@ void VirtualMachine::take_clock_mail(std::size_t process) {
     for (const ClockRequest& request : mail_.clock_requests) {
         network_.send(now_ + options_.network.reply_longer, static_cast<VirtualNetwork::Address>(process),
                       static_cast<VirtualNetwork::Address>(clock_address(request.axis)),
-                      std::make_shared<const VirtualMessage>(ClockReply{request, now_, now_}));
+                      std::make_shared<const VirtualMessage>(ClockReply{request, machine_time(), machine_time()}));
     }
     for (const ClockReply& reply : mail_.clock_replies) {
         Axis& axis = axes_[process];
@@ -323,11 +331,12 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
     ask_time(i);
     if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }
     if (out.state) { multicast(*out.state, i); }
+    if (axes_[i].node->must_restart()) { start_again(i); }
 }
 
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
     mail_.collect(network_, now_, here);
-    const CoordinatorInputs in{now_, mail_.axes, mail_.machine, mail_.commands};
+    const CoordinatorInputs in{machine_time(), mail_.axes, mail_.machine, mail_.commands};
     CoordinatorOutputs out = coordinator(here)->step(in);
     if (auto& flight = coordinator_flights_[here - axes_.size()]) { flight->take(in, out); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(here, now_, out); }
@@ -365,15 +374,20 @@ void VirtualMachine::listen() {
     for (const AxisState& state : mail_.axes) {
         if (state.axis >= axis_states_.size()) { continue; }
         auto& newest = axis_states_[state.axis];
-        if (!newest || state.stamp >= newest->stamp) { newest = state; }
+        const bool is_later =
+            newest && state.identity > newest->identity;  // of another process, perhaps by another clock
+        if (!newest || is_later || state.stamp >= newest->stamp) { newest = state; }
     }
     for (const MachineState& state : mail_.machine) {
         if (state.phase == MachinePhase::Standby) { continue; }
         // Of two that speak the higher term counts, unless it has fallen silent.
-        const bool first = !machine_state_.has_value();
-        const Slot since = first ? 0 : state.stamp - machine_state_->stamp;
-        const Slot silence = rules::silence_slots(options_.machine.timing);
-        if (first || (state.term >= machine_state_->term ? since >= 0 : since > silence)) { machine_state_ = state; }
+        const Ticks silence = options_.machine.slot_ticks() * rules::silence_slots(options_.machine.timing);
+        const bool is_silent = !machine_state_ || now_ - machine_heard_ > silence;
+        const bool is_next = machine_state_ && state.term >= machine_state_->term &&
+                             (state.term != machine_state_->term || state.stamp >= machine_state_->stamp);
+        if (!is_silent && !is_next) { continue; }
+        machine_state_ = state;
+        machine_heard_ = now_;
     }
     for (Reply& reply : mail_.replies) { replies_.push_back(std::move(reply)); }
 }

@@ -135,10 +135,13 @@ private:
     void note_flight(std::size_t process);
     void crash(std::size_t process);
     void restart(const VirtualFault& crash);
+    void start_again(std::size_t axis);
     void cut(const VirtualFault& fault, bool begins);
     void disturb(const VirtualFault& fault, bool begins);
 
     AxisClocks clocks_of(std::size_t i) const { return i < options_.clocks.size() ? options_.clocks[i] : AxisClocks{}; }
+    /// The coordinator's clock.
+    Tick machine_time() const { return now_ - booted_; }
     Tick process_time(std::size_t i) const { return clocks_of(i).process.at(now_, options_.start); }
     bool is_up(std::size_t process) const;
     std::optional<std::size_t> next_clock_mail() const;
@@ -170,6 +173,7 @@ private:
     VirtualNetwork network_;
     Mail mail_;  // of whose turn it is
     Tick now_;
+    Ticks booted_;  // by so much the coordinator's clock began later than the true one
     Ticks period_;
     std::vector<Axis> axes_;
     std::vector<std::optional<Coordinator>> coordinators_;
@@ -181,6 +185,7 @@ private:
     Command command_{.client = kClient};  // the last one given
     std::vector<Reply> replies_;
     std::optional<MachineState> machine_state_;
+    Tick machine_heard_;  // the true time, then
     std::vector<std::optional<AxisState>> axis_states_;
 };
 

@@ -399,4 +399,12 @@ const std::vector<MachineSituation>& situations() {
     return all;
 }
 
+std::string situation_name(const testing::TestParamInfo<MachineSituation>& info) {
+    std::string name;
+    for (const char c : info.param.name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) { name += c; }
+    }
+    return name;
+}
+
 }  // namespace lockstep

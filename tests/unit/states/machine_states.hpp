@@ -15,4 +15,7 @@ struct MachineSituation {
 
 const std::vector<MachineSituation>& situations();
 
+/// For tests that have one as their parameter.
+std::string situation_name(const testing::TestParamInfo<MachineSituation>& info);
+
 }  // namespace lockstep

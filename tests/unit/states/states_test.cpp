@@ -97,15 +97,7 @@ TEST_P(States, AnswerEveryCommandAndTheRemediesLeadBackToIdle) {
     if (!is_to_write()) { EXPECT_NE(text_of_file().find(row), std::string::npos) << "in " << kFile << ": " << row; }
 }
 
-std::string test_name(const testing::TestParamInfo<MachineSituation>& info) {
-    std::string name;
-    for (const char c : info.param.name) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0) { name += c; }
-    }
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, States, testing::ValuesIn(situations()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, States, testing::ValuesIn(situations()), situation_name);
 
 TEST(StatesDocument, HasTheseStatesAndNoOthers) {
     if (is_to_write()) { GTEST_SKIP() << "it is being written"; }
