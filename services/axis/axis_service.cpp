@@ -22,6 +22,7 @@
 #include "services/record/own_log.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/loop_watchdog.hpp"
 #include "services/runtime/periodic.hpp"
@@ -221,6 +222,7 @@ int fail(const std::string& why) {
 
 int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis) {
     StopSignal stop;
+    const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
     const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),

@@ -21,6 +21,7 @@
 #include "services/record/own_log.hpp"
 #include "services/record/sinks.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/loop_watchdog.hpp"
 #include "services/runtime/periodic.hpp"
@@ -212,6 +213,7 @@ int fail(const std::string& why) {
 
 int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
     StopSignal stop;
+    const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const Member member = options.second ? standby_member() : coordinator_member();
     const auto admission = admit_service(machine, member);

@@ -10,6 +10,7 @@
 
 #include "services/documents/machine_file.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
 #include "sim_fpga/device.hpp"
@@ -84,6 +85,7 @@ int fail(const std::string& why) {
 
 int serve_fpga(const FpgaOptions& options) {
     StopSignal stop;
+    const EndGuard guard(stop);
     if (const auto log = open_log({.service = "fpga", .axis = options.axis, .in_background = true}); !log) {
         std::cerr << log.error() << '\n';
         return 1;

@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/ptrace.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "services/runtime/directories.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
@@ -120,6 +122,19 @@ TEST_F(Processes, ThatCannotKeepTheRecordAreSaidNotTo) {
     EXPECT_EQ(up.code, 0) << up.out << up.err;
     EXPECT_THAT(up.err, AllOf(HasSubstr("no log of its own is kept"), HasSubstr((state().path() / "record").string()),
                               HasSubstr("install -d"), HasSubstr("record { directory }")));
+}
+
+/// Nobody reads the FIFO in the place of the file that Y writes its position to.
+TEST_F(Processes, EndThoughTheirDiskHangs) {
+    bring_up();
+    const std::filesystem::path fresh = position_directory(status().machine()) / "Y.textproto.new";
+    ASSERT_EQ(mkfifo(fresh.c_str(), 0600), 0);
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    const pid_t hangs = process("axis-Y");
+    kill(hangs, SIGTERM);
+    EXPECT_TRUE(eventually([&] { return process("axis-Y") != hangs && process("axis-Y") != 0; }))
+        << "it ends, and is started again";
+    std::filesystem::remove(fresh);
 }
 
 TEST_F(Processes, RunTheirDevicesApartWhereAsked) {

@@ -1,0 +1,42 @@
+#include "services/runtime/end_guard.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <string_view>
+
+#include "services/runtime/service_options.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr int kLooks = 40;
+constexpr std::string_view kWhy = "does not end within the time given: a disk may hang; ends at once\n";
+
+/// Without the log: whoever hangs may hold it.
+[[noreturn]] void end_at_once() {
+    pollfd log{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+    if (poll(&log, 1, 0) == 1) { (void)!write(log.fd, kWhy.data(), kWhy.size()); }
+    std::_Exit(kServiceFailed);
+}
+
+}  // namespace
+
+EndGuard::EndGuard(const StopSignal& stop, std::chrono::milliseconds longest)
+    : between_looks_(longest / kLooks), thread_([this, &stop](const std::stop_token& ended) { watch(ended, stop); }) {}
+
+void EndGuard::watch(const std::stop_token& ended, const StopSignal& stop) const {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    for (int looks = 0; looks < kLooks;) {
+        std::unique_lock lock(mutex);
+        if (wake.wait_for(lock, ended, between_looks_, [&] { return ended.stop_requested(); })) { return; }
+        looks = stop.requested() ? looks + 1 : 0;
+    }
+    end_at_once();
+}
+
+}  // namespace lockstep

@@ -1,0 +1,47 @@
+// A process that is asked to end ends, whatever it then waits for.
+#include "services/runtime/end_guard.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "services/runtime/service_options.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+class EndGuards : public testing::Test {
+protected:
+    void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+[[noreturn]] void end_with_a_thread_that_hangs() {
+    StopSignal stop;
+    const EndGuard guard(stop, 200ms);
+    raise(SIGTERM);
+    for (;;) { pause(); }  // as a join of a thread whose disk hangs
+}
+
+TEST_F(EndGuards, EndTheProcessThatWaitsForWhatNeverComes) {
+    EXPECT_EXIT(end_with_a_thread_that_hangs(), testing::ExitedWithCode(kServiceFailed), "a disk may hang");
+}
+
+TEST_F(EndGuards, LeaveAProcessAloneThatIsNotAskedToEnd) {
+    StopSignal stop;
+    const EndGuard guard(stop, 100ms);
+    std::this_thread::sleep_for(300ms);
+}
+
+TEST_F(EndGuards, LeaveAProcessAloneThatEndsInTime) {
+    StopSignal stop;
+    {
+        const EndGuard guard(stop, 10s);
+        stop.request();
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
