@@ -163,13 +163,33 @@ Finding judge_directory(const std::string& what, const std::string& path, const 
     return {Verdict::Bad, what, path + " cannot be written: " + not_writable, "install -d -o $(id -un) " + path};
 }
 
-Finding judge_process(const ProcessFacts& facts, std::uint64_t config_hash) {
+namespace {
+
+std::string joined(const std::vector<std::string>& hosts) {
+    std::string text;
+    for (const std::string& host : hosts) { text += (text.empty() ? "" : ", ") + host; }
+    return text;
+}
+
+Finding judge_one_process(const ProcessFacts& facts, std::uint64_t config_hash) {
+    if (facts.hosts.size() > 1 && !facts.may_be_two) {
+        return {Verdict::Bad, facts.name, "runs more than once, on " + joined(facts.hosts),
+                "lockstep down, on the host where it does not belong"};
+    }
     if (!facts.heard) { return {Verdict::Doubtful, facts.name, "is not heard", "lockstep up, on its host"}; }
     if (facts.config_hash != config_hash) {
         return {Verdict::Bad, facts.name, "runs with another configuration than this file",
                 "give all hosts the same file; then lockstep down and up"};
     }
     return {Verdict::Good, facts.name, "is heard, with this configuration", ""};
+}
+
+}  // namespace
+
+Finding judge_process(const ProcessFacts& facts, std::uint64_t config_hash) {
+    Finding finding = judge_one_process(facts, config_hash);
+    finding.host = joined(facts.hosts);
+    return finding;
 }
 
 Finding judge_keys(const KeyFacts& facts) {

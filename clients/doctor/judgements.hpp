@@ -5,6 +5,7 @@
 #include <expected>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "clients/doctor/finding.hpp"
 #include "core/machine.hpp"
@@ -79,6 +80,8 @@ struct ProcessFacts {
     std::string name;
     bool heard = false;
     std::uint64_t config_hash = 0;
+    std::vector<std::string> hosts = {};  // on which processes of it run
+    bool may_be_two = false;              // a coordinator, and another that stands by
 };
 Finding judge_process(const ProcessFacts& facts, std::uint64_t config_hash);
 

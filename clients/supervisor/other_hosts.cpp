@@ -80,15 +80,19 @@ OtherHosts::~OtherHosts() {
     }
 }
 
-bool OtherHosts::finish(Voice& voice) {
+bool OtherHosts::finish(Voice& voice, std::size_t lines_where_well) {
     bool good = true;
     for (Remote& remote : remotes_) {
         std::istringstream lines(all_of(remote.output));
-        for (std::string line; std::getline(lines, line);) { voice.say(remote.host + ": " + line); }
         int status = 0;
         const bool ended = remote.pid > 0 && waitpid(remote.pid, &status, 0) == remote.pid;
         remote.pid = 0;
-        if (ended && WIFEXITED(status) && WEXITSTATUS(status) == 0) { continue; }
+        const bool is_well = ended && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        std::size_t said = 0;
+        for (std::string line; (!is_well || said < lines_where_well) && std::getline(lines, line); ++said) {
+            voice.say(remote.host + ": " + line);
+        }
+        if (is_well) { continue; }
         good = false;
         voice.warn(remote.host + ": it failed there, with code " +
                    (ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : std::string("unknown")) +

@@ -1,6 +1,11 @@
 #include "services/axis/axis_network.hpp"
 
+#include <unistd.h>
+
 #include <bit>
+
+#include "services/runtime/host_name.hpp"
+#include "services/wire/present_processes.hpp"
 
 namespace lockstep {
 namespace {
@@ -71,6 +76,16 @@ void AxisNetwork::publish(const AxisState& state) {
     if (link == nullptr) { return; }
     (void)link->bus.state.write(state);
     acknowledged_.has_published = true;
+}
+
+std::string AxisNetwork::host_of_rival() const {
+    const AxisLink* const link = link_->get();
+    if (link == nullptr) { return ""; }
+    for (const PresentProcess& process : present_processes(link->bus.participant)) {
+        const bool is_this = process.pid == getpid() && process.host == host_name();
+        if (process.axis == axis_ && !is_this) { return process.host; }
+    }
+    return "";
 }
 
 void AxisNetwork::publish(const AxisHealth& health) {

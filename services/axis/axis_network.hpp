@@ -48,6 +48,8 @@ public:
     /// What came since the last call; nothing while the link is being opened anew.
     const AxisReceived& receive();
     void publish(const AxisState& state);
+    /// Where another process that publishes as this axis runs, by DDS's discovery; empty: it is not found.
+    std::string host_of_rival() const;
     void publish(const AxisHealth& health);
 
     /// Once in every loop, by the process's own clock. Why the link is being opened anew from now on; only at rest.

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "core/protocol/rival.hpp"
 #include "core/protocol/second_process.hpp"
 #include "services/axis/axis_network.hpp"
 #include "services/axis/axis_node.hpp"
@@ -118,15 +119,25 @@ private:
     const AxisReceived& receive() {
         const AxisReceived& in = network_.receive();
         const Slot slot = rules::slot_of(node_.now(), setup_.machine.slot_ticks());
-        const bool is_doubled = std::ranges::any_of(in.states, [&](const AxisState& s) {
-            const bool is_older = s.axis == setup_.axis && s.identity < setup_.identity;
-            return is_older && older_.proves(s.identity, s.stamp, slot);  // the process that came first stays
-        });
-        if (is_doubled) { end_reason_ = "axis " + own_name() + " is already run by another process"; }
+        for (const AxisState& state : in.states) {
+            if (state.axis == setup_.axis && state.identity != setup_.identity) { meet_rival(state, slot); }
+        }
         const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
         if (std::ranges::any_of(in.machine, owns)) { machine_heard_ = clock_.now(); }
         return in;
     }
+
+    /// Another process publishes in the name of this axis: one of the two must leave.
+    void meet_rival(const AxisState& state, Slot slot) {
+        const bool proved = second_.proves(state.identity, state.stamp, slot);
+        if (!rival_.must_leave(state.identity, proved, own_now())) { return; }
+        const std::string host = network_.host_of_rival();
+        end_reason_ = "axis " + own_name() + " is already run by another process" +
+                      (host.empty() ? "" : " on host " + host) + "; end one of them: lockstep down, on its host";
+    }
+
+    /// Of no clock that is set or shared: how long this process has run.
+    Tick own_now() const { return {monotonic_now().count() / setup_.machine.tick_ns}; }
 
     void tend_network(Tick now) {
         const auto reason = network_.tend(now, node_.controller().at_rest());
@@ -210,8 +221,9 @@ private:
     std::uint64_t refused_ = 0;
     std::uint64_t lost_records_ = 0;
     std::string trouble_;
-    bool has_device_ = true;  // as reported
-    SecondProcess older_{setup_.machine.timing};  // another process that speaks for this axis
+    bool has_device_ = true;                       // as reported
+    SecondProcess second_{setup_.machine.timing};  // another process that publishes as this axis
+    Rival rival_{setup_.identity, setup_.machine.tick_ns, own_now()};
     std::string end_reason_;
 };
 

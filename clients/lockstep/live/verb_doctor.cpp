@@ -119,13 +119,19 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
         return;
     }
     for (const auto until = monotonic_now() + kListening; monotonic_now() < until;) { session->listen(100ms); }
-    const auto say = [&](const std::string& name, bool heard, std::uint64_t hash) {
-        findings.push_back(doctor::judge_process({name, heard, hash}, machine.hash));
+    const std::vector<PresentProcess> present = session->present();
+    const auto say = [&](const std::string& name, std::optional<std::size_t> part, bool heard, std::uint64_t hash) {
+        doctor::ProcessFacts facts{name, heard, hash, {}, !part};
+        for (const PresentProcess& process : present) {
+            if (process.axis == part && !process.host.empty()) { facts.hosts.push_back(process.host); }
+        }
+        findings.push_back(doctor::judge_process(facts, machine.hash));
     };
-    say("coordinator", session->state().has_value(), session->state() ? session->state()->state.config_hash : 0);
+    const auto& owner = session->state();
+    say("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
     for (std::size_t i = 0; i < machine.config.axes.size(); ++i) {
         const auto& axis = session->axis(i);
-        say("axis " + machine.config.axes[i].name, axis.has_value(), axis ? axis->state.config_hash : 0);
+        say("axis " + machine.config.axes[i].name, i, axis.has_value(), axis ? axis->state.config_hash : 0);
     }
 }
 
@@ -167,7 +173,11 @@ ExitCode examine(const DoctorOptions& options) {
     examine_host(machine->config, options.seconds, voice, findings);
     examine_parts_here(machine->config, findings);
     examine_keys(machine->config, findings);
+    for (Finding& finding : findings) { finding.host = host_name(); }
     examine_processes(*machine, findings);
+    for (Finding& finding : findings) {
+        if (!finding.host.empty()) { finding.found += " (" + finding.host + ")"; }
+    }
     const bool well = std::ranges::none_of(findings, [](const Finding& f) { return f.verdict == Verdict::Bad; });
     for (const Finding& finding : findings) { say(finding, voice); }
     voice.report(report_of(findings, well));

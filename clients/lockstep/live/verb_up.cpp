@@ -123,7 +123,8 @@ ExitCode up(const UpOptions& options) {
     OtherHosts others(options.all, machine->config, options.machine_file, words_of(options));
     const bool is_here = !options.all.asked || !placed_on(machine->config, host_name()).empty();
     const ExitCode here = is_here ? up_here(options, *machine, voice) : up_elsewhere(options, *machine, voice);
-    return others.finish(voice) ? here : std::max(here, kExitFailed);
+    constexpr std::size_t kBrief = 1;  // what is up there; what it waits for is up by now
+    return others.finish(voice, kBrief) ? here : std::max(here, kExitFailed);
 }
 
 }  // namespace

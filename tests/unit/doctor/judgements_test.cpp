@@ -120,6 +120,11 @@ TEST(DoctorOnProcesses, OneOfAnotherConfigurationIsBadAndOneNotHeardMayNotBeUpYe
     EXPECT_EQ(judge_process({"axis X", true, 7}, 7).verdict, Verdict::Good);
     EXPECT_EQ(judge_process({"axis X", true, 8}, 7).verdict, Verdict::Bad);
     EXPECT_EQ(judge_process({"axis X"}, 7).verdict, Verdict::Doubtful);
+    EXPECT_EQ(judge_process({"axis X", true, 7, {"board-b"}}, 7).host, "board-b");
+    const Finding twice = judge_process({"axis X", true, 7, {"board-b", "board-c"}}, 7);
+    EXPECT_EQ(twice.verdict, Verdict::Bad);
+    EXPECT_EQ(twice.found, "runs more than once, on board-b, board-c");
+    EXPECT_EQ(judge_process({"coordinator", true, 7, {"board-a", "board-b"}, true}, 7).verdict, Verdict::Good);
 }
 
 }  // namespace
