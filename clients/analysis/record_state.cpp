@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "clients/analysis/numbers.hpp"
+#include "clients/text/numbers.hpp"
 
 namespace lockstep::analysis {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "clients/analysis/log_step.hpp"
-#include "clients/analysis/number_set.hpp"
-#include "clients/analysis/record_end.hpp"
+#include "clients/analysis/log/log_step.hpp"
+#include "clients/analysis/log/number_set.hpp"
+#include "clients/analysis/log/record_end.hpp"
 #include "clients/analysis/record_state.hpp"
 
 namespace lockstep::exporting {

@@ -1,7 +1,7 @@
 #include "clients/merge/job_program.hpp"
 
-#include "services/wire/lcm_channels.hpp"
-#include "services/wire/lcm_decode.hpp"
+#include "services/wire/lcm/lcm_channels.hpp"
+#include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep::merge {
 

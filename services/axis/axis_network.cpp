@@ -4,8 +4,8 @@
 
 #include <bit>
 
-#include "services/runtime/host_name.hpp"
-#include "services/wire/present_processes.hpp"
+#include "services/network/host_name.hpp"
+#include "services/wire/dds/present_processes.hpp"
 
 namespace lockstep {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "services/runtime/directories.hpp"
+#include "services/files/directories.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
