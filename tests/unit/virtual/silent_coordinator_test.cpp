@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/methods/methods.hpp"
 #include "core/protocol/rules.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
@@ -122,7 +121,7 @@ TEST_P(SilentCoordinator, CutOffInHomingHaltsTheAxes) {
 INSTANTIATE_TEST_SUITE_P(All, SilentCoordinator,
                          testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
                                          StepMethod::Carrica),
-                         [](const auto& method) { return std::string(methods::name_of(method.param)); });
+                         [](const auto& method) { return std::string(name_of(method.param)); });
 
 }  // namespace
 }  // namespace lockstep
