@@ -63,6 +63,17 @@ TEST_F(OneHost, AKilledOwnerIsReplaced) {
     EXPECT_EQ(run_lockstep({"move", "X=10", "Y=0"}).code, 0);
 }
 
+/// A page that is not there ends a process by a signal.
+TEST_F(OneHost, ProcessesWhoseMemoryIsCutOffAreStartedAgainAndTheMachineWorks) {
+    bring_up();
+    std::filesystem::resize_file(board, 0);
+    ASSERT_TRUE(
+        eventually([&] { return text_of_log("supervisor").find("was ended by signal 7") != std::string::npos; }));
+    ASSERT_TRUE(eventually([&] { return run_lockstep({"reset"}).code == 0 && status().phase() == "Idle"; }));
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    EXPECT_EQ(run_lockstep({"move", "X=5", "Y=5"}).code, 0);
+}
+
 TEST_F(OneHost, ASecondProcessOfAnAxisIsRefused) {
     bring_up();
     const Ran second = Command(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--no-lcm"}).wait();
