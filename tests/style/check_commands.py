@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 
+GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # of a clone of any owner
 PROGRAMS = "lockstep|lockstep-axis|lockstep-coordinator|lockstep-fpga|lockstep-simtest"
 COMMAND = re.compile(rf"(?:^|[;&|] *|client |CYCLONEDDS_URI=\S+ )({PROGRAMS}) +(?=[a-z-])(.*)")
 SCRIPT = re.compile(r"(?m)(?:^    |`)((?:tests|deploy|core|docs|idl|sim_fpga)/[\w./-]+)(?= [\w<-])")
@@ -20,8 +21,7 @@ SEPARATOR = re.compile(r"\s#|[|;>]|&&|\\$|\.\.\.")
 
 
 def documents(root):
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=root, capture_output=True, text=True,
-                            check=True)
+    listed = subprocess.run(GIT_FILES + ["*.md"], cwd=root, capture_output=True, text=True, check=True)
     return listed.stdout.splitlines()
 
 

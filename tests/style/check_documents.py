@@ -15,6 +15,7 @@ import re
 import subprocess
 import sys
 
+GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # of a clone of any owner
 MOST_LINES = {"README.md": 150, "ARCHITECTURE.md": 250}
 MOST_PICTURE_BYTES = 150_000
 UNITS = {None: 1, " KiB": 1 << 10, " MiB": 1 << 20}
@@ -32,8 +33,7 @@ class Tree:
 
     def __init__(self, root):
         self.root = root
-        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True,
-                                check=False)
+        listed = subprocess.run(GIT_FILES, cwd=root, capture_output=True, text=True, check=False)
         self.files = [f for f in listed.stdout.splitlines() if (root / f).exists()]
         self.by_name = collections.defaultdict(list)
         for file in self.files:
