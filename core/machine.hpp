@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct AxisConfig {
     double position_min_mm = 0;
     double position_max_mm = 0;
     StepMethod method = StepMethod::Ranade;
+    std::optional<double> safe_height_mm;  // where it is clear of the work; none: nothing is known of it
     HomingConfig homing;
     PlantConfig plant;
 };

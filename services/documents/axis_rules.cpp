@@ -81,6 +81,7 @@ private:
         length("homing.touch_tolerance_mm", axis_.homing.touch_tolerance_mm);
         place("homing.switch_position_mm", axis_.homing.switch_position_mm);
         place("homing.park_mm", axis_.homing.park_mm);
+        if (axis_.safe_height_mm) { place("safe_height_mm", *axis_.safe_height_mm); }
         place("plant.start_position_mm", axis_.plant.start_position_mm);
         length("plant.travel_margin_mm", axis_.plant.travel_margin_mm);
         accel("plant.max_torque_accel_mm_s2", axis_.plant.max_torque_accel_mm_s2);
@@ -143,11 +144,15 @@ private:
         check_switch();
         check_pulloff(homing.toward_min ? axis_.position_max_mm - homing.switch_position_mm
                                         : homing.switch_position_mm - axis_.position_min_mm);
-        problems_.require_between({"homing.park_mm", "position_min_mm", "position_max_mm"},
-                                  homing.park_mm >= axis_.position_min_mm && homing.park_mm <= axis_.position_max_mm,
-                                  "homing.park_mm is " + number_text(homing.park_mm) +
-                                      ", outside travel; it goes from " + number_text(axis_.position_min_mm) + " to " +
-                                      number_text(axis_.position_max_mm));
+        check_within_travel("homing.park_mm", homing.park_mm);
+        if (axis_.safe_height_mm) { check_within_travel("safe_height_mm", *axis_.safe_height_mm); }
+    }
+
+    void check_within_travel(std::string_view key, double mm) {
+        problems_.require_between({key, "position_min_mm", "position_max_mm"},
+                                  mm >= axis_.position_min_mm && mm <= axis_.position_max_mm,
+                                  std::string(key) + " is " + number_text(mm) + ", outside travel; it goes from " +
+                                      number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm));
     }
 
     /// On the side homed to, and reached before the limit switch is.

@@ -166,6 +166,7 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
         reader.refuse("method", "method is " + std::to_string(message.method()) + "; it is one of " + kMethodNames);
     }
     axis.method = read_method(message.method());
+    if (message.has_safe_height_mm()) { axis.safe_height_mm = message.safe_height_mm(); }
     axis.host = message.host();
     axis.device = message.has_device() ? message.device() : axis.device;
     axis.homing = read_homing(message.homing(), axis);

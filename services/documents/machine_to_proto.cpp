@@ -76,6 +76,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_position_min_mm(axis.position_min_mm);
     message.set_position_max_mm(axis.position_max_mm);
     message.set_method(method_to_proto(axis.method));
+    if (axis.safe_height_mm) { message.set_safe_height_mm(*axis.safe_height_mm); }
     if (!axis.host.empty()) { message.set_host(axis.host); }
     if (axis.device != AxisConfig{}.device) { message.set_device(axis.device); }
     write_homing(axis.homing, *message.mutable_homing());

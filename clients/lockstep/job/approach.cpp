@@ -28,6 +28,14 @@ std::expected<std::vector<Lift>, std::string> lifts_named(const MachineConfig& m
     return lifts;
 }
 
+std::vector<Lift> lifts_to_safe_heights(const MachineConfig& machine) {
+    std::vector<Lift> lifts;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (const auto height_mm = machine.axes[i].safe_height_mm) { lifts.push_back({i, *height_mm}); }
+    }
+    return lifts;
+}
+
 /// On a whole step. An axis homes away from the work.
 double clear_place(const AxisConfig& axis, const Lift& lift, double at_mm, double to_mm) {
     const double place = lockstep::to_mm(axis, static_cast<double>(to_steps(axis, lift.mm)));
@@ -45,6 +53,7 @@ double distance(const Point& from, const Point& to) {
 
 std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& machine, const std::string& option) {
     if (!option.empty()) { return lifts_named(machine, option); }
+    if (auto lifts = lifts_to_safe_heights(machine); !lifts.empty()) { return lifts; }
     int first = machine.axes.front().homing.sequence;
     int last = first;
     for (const AxisConfig& axis : machine.axes) {
@@ -53,9 +62,8 @@ std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& mach
     }
     if (first == last) {
         return std::unexpected(
-            "all axes home together, so nothing tells which one lifts; say which leaves the work first, and where it "
-            "is "
-            "clear of it: --lift Z=40; or --straight, to go there in one line");
+            "all axes home together and none has a safe_height_mm, so nothing tells which one lifts; say which leaves "
+            "the work first, and where it is clear of it: --lift Z=40; or --straight, to go there in one line");
     }
     std::vector<Lift> lifts;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

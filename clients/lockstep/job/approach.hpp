@@ -17,9 +17,9 @@ struct Lift {
     bool is_asked = false;  // it goes exactly there; else it stays where it is farther from the work
 };
 
-/// "Z=40,W=0"; empty: the axes that home first, to where they are parked, since there they wait while the others search
-/// for their switches. Error: it names no place of this machine, or all axes home together and nothing tells which
-/// lifts.
+/// "Z=40,W=0"; empty: the axes with a safe height, to it; without any, the axes that home first, to where they are
+/// parked, since there they wait while the others search for their switches. Error: it names no place of this machine,
+/// or nothing tells which axis lifts.
 std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& machine, const std::string& option);
 
 /// Where the program is before its first block of `line` or behind it.

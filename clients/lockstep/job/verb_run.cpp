@@ -118,7 +118,8 @@ void add_restart_options(CLI::App& verb, RunOptions& options) {
             ->check(CLI::Range(1, 100'000'000));
     CLI::Option* lift = verb.add_option("--lift", options.restart.lift,
                                         "with --from-line: which axes leave the work first, and where they are clear "
-                                        "of it, in mm, Z=40; else those that home first, to where they are parked");
+                                        "of it, in mm, Z=40; else those with a safe_height_mm, to it; else those that "
+                                        "home first, to where they are parked");
     CLI::Option* straight = verb.add_flag("--straight", options.restart.straight,
                                           "with --from-line: go there in one line, as fast as the axes can");
     CLI::Option* yes = verb.add_flag("--yes", options.yes, "with --from-line: do not ask");

@@ -226,6 +226,24 @@ TEST_F(Motion, GoesOnFromALineAfterAStop) {
     EXPECT_EQ(run_lockstep({"run", file, "--from-line", "40"}).code, 2);
 }
 
+class MotionAboveWork : public Motion {
+protected:
+    void configure(MachineConfig& machine) override { machine.axes[1].safe_height_mm = -40; }
+};
+
+TEST_F(MotionAboveWork, GoesOnFromALineByTheSafeHeightOfTheConfiguration) {
+    const std::string file = write("square.gcode", kSquare);
+    ASSERT_EQ(run_lockstep({"move", "X=5", "Y=-5"}).code, 0);
+    const Ran dry = run_lockstep({"run", file, "--from-line", "4", "--dry-run"});
+    EXPECT_EQ(dry.code, 0) << dry.err;
+    EXPECT_THAT(dry.out, HasSubstr("lifts to X=5.000 Y=-40.000"));
+    EXPECT_THAT(dry.out, HasSubstr("crosses to X=60.000 Y=-40.000"));
+    EXPECT_THAT(dry.out, HasSubstr("goes down to X=60.000 Y=0.000"));
+    const Ran ran = run_lockstep({"run", file, "--from-line", "4", "--yes"});
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_EQ(status().axes(0).position_mm(), 20);
+}
+
 TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));

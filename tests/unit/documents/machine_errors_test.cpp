@@ -148,6 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{axis_with("homing { switch_position_mm: -2 }"), 10, 12, "not on the limit switch"},
         Refusal{axis_with("homing { toward_min: false switch_position_mm: 0 }"), 10, 30, "100 to 202"},
         Refusal{axis_with("homing { park_mm: 201 }"), 10, 12, "outside travel; it goes from 0 to 200"},
+        Refusal{axis_with("safe_height_mm: 201"), 10, 3, "outside travel; it goes from 0 to 200"},
         Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11, "limit switches at -2 and 202"},
         Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "above 0"},
         Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));

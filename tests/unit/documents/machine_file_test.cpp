@@ -46,6 +46,14 @@ TEST(MachineFile, TimeComesFromOneHostUnlessSaidOtherwise) {
     EXPECT_EQ(parse(machine_text(parse(ptp))).timing.time_source, TimeSource::Ptp);
 }
 
+TEST(MachineFile, AnAxisHasASafeHeightOnlyWhereItIsGiven) {
+    const MachineConfig machine = parse(axis_with("safe_height_mm: 40"));
+    EXPECT_EQ(machine.axes.at(0).safe_height_mm, 40);
+    EXPECT_EQ(parse(machine_text(machine)).axes.at(0).safe_height_mm, 40);
+    EXPECT_NE(config_hash(machine), config_hash(parse(kShortest)));
+    EXPECT_FALSE(parse(kShortest).axes.at(0).safe_height_mm);
+}
+
 TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     const HomingConfig homing = parse(kShortest).axes.at(0).homing;
     EXPECT_TRUE(homing.toward_min);

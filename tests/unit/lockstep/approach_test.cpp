@@ -50,6 +50,22 @@ TEST_F(Approach, LiftsToThePlaceThatIsAskedFor) {
     EXPECT_FALSE(lifts_of(machine, "Q=1"));
 }
 
+TEST_F(Approach, LiftsToTheSafeHeightOfTheConfiguration) {
+    machine.axes[2].safe_height_mm = 25;
+    EXPECT_THAT(to_work({10, 20, 1}).front().move.target_mm, ElementsAre(10, 20, 25));
+    EXPECT_THAT(to_work({10, 20, 30}).front().move.target_mm, ElementsAre(60, 40, 30)) << "it does not come down";
+    EXPECT_THAT(to_work({10, 20, 1}, "Z=30").front().move.target_mm, ElementsAre(10, 20, 30)) << "as asked";
+}
+
+TEST_F(Approach, BySafeHeightIsKnownThoughAllAxesHomeTogether) {
+    for (AxisConfig& axis : machine.axes) { axis.homing.sequence = 0; }
+    machine.axes[2].safe_height_mm = 25;
+    const auto lifts = lifts_of(machine, "");
+    ASSERT_TRUE(lifts);
+    ASSERT_EQ(lifts->size(), 1U);
+    EXPECT_EQ(lifts->front().axis, 2U);
+}
+
 TEST_F(Approach, IsNoneWhereTheMachineStandsThere) { EXPECT_THAT(to_work({60, 40, 2}), IsEmpty()); }
 
 TEST_F(Approach, OfAProgramWithoutAFeedGoesDownAsSlowlyAsItStarts) {
