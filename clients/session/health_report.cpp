@@ -35,6 +35,8 @@ proto::HealthReport health_report(const AxisHealth& health, const MachineConfig&
     report.set_lost_captures(health.refused.captures);
     report.set_lost_records(health.refused.records);
     report.set_skipped_loops(health.refused.skipped_loops);
+    report.set_participant_reopened(health.process.reopened);
+    report.set_lost_log_lines(health.process.lost_log_lines);
     return report;
 }
 

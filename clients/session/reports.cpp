@@ -84,6 +84,8 @@ proto::StatusReport status_report(const Session& session) {
     if (const auto& heard = session.state()) {
         fill(report, heard->state, machine);
         report.set_lost_records(heard->state.lost_records);
+        report.set_participant_reopened(heard->state.process.reopened);
+        report.set_lost_log_lines(heard->state.process.lost_log_lines);
         report.set_age_ms(static_cast<double>((monotonic_now() - heard->time).count()) * 1e-6);
     }
     report.set_standby(session.has_standby());

@@ -71,6 +71,28 @@ std::string unproved_lines(const proto::StatusReport& status) {
     return text;
 }
 
+/// "label: coordinator 2, X 1", of those that counted something; nothing where none did. of_axis: gives an axis's
+/// count.
+template <typename OfAxis>
+std::string count_line(const std::string& label, std::uint64_t coordinator, const proto::StatusReport& status,
+                       OfAxis of_axis) {
+    std::string text;
+    const auto add = [&](const std::string& process, std::uint64_t count) {
+        if (count > 0) { text += (text.empty() ? label + ": " : ", ") + process + " " + std::to_string(count); }
+    };
+    add("coordinator", coordinator);
+    for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), of_axis(axis.health())); }
+    return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
+}
+
+std::string process_lines(const proto::StatusReport& status) {
+    using Health = proto::HealthReport;
+    return count_line("DDS participant opened again, times since the start", status.participant_reopened(), status,
+                      [](const Health& health) { return health.participant_reopened(); }) +
+           count_line("log lines that could not be written", status.lost_log_lines(), status,
+                      [](const Health& health) { return health.lost_log_lines(); });
+}
+
 /// A directory is not broken over lines: it is to be copied.
 std::string incidents_text(const proto::Incidents& incidents) {
     return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
@@ -98,6 +120,7 @@ std::string status_text(const proto::StatusReport& status) {
         if (axis.has_fault() && !is_said) { text += fault_text(axis.fault()) + "\n"; }
     }
     if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
+    text += process_lines(status);
     if (status.has_incidents()) { text += incidents_text(status.incidents()); }
     return text;
 }

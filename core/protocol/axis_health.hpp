@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/protocol/messages.hpp"
+#include "core/protocol/process_counts.hpp"
 
 namespace lockstep {
 
@@ -62,6 +63,7 @@ struct AxisHealth {
     Ticks clock_error;                  // its machine time is at most so far off
     RefusalCounts refused;
     RecordCounts published;  // of the record, by this process
+    ProcessCounts process;
     bool operator==(const AxisHealth&) const = default;
 };
 

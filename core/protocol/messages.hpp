@@ -12,6 +12,7 @@
 #include "core/axis_set.hpp"
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
+#include "core/protocol/process_counts.hpp"
 #include "core/protocol/record_counts.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"
@@ -183,6 +184,7 @@ struct MachineState {
     // Of the record; nobody decides by it:
     RecordCounts published;          // by this process
     std::uint64_t lost_records = 0;  // messages that it could not write
+    ProcessCounts process;           // nobody decides by it either
     bool operator==(const MachineState&) const = default;
 };
 

@@ -157,6 +157,7 @@ private:
                                                           .skipped_loops = skipped_loops});
         if (!health) { return; }
         health->published = recorder_.published();
+        health->process = {.reopened = network_.reopened(), .lost_log_lines = lost_log_lines()};
         network_.publish(*health);
         recorder_.health(*health);
     }

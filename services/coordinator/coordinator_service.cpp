@@ -67,6 +67,7 @@ public:
         if (out.state) {
             out.state->published = recorder_.published();
             out.state->lost_records = sink_->failures();
+            out.state->process = {.reopened = network_.reopened(), .lost_log_lines = lost_log_lines()};
         }
         network_.publish(out);
         recorder_.note(now);

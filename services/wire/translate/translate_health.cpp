@@ -46,7 +46,9 @@ lockstep_wire_AxisHealth to_wire(const AxisHealth& health) {
             .step_messages = health.published.steps,
             .run_messages = health.published.runs,
             .position_messages = health.published.positions,
-            .figure_messages = health.published.figures};
+            .figure_messages = health.published.figures,
+            .reopened = health.process.reopened,
+            .lost_log_lines = health.process.lost_log_lines};
 }
 
 FromWire<AxisHealth> from_wire(const lockstep_wire_AxisHealth& wire) {
@@ -79,6 +81,7 @@ FromWire<AxisHealth> from_wire(const lockstep_wire_AxisHealth& wire) {
                       .runs = wire.run_messages,
                       .positions = wire.position_messages,
                       .figures = wire.figure_messages},
+        .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines},
     };
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return health;

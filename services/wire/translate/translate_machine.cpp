@@ -57,7 +57,9 @@ MachineStateMessage to_wire(const MachineState& state) {
             .rests = {},
             .job_messages = state.published.job_events,
             .program_messages = state.published.program_parts,
-            .lost_records = state.lost_records};
+            .lost_records = state.lost_records,
+            .reopened = state.process.reopened,
+            .lost_log_lines = state.process.lost_log_lines};
     for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
     const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
     wire.rests = {._maximum = size, ._length = size, ._buffer = message.rest_storage.data(), ._release = false};
@@ -99,7 +101,8 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
                        .program = wire.program,
                        .rests = {},
                        .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
-                       .lost_records = wire.lost_records};
+                       .lost_records = wire.lost_records,
+                       .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines}};
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
         check.far("a rest's place", rest.along_high);
         state.rests.push_back(rest_from_wire(rest));

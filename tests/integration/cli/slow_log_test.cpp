@@ -76,6 +76,8 @@ TEST_F(SlowLog, AJobIsExactWhileTheLogsHangAndLostLinesAreReported) {
     EXPECT_EQ(job.code, 0) << job.out << job.err;
     expect_verified();
 
+    EXPECT_THAT(run_lockstep({"status"}).out, HasSubstr("log lines that could not be written: "));
+
     std::string logged;
     EXPECT_TRUE(eventually([&] {
         for (const auto& log : logs_) { logged += log->read(); }

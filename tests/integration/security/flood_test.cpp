@@ -72,6 +72,10 @@ TEST_F(Flooded, TheMachineIsReadyAgainWithinTenSecondsAfterThePacketsStop) {
         flood(PacketForger(tap_.packets(), seed));
         expect_recovers();
     }
+    const proto::StatusReport report = status();
+    EXPECT_GT(report.participant_reopened() + report.axes(0).health().participant_reopened() +
+                  report.axes(1).health().participant_reopened(),
+              0U);
     const std::string logs = text_of_log("coordinator") + text_of_log("axis-X") + text_of_log("axis-Y");
     EXPECT_NE(logs.find("opens its DDS participant anew: "), logs.npos) << "so there was something to recover from";
 }

@@ -75,6 +75,18 @@ TEST(StatusText, FitsInEightyColumnsWhateverTheFault) {
     }
 }
 
+TEST(StatusText, NamesTheProcessesThatOpenedTheirParticipantAgainOrLostLogLines) {
+    proto::StatusReport status = running();
+    EXPECT_THAT(status_text(status), Not(HasSubstr("participant")));
+    EXPECT_THAT(status_text(status), Not(HasSubstr("log lines")));
+    status.set_participant_reopened(2);
+    status.mutable_axes(0)->mutable_health()->set_participant_reopened(1);
+    status.mutable_axes(1)->mutable_health()->set_lost_log_lines(30);
+    EXPECT_THAT(status_text(status),
+                HasSubstr("DDS participant opened again, times since the start: coordinator 2, X 1\n"));
+    EXPECT_THAT(status_text(status), HasSubstr("log lines that could not be written: Y 30\n"));
+}
+
 TEST(StatusText, SaysThatNobodyIsHeard) {
     proto::StatusReport status;
     status.set_machine("mill");

@@ -108,7 +108,8 @@ MachineState RandomMessages::machine_state() {
             .program = bits(),
             .rests = rests(),
             .published = {.job_events = bits(), .program_parts = bits()},
-            .lost_records = bits()};
+            .lost_records = bits(),
+            .process = {.reopened = bits(), .lost_log_lines = bits()}};
 }
 
 Command RandomMessages::command() {
