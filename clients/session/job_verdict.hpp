@@ -1,4 +1,4 @@
-// How a job stands, from what the coordinator says once a slot. Pure.
+// The verdict on a job, from the state that the coordinator publishes once a slot. Pure.
 #pragma once
 
 #include "core/protocol/messages.hpp"
@@ -11,16 +11,16 @@ enum class JobVerdict {
     Stopped,
     Held,  // still open: the command left it at rest, to be resumed
     Failed,
-    CutShort,  // the coordinator fell silent in the middle, and another has taken over: the axes rest
-    Lost,      // the coordinator was started anew, or went on to another job: how this one ended is not known
+    CutShort,  // the coordinator fell silent, and another has taken over: the axes rest
+    Lost,      // the coordinator restarted, or began another job: how this one ended is unknown
 };
 
-/// `job`: as the reply named it, by the owner whose term was `asked`. Who takes over may go on with it, or end it.
-/// `runs_it`: the term of who was last heard to run it.
-constexpr JobVerdict judge(const MachineState& state, std::uint64_t job, const Term& asked, const Term& runs_it) {
+/// `job`: the number in the reply of the owner whose term was `asked`. Another owner may continue it or end it.
+/// `runs_it`: the term of the owner whose state last showed it running.
+constexpr JobVerdict verdict_of(const MachineState& state, std::uint64_t job, const Term& asked, const Term& runs_it) {
     const bool changed = state.term != asked;
     if (state.job > job || (changed && (state.job < job || state.job_begun != asked))) { return JobVerdict::Lost; }
-    if (state.job < job || !state.outcome) { return JobVerdict::InProgress; }  // fewer jobs: said before the reply
+    if (state.job < job || !state.outcome) { return JobVerdict::InProgress; }  // fewer jobs: published before the reply
     switch (*state.outcome) {
         case JobOutcome::Done: return JobVerdict::Done;
         case JobOutcome::Stopped: return state.term != runs_it ? JobVerdict::CutShort : JobVerdict::Stopped;

@@ -30,7 +30,7 @@ std::expected<JobVerdict, Failure> JobWatch::wait() {
         session_.listen(kGlance);
         if (session_.is_silent()) { return std::unexpected(silent()); }
         const MachineState& state = session_.state()->state;
-        const JobVerdict verdict = judge(state, number_, asked_, runs_it_);
+        const JobVerdict verdict = verdict_of(state, number_, asked_, runs_it_);
         if (verdict != JobVerdict::InProgress) { return verdict; }
         const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
         if (hang_up_.came() && rests && state.job == number_) { return JobVerdict::Held; }

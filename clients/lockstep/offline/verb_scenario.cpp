@@ -6,8 +6,8 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/scenario/model/report.hpp"
-#include "clients/scenario/model/words.hpp"
-#include "clients/scenario/runner/season.hpp"
+#include "clients/scenario/model/scenario_text.hpp"
+#include "clients/scenario/runner/scenario_runner.hpp"
 #include "clients/text/colour.hpp"
 #include "clients/text/voice.hpp"
 #include "services/files/text_file.hpp"
@@ -21,11 +21,11 @@ using scenario::Scenario;
 struct ScenarioOptions {
     std::vector<std::string> files;
     std::string place;  // empty: each scenario's own
-    std::string image = scenario::SeasonOptions{}.image;
+    std::string image = scenario::RunnerOptions{}.image;
     int at_a_time = 1;
     std::string keep;
     std::string junit;
-    bool story = false;
+    bool events = false;
     bool json = false;
 };
 
@@ -47,7 +47,7 @@ std::optional<scenario::Asked::Place> place_of(const ScenarioOptions& options) {
     return place;
 }
 
-/// Nothing where a file is wrong: all that is wrong with all of them has been said.
+/// Nothing where a file has errors: all errors of all files have been printed.
 std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Voice& voice) {
     std::vector<Scenario> scenarios;
     std::vector<Failure> failures;
@@ -64,8 +64,8 @@ std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Vo
     return std::nullopt;
 }
 
-std::string coloured(const proto::ScenarioReport& report, bool story) {
-    const std::string text = scenario::to_text(report, story);
+std::string coloured(const proto::ScenarioReport& report, bool events) {
+    const std::string text = scenario::to_text(report, events);
     if (!wants_colour()) { return text; }
     const std::size_t end = text.find('\n');
     return painted(text.substr(0, end), report.held() ? kGood : kBad) + (end == text.npos ? "" : text.substr(end));
@@ -85,14 +85,14 @@ ExitCode run(const ScenarioOptions& options) {
     const auto scenarios = read_all(options, voice);
     if (!scenarios) { return kExitBadInput; }
     const StopSignal stop;
-    scenario::SeasonOptions season{.at_a_time = options.at_a_time, .image = options.image};
-    if (!options.keep.empty()) { season.keep = options.keep; }
-    season.progress = [&](const std::string& line) { voice.progress(line); };
-    season.played = [&](const proto::ScenarioReport& report) { voice.say(coloured(report, options.story)); };
-    season.interrupted = [&] { return stop.requested(); };
-    const auto report = scenario::play_all(*scenarios, season);
+    scenario::RunnerOptions runner{.at_a_time = options.at_a_time, .image = options.image};
+    if (!options.keep.empty()) { runner.keep = options.keep; }
+    runner.progress = [&](const std::string& line) { voice.progress(line); };
+    runner.finished = [&](const proto::ScenarioReport& report) { voice.say(coloured(report, options.events)); };
+    runner.interrupted = [&] { return stop.requested(); };
+    const auto report = scenario::run_scenarios(*scenarios, runner);
     if (!report) { return voice.fail(bad_input(report.error())); }
-    if (stop.requested()) { voice.warn("interrupted: what was playing is taken down"); }
+    if (stop.requested()) { voice.warn("interrupted: the running scenarios are taken down"); }
     return end(options, *report, voice);
 }
 
@@ -116,7 +116,7 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
                    const std::shared_ptr<ScenarioOptions>& options) {
     CLI::App* part = verb.add_subcommand(name, what);
     part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
-    part->add_option("--place", options->place, "play all there, wherever they say: PROCESS, NAMESPACE or CONTAINER")
+    part->add_option("--place", options->place, "run all there, whatever they say: PROCESS, NAMESPACE or CONTAINER")
         ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
     part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     return part;
@@ -124,7 +124,7 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
 
 void add_scenario_run(CLI::App& verb, Action& action) {
     const auto options = std::make_shared<ScenarioOptions>();
-    CLI::App* part = add_part(verb, "run", "play scenarios on machines of real processes, and judge them", options);
+    CLI::App* part = add_part(verb, "run", "run scenarios on machines of real processes, and evaluate them", options);
     part->add_option("--jobs", options->at_a_time, "so many at a time")
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
@@ -132,18 +132,18 @@ void add_scenario_run(CLI::App& verb, Action& action) {
         ->capture_default_str();
     part->add_option("--keep", options->keep,
                      "keep the logs of each, and a page of it, whole.html, in a directory of its name in this one");
-    part->add_option("--junit", options->junit, "write the verdict as JUnit's XML into this file, too");
-    part->add_flag("--story", options->story, "tell what happened when, too");
+    part->add_option("--junit", options->junit, "also write the results as JUnit's XML into this file");
+    part->add_flag("--story", options->events, "also report what happened when");
     part->footer(
-        "Each is played in network, process and mount namespaces of its own, which takes root and leaves nothing "
+        "Each runs in network, process and mount namespaces of its own, which takes root and leaves nothing "
         "behind.\n"
         "Examples:\n  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
         "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
         "  lockstep scenario run mine.textproto --story --keep logs\n"
         "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n"
-        "Exit codes: 0 all hold, 1 one does not, or could not be played; 2 bad usage or a scenario that cannot be "
+        "Exit codes: 0 all hold, 1 one does not, or could not run; 2 bad usage or a scenario that cannot be "
         "read:\n"
-        "nothing was played");
+        "nothing ran");
     part->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 
@@ -152,7 +152,7 @@ void add_scenario_check(CLI::App& verb, Action& action) {
     CLI::App* part = add_part(verb, "check", "read scenarios and say what would be done; nothing runs", options);
     part->footer(
         "Examples:\n  lockstep scenario check deploy/scenarios/axis-killed.textproto\n"
-        "Exit codes: 0 they can be played, 2 bad usage or a scenario that cannot be read");
+        "Exit codes: 0 they can run, 2 bad usage or a scenario that cannot be read");
     part->callback([&action, options] { action = [options] { return check(*options); }; });
 }
 
@@ -160,9 +160,9 @@ void add_scenario_check(CLI::App& verb, Action& action) {
 
 void add_scenario(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "scenario", "scripted tests of a whole machine: what it does, what befalls it, what must be true");
+        "scenario", "scripted tests of a whole machine: what it does, which faults occur, what must be true");
     verb->require_subcommand(1);
-    verb->footer("What a scenario may say: idl/proto/scenario.proto. Some to begin with: deploy/scenarios/.");
+    verb->footer("What a scenario may contain: idl/proto/scenario.proto. Examples: deploy/scenarios/.");
     add_scenario_run(*verb, action);
     add_scenario_check(*verb, action);
 }

@@ -11,16 +11,15 @@ constexpr double kMostSeconds = 60;
 
 class ActRules {
 public:
-    ActRules(const std::string& path, const Asked& asked, const std::vector<std::string>& processes,
-             Complaints& complaints)
-        : path_(path), asked_(asked), processes_(processes), complaints_(complaints) {}
+    ActRules(const std::string& path, const Asked& asked, const std::vector<std::string>& processes, Problems& problems)
+        : path_(path), asked_(asked), processes_(processes), problems_(problems) {}
 
     void check(const Act& act) {
         check_what(act);
         const bool can_be_undone = act.has_pause() || act.has_cut() || act.has_lose();
-        complaints_.require(can_be_undone || !act.has_for_s(), path_ + ".for_s",
-                            "for_s goes with pause, cut and lose: nothing else is undone by itself");
-        if (act.has_for_s()) { complaints_.require_range(path_, "for_s", act.for_s(), 0, kMostSeconds); }
+        problems_.require(can_be_undone || !act.has_for_s(), path_ + ".for_s",
+                          "for_s goes with pause, cut and lose: nothing else is undone by itself");
+        if (act.has_for_s()) { problems_.require_range(path_, "for_s", act.for_s(), 0, kMostSeconds); }
     }
 
 private:
@@ -34,23 +33,23 @@ private:
             case Act::kLose: return check_loss(act.lose());
             case Act::kHeal: return check_heal(act.heal());
             case Act::kCommand:
-                return complaints_.require(act.command() != Asked::NONE, path_ + ".command",
-                                           "NONE asks for nothing; say HOLD, RESUME, STOP, EMERGENCY_STOP or RESET");
+                return problems_.require(act.command() != Asked::NONE, path_ + ".command",
+                                         "NONE asks for nothing; say HOLD, RESUME, STOP, EMERGENCY_STOP or RESET");
             case Act::kOverride: return check_override(act.override());
             case Act::WHAT_NOT_SET: break;
         }
-        complaints_.add(path_,
-                        "this act does nothing; say what: kill, restart, pause, unpause, cut, lose, heal, command "
-                        "or override");
+        problems_.add(path_,
+                      "this act does nothing; say what: kill, restart, pause, unpause, cut, lose, heal, command "
+                      "or override");
     }
 
     void require_process(const std::string& key, const std::string& name, const std::vector<std::string>& names) {
-        complaints_.require_one_of(path_ + "." + key, name, names, "process");
+        problems_.require_one_of(path_ + "." + key, name, names, "process");
     }
 
     void require_links(const std::string& key) {
-        complaints_.require(has_links(asked_.place()), path_ + "." + key,
-                            key + " needs links between the processes; say place: NAMESPACE or CONTAINER");
+        problems_.require(has_links(asked_.place()), path_ + "." + key,
+                          key + " needs links between the processes; say place: NAMESPACE or CONTAINER");
     }
 
     /// A device has no link: its axis reaches it by memory.
@@ -72,8 +71,8 @@ private:
         for (int i = 0; i < loss.process_size(); ++i) {
             require_process(nth("lose.process", i), loss.process(i), linked());
         }
-        complaints_.require(loss.percent() > 0 && loss.percent() <= 100, path_ + ".lose.percent",
-                            "percent is " + number_text(loss.percent()) + "; it goes from above 0 to 100");
+        problems_.require(loss.percent() > 0 && loss.percent() <= 100, path_ + ".lose.percent",
+                          "percent is " + number_text(loss.percent()) + "; it goes from above 0 to 100");
     }
 
     void check_heal(const std::string& name) {
@@ -84,28 +83,28 @@ private:
     }
 
     void check_override(const Asked::Override& turn) {
-        complaints_.require(turn.has_feed() || turn.has_rapid(), path_ + ".override",
-                            "override turns nothing; say feed, rapid or both, in percent");
+        problems_.require(turn.has_feed() || turn.has_rapid(), path_ + ".override",
+                          "override turns nothing; say feed, rapid or both, in percent");
         const std::string block = path_ + ".override";
         if (turn.has_feed()) {
-            complaints_.require_range(block, "feed", turn.feed(), Overrides::kLeast, Overrides::kMost);
+            problems_.require_range(block, "feed", turn.feed(), Overrides::kLeast, Overrides::kMost);
         }
         if (turn.has_rapid()) {
-            complaints_.require_range(block, "rapid", turn.rapid(), Overrides::kLeast, Overrides::kMost);
+            problems_.require_range(block, "rapid", turn.rapid(), Overrides::kLeast, Overrides::kMost);
         }
     }
 
     const std::string& path_;
     const Asked& asked_;
     const std::vector<std::string>& processes_;
-    Complaints& complaints_;
+    Problems& problems_;
 };
 
 }  // namespace
 
 void check_act(const Act& act, const std::string& path, const Asked& asked, const std::vector<std::string>& processes,
-               Complaints& complaints) {
-    ActRules(path, asked, processes, complaints).check(act);
+               Problems& problems) {
+    ActRules(path, asked, processes, problems).check(act);
 }
 
 }  // namespace lockstep::scenario

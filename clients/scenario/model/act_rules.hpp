@@ -1,15 +1,15 @@
-// What an act must satisfy: see rules.hpp.
+// The rules that an act must satisfy: see rules.hpp.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "clients/scenario/model/complaints.hpp"
+#include "clients/scenario/model/problems.hpp"
 
 namespace lockstep::scenario {
 
 /// `path`: of the act. `processes`: of the machine.
 void check_act(const Asked::Act& act, const std::string& path, const Asked& asked,
-               const std::vector<std::string>& processes, Complaints& complaints);
+               const std::vector<std::string>& processes, Problems& problems);
 
 }  // namespace lockstep::scenario

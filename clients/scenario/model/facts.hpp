@@ -1,4 +1,4 @@
-// What is known of a scenario that was played: as it was seen, and as the record has it.
+// Results of a scenario: what was observed while it ran, and what the record contains.
 #pragma once
 
 #include <expected>
@@ -15,7 +15,7 @@ namespace lockstep::scenario {
 
 using Check = proto::ScenarioCheck;
 
-inline constexpr const char* kAsPlayed = "as it was played";  // where what is not on record was found
+inline constexpr const char* kAsObserved = "as observed in the run";  // the source of what is not on record
 
 inline Check check_of(const std::string& asked, const std::string& found, const std::string& where, bool held) {
     Check check;
@@ -26,37 +26,37 @@ inline Check check_of(const std::string& asked, const std::string& found, const 
     return check;
 }
 
-/// After an act the machine was to come to rest.
+/// An act after which the machine must come to rest.
 struct AwaitedRest {
     std::string act;  // in words
     Tick at;          // machine time
     int within_frames = 0;
-    std::vector<std::string> axes;  // whose processes ran on
+    std::vector<std::string> axes;  // whose processes were still running
 };
 
-/// As it was seen while it was played.
-struct Seen {
+/// What was observed while the scenario ran.
+struct Observations {
     std::vector<Check> checks;  // of steps, of acts, of processes
-    std::vector<proto::ScenarioHappening> story;
+    std::vector<proto::ScenarioHappening> events;
     std::vector<AwaitedRest> rests;
     proto::StatusReport status;  // at the end
-    std::string broken;          // why it was not played to its end; empty: it was
+    std::string broken;          // why it did not run to its end; empty: it did
 };
 
 struct FoundCause {
     std::string kind;     // as in incident::CauseKind
-    std::string process;  // axis-X, coordinator; empty: no one's
+    std::string process;  // axis-X, coordinator; empty: none
     std::string text;
 };
 
-/// As the record and the processes' own notes have it. Errors: why there is none.
+/// What the record and the flight recorders contain. Errors: why there is none.
 struct Evidence {
     std::expected<proto::MergeReport, std::string> merged;
     std::expected<proto::VerifyReport, std::string> verified;
     std::expected<proto::AnalysisReport, std::string> analysis;
     RecordFacts record;
-    std::vector<FoundCause> causes;   // of each incident, but those that were merely asked for
-    std::set<std::string> vetoed_by;  // axes, for want of what they needed
+    std::vector<FoundCause> causes;   // of each incident that was not just requested
+    std::set<std::string> vetoed_by;  // axes that lacked a frame, a state or time
 };
 
 }  // namespace lockstep::scenario

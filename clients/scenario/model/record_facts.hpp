@@ -1,4 +1,4 @@
-// What a record says that is judged by nobody else: when axes were at rest, and with which frame each ended an epoch.
+// Facts of the record that only scenarios evaluate: when axes were at rest, and with which frame each ended an epoch.
 #pragma once
 
 #include <expected>
@@ -12,7 +12,7 @@
 
 namespace lockstep::scenario {
 
-/// From the first to the last word of an axis that it is at rest.
+/// From the first to the last message of an axis at rest.
 struct RestSpan {
     Tick from;
     Tick to;
@@ -28,7 +28,7 @@ struct RecordFacts {
     std::map<std::string, std::vector<RestSpan>> rests;       // of each axis, in the order of time
     std::map<Epoch, std::map<std::string, EpochEnd>> epochs;  // of each axis that ran it
 
-    /// When these axes were first at rest all together, from then on. Nothing: the record knows of no such time.
+    /// The first time at or after `since` at which all of these axes were at rest. Nothing: not on record.
     std::optional<Tick> all_at_rest(const std::vector<std::string>& axes, Tick since) const;
 
     /// How many epochs two of these axes, or more, have run.

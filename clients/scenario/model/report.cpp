@@ -51,14 +51,14 @@ void add_case(tinyxml2::XMLPrinter& xml, const proto::ScenarioReport& report) {
 
 }  // namespace
 
-std::string to_text(const proto::ScenarioReport& report, bool story) {
+std::string to_text(const proto::ScenarioReport& report, bool events) {
     std::string text = name_of(report) + ": " + (report.held() ? "holds" : "FAILED") + " (" +
                        fixed(report.took_s(), 1) + " s): " + report.shows() + "\n";
     for (const auto& happening : report.story()) {
-        if (story) { text += "  " + fixed(happening.at_s(), 3) + " s  " + happening.what() + "\n"; }
+        if (events) { text += "  " + fixed(happening.at_s(), 3) + " s  " + happening.what() + "\n"; }
     }
     for (const Check& check : report.checks()) { text += line_of(check); }
-    if (!report.broken().empty()) { text += "  FAILED  it could not be played to its end: " + report.broken() + "\n"; }
+    if (!report.broken().empty()) { text += "  FAILED  it could not run to its end: " + report.broken() + "\n"; }
     if (!report.kept().empty()) { text += "  logs: " + report.kept() + "\n"; }
     text.pop_back();
     return text;

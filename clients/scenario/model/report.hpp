@@ -1,4 +1,4 @@
-// How scenarios went, for a person and for the tools that read JUnit's XML.
+// The results of scenarios, for a person and for tools that read JUnit's XML.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace lockstep::scenario {
 
-/// A line for what was asked, found and where, each; `story`: what happened, too. Without a newline at the end.
-std::string to_text(const proto::ScenarioReport& report, bool story);
+/// A line for each check: asked, found, where. `events`: also the events with their times. No newline at the end.
+std::string to_text(const proto::ScenarioReport& report, bool events);
 
 /// As JUnit has it: a test suite, a case for each scenario, what did not hold as its failure.
 std::string junit_xml(const proto::ScenarioRunReport& report);

@@ -3,7 +3,7 @@
 #include "clients/incident/cause.hpp"
 #include "clients/planning/plan_summary.hpp"
 #include "clients/scenario/model/act_rules.hpp"
-#include "clients/scenario/model/complaints.hpp"
+#include "clients/scenario/model/problems.hpp"
 #include "clients/session/move_program.hpp"
 #include "core/faults.hpp"
 
@@ -21,49 +21,48 @@ public:
           asked_(scenario.asked),
           machine_(scenario.machine),
           processes_(processes_of(asked_, machine_)),
-          complaints_(source) {
+          problems_(source) {
         for (const AxisConfig& axis : machine_.axes) { axes_.push_back(axis.name); }
     }
 
     Diagnostics errors() {
-        check_stage();
+        check_setup();
         for (int i = 0; i < asked_.wrong_clock_size(); ++i) {
             check_clock(asked_.wrong_clock(i), nth("wrong_clock", i));
         }
-        complaints_.require(asked_.step_size() > 0, "", "no step: say what the machine is to do, step { home {} }");
-        complaints_.require(
+        problems_.require(asked_.step_size() > 0, "", "no step: say what the machine is to do, step { home {} }");
+        problems_.require(
             asked_.step_size() <= kMostSteps, nth("step", kMostSteps),
             std::to_string(asked_.step_size()) + " steps; there are " + std::to_string(kMostSteps) + " at most");
         for (int i = 0; i < asked_.step_size(); ++i) { check_step(asked_.step(i), nth("step", i)); }
         check_expectations(asked_.expect());
-        return complaints_.take();
+        return problems_.take();
     }
 
 private:
-    void check_stage() {
-        complaints_.require(!asked_.shows().empty(), "shows", "no shows: say in one sentence what this scenario shows");
-        complaints_.require(asked_.standby() || !asked_.continues(), "continues",
-                            "continues goes with standby: nobody else takes over");
+    void check_setup() {
+        problems_.require(!asked_.shows().empty(), "shows", "no shows: say in one sentence what this scenario shows");
+        problems_.require(asked_.standby() || !asked_.continues(), "continues",
+                          "continues goes with standby: without one, no coordinator takes over");
         const bool may_stand_by = !asked_.standby() || machine_.timing.time_source != TimeSource::Network;
-        complaints_.require(may_stand_by, "standby",
-                            "standby goes with time_source SHARED or PTP: over NETWORK time is one coordinator's");
+        problems_.require(may_stand_by, "standby",
+                          "standby goes with time_source SHARED or PTP: over NETWORK time is one coordinator's");
     }
 
     void check_clock(const Asked::WrongClock& clock, const std::string& path) {
         require_axis(path + ".axis", clock.axis());
         const auto& clocks = asked_.wrong_clock();
         const auto of_axis = [&](const Asked::WrongClock& other) { return other.axis() == clock.axis(); };
-        complaints_.require(&*std::ranges::find_if(clocks, of_axis) == &clock, path + ".axis",
-                            "axis " + clock.axis() + " has a clock already; say all of it in one block");
-        complaints_.require(
-            machine_.timing.time_source == TimeSource::Network, path,
-            "a wrong clock needs clocks that differ; say timing { time_source: NETWORK } in the machine");
-        complaints_.require(!asked_.separate_devices(), path,
-                            "a wrong clock goes with devices in the axes' processes; leave out separate_devices");
-        complaints_.require_range(path, "offset_s", clock.offset_s(), -1e6, 1e6);
-        complaints_.require_range(path, "ppm", clock.ppm(), -1000, 1000);
-        complaints_.require_range(path, "step_s", clock.step_s(), -1000, 1000);
-        complaints_.require_range(path, "step_at_s", clock.step_at_s(), 0, 600);
+        problems_.require(&*std::ranges::find_if(clocks, of_axis) == &clock, path + ".axis",
+                          "axis " + clock.axis() + " has a clock already; say all of it in one block");
+        problems_.require(machine_.timing.time_source == TimeSource::Network, path,
+                          "a wrong clock needs clocks that differ; say timing { time_source: NETWORK } in the machine");
+        problems_.require(!asked_.separate_devices(), path,
+                          "a wrong clock goes with devices in the axes' processes; leave out separate_devices");
+        problems_.require_range(path, "offset_s", clock.offset_s(), -1e6, 1e6);
+        problems_.require_range(path, "ppm", clock.ppm(), -1000, 1000);
+        problems_.require_range(path, "step_s", clock.step_s(), -1000, 1000);
+        problems_.require_range(path, "step_at_s", clock.step_at_s(), 0, 600);
     }
 
     void check_step(const Asked::Step& step, const std::string& path) {
@@ -72,15 +71,15 @@ private:
             case Asked::Step::kRun: check_run(step.run(), path + ".run"); break;
             case Asked::Step::kMove: check_move(step.move(), path + ".move"); break;
             case Asked::Step::kWait: check_wait(step.wait(), path + ".wait"); break;
-            case Asked::Step::kAct: check_act(step.act(), path + ".act", asked_, processes_, complaints_); break;
+            case Asked::Step::kAct: check_act(step.act(), path + ".act", asked_, processes_, problems_); break;
             case Asked::Step::WHAT_NOT_SET:
-                complaints_.add(path, "this step does nothing; say what: home, run, move, wait or act");
+                problems_.add(path, "this step does nothing; say what: home, run, move, wait or act");
         }
         const bool is_job = !step.has_wait() && !step.has_act();
-        complaints_.require(is_job || step.during_size() == 0, path + ".during",
-                            "during goes with home, run and move; make it a step of its own");
-        complaints_.require(is_job || !step.has_ends(), path + ".ends", "ends goes with home, run and move");
-        complaints_.require(!step.has_act() || !step.has_fault(), path + ".fault", "fault goes with jobs and wait");
+        problems_.require(is_job || step.during_size() == 0, path + ".during",
+                          "during goes with home, run and move; make it a step of its own");
+        problems_.require(is_job || !step.has_ends(), path + ".ends", "ends goes with home, run and move");
+        problems_.require(!step.has_act() || !step.has_fault(), path + ".fault", "fault goes with jobs and wait");
         if (step.has_fault()) { require_fault(path + ".fault", step.fault()); }
         for (int i = 0; i < step.during_size(); ++i) { check_during(step, i, path + "." + nth("during", i)); }
     }
@@ -92,54 +91,54 @@ private:
     /// From where a homed machine stands: a program is read again from where it stands then.
     void check_run(const Asked::Run& run, const std::string& path) {
         if (run.has_file() == run.has_gcode()) {
-            return complaints_.add(path, "a run is of one program; say file: \"FILE\" or gcode: \"G1 X10 F600\"");
+            return problems_.add(path, "a run is of one program; say file: \"FILE\" or gcode: \"G1 X10 F600\"");
         }
         const auto program = program_of(run, scenario_.folder(), machine_, parked_mm(machine_));
         if (program) { return; }
         const std::string key = run.has_file() ? ".file" : ".gcode";
         const std::string name = run.has_file() ? (scenario_.folder() / run.file()).string() : "gcode";
-        for (const Diagnostic& error : program.error()) { complaints_.add(path + key, to_text(name, error)); }
+        for (const Diagnostic& error : program.error()) { problems_.add(path + key, to_text(name, error)); }
     }
 
     void check_move(const Asked::Move& move, const std::string& path) {
-        if (move.to().empty()) { return complaints_.add(path, "a move goes somewhere; say to: \"X=10\""); }
+        if (move.to().empty()) { return problems_.add(path, "a move goes somewhere; say to: \"X=10\""); }
         MoveOptions options{.targets = {move.to().begin(), move.to().end()}};
         if (move.has_feed_mm_min()) { options.feed_mm_min = move.feed_mm_min(); }
         const auto program = move_program(machine_, parked_mm(machine_), options);
-        if (!program) { complaints_.add(path + ".to[0]", program.error()); }
+        if (!program) { problems_.add(path + ".to[0]", program.error()); }
     }
 
     void check_wait(const Asked::Wait& wait, const std::string& path) {
-        complaints_.require(wait.has_seconds() != wait.has_phase(), path,
-                            "a wait is for one thing; say seconds: 0.5 or phase: IDLE");
-        if (wait.has_seconds()) { complaints_.require_range(path, "seconds", wait.seconds(), 0, kMostSeconds); }
+        problems_.require(wait.has_seconds() != wait.has_phase(), path,
+                          "a wait is for one thing; say seconds: 0.5 or phase: IDLE");
+        if (wait.has_seconds()) { problems_.require_range(path, "seconds", wait.seconds(), 0, kMostSeconds); }
     }
 
     void check_during(const Asked::Step& step, int index, const std::string& path) {
         const Asked::During& during = step.during(index);
-        complaints_.require(during.has_act(), path, "nothing befalls the machine here; say act { kill: \"axis-X\" }");
-        complaints_.require(!during.has_line() || step.has_run(), path + ".line",
-                            "only a run has lines; say another event, or after_s alone");
-        complaints_.require(!during.has_line() || during.line() >= 1, path + ".line",
-                            "line is " + std::to_string(during.line()) + "; lines are counted from 1");
+        problems_.require(during.has_act(), path, "nothing befalls the machine here; say act { kill: \"axis-X\" }");
+        problems_.require(!during.has_line() || step.has_run(), path + ".line",
+                          "only a run has lines; say another event, or after_s alone");
+        problems_.require(!during.has_line() || during.line() >= 1, path + ".line",
+                          "line is " + std::to_string(during.line()) + "; lines are counted from 1");
         if (during.has_passes()) { require_place(during.passes(), path + ".passes"); }
-        if (during.has_after_s()) { complaints_.require_range(path, "after_s", during.after_s(), 0, kMostSeconds); }
+        if (during.has_after_s()) { problems_.require_range(path, "after_s", during.after_s(), 0, kMostSeconds); }
         if (during.has_rests_within_frames()) {
-            complaints_.require_range(path, "rests_within_frames", during.rests_within_frames(), 1, kMostFrames);
+            problems_.require_range(path, "rests_within_frames", during.rests_within_frames(), 1, kMostFrames);
         }
-        if (during.has_act()) { check_act(during.act(), path + ".act", asked_, processes_, complaints_); }
+        if (during.has_act()) { check_act(during.act(), path + ".act", asked_, processes_, problems_); }
     }
 
     void check_expectations(const Asked::Expect& expect) {
         const std::string path = "expect";
         for (int i = 0; i < expect.final_size(); ++i) { check_final(expect.final(i), path + "." + nth("final", i)); }
-        complaints_.require(!expect.has_path_within_mm() || expect.path_within_mm() > 0, "expect.path_within_mm",
-                            "path_within_mm is " + number_text(expect.path_within_mm()) +
-                                "; it is above 0: a step, 1 / steps_per_mm, is the least that can be held");
-        complaints_.require(expect.interruptions() >= 0, "expect.interruptions",
-                            "interruptions is " + std::to_string(expect.interruptions()) + "; it is at least 0");
-        complaints_.require(expect.together_size() != 1, "expect.together[0]",
-                            "one axis is not together with another; name two at least");
+        problems_.require(!expect.has_path_within_mm() || expect.path_within_mm() > 0, "expect.path_within_mm",
+                          "path_within_mm is " + number_text(expect.path_within_mm()) +
+                              "; it is above 0: a step, 1 / steps_per_mm, is the least that can be held");
+        problems_.require(expect.interruptions() >= 0, "expect.interruptions",
+                          "interruptions is " + std::to_string(expect.interruptions()) + "; it is at least 0");
+        problems_.require(expect.together_size() != 1, "expect.together[0]",
+                          "one axis is not together with another; name two at least");
         for (int i = 0; i < expect.together_size(); ++i) {
             require_axis(nth("expect.together", i), expect.together(i));
         }
@@ -159,7 +158,7 @@ private:
         target.set_axis(end.axis());
         if (end.has_mm()) { target.set_mm(end.mm()); }
         require_place(target, path);
-        complaints_.require(
+        problems_.require(
             !end.has_within_mm() || end.within_mm() > 0, path + ".within_mm",
             "within_mm is " + number_text(end.within_mm()) + "; it is above 0: leave it out to be exact to the step");
     }
@@ -169,30 +168,30 @@ private:
         for (int i = 0; i <= static_cast<int>(incident::CauseKind::Unknown); ++i) {
             kinds.emplace_back(name_of(static_cast<incident::CauseKind>(i)));
         }
-        complaints_.require_one_of("expect.cause.kind", cause.kind(), kinds, "cause");
+        problems_.require_one_of("expect.cause.kind", cause.kind(), kinds, "cause");
         if (cause.has_process()) {
-            complaints_.require_one_of("expect.cause.process", cause.process(), processes_, "process");
+            problems_.require_one_of("expect.cause.process", cause.process(), processes_, "process");
         }
     }
 
     void require_axis(const std::string& path, const std::string& name) {
-        complaints_.require_one_of(path, name, axes_, "axis");
+        problems_.require_one_of(path, name, axes_, "axis");
     }
 
     void require_place(const Asked::Target& target, const std::string& path) {
         require_axis(path + ".axis", target.axis());
         const auto axis = std::ranges::find(machine_.axes, target.axis(), &AxisConfig::name);
         if (axis == machine_.axes.end()) { return; }
-        complaints_.require(target.has_mm(), path, "no mm: say the place, in machine coordinates");
+        problems_.require(target.has_mm(), path, "no mm: say the place, in machine coordinates");
         if (target.has_mm()) {
-            complaints_.require_range(path, "mm", target.mm(), axis->position_min_mm, axis->position_max_mm);
+            problems_.require_range(path, "mm", target.mm(), axis->position_min_mm, axis->position_max_mm);
         }
     }
 
     void require_fault(const std::string& path, const std::string& name, bool may_be_none = false) {
         const bool is_one = find_fault(name) != nullptr || (may_be_none && name == "none");
-        complaints_.require(
-            is_one, path, "there is no fault '" + name + "'; say its name as lockstep status does, such as axis-lost");
+        problems_.require(is_one, path,
+                          "there is no fault '" + name + "'; say its name as lockstep status does, such as axis-lost");
     }
 
     const Scenario& scenario_;
@@ -200,7 +199,7 @@ private:
     const MachineConfig& machine_;
     std::vector<std::string> processes_;
     std::vector<std::string> axes_;
-    Complaints complaints_;
+    Problems problems_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a scenario must satisfy before it is played: what is named is there, numbers are within their limits, nothing
+// The rules that a scenario must satisfy before it runs: every name exists, numbers are within their limits, nothing
 // contradicts itself.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace lockstep::scenario {
 
-/// In the order of the text; each names the value, the limit and the remedy. Empty: it can be played.
+/// In the order of the text; each names the value, the limit and the remedy. Empty: it can run.
 Diagnostics rule_errors(const Scenario& scenario, const TextSource& source);
 
 }  // namespace lockstep::scenario

@@ -59,7 +59,7 @@ std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const
     if (place) { scenario.asked.set_place(*place); }
     auto machine = machine_of(scenario.asked, source, file.parent_path());
     if (!machine) { return std::unexpected(machine.error()); }
-    scenario.machine = staged(*std::move(machine), scenario.asked.place());
+    scenario.machine = isolated(*std::move(machine), scenario.asked.place());
     if (Diagnostics errors = rule_errors(scenario, source); !errors.empty()) { return std::unexpected(errors); }
     return scenario;
 }
@@ -92,7 +92,7 @@ std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const fs::
     return std::unexpected(errors);
 }
 
-MachineConfig staged(MachineConfig machine, Asked::Place place) {
+MachineConfig isolated(MachineConfig machine, Asked::Place place) {
     const bool linked = has_links(place);
     machine.network = {.interface = linked ? "eth0" : "lo",
                        .lcm_url = kLcmGroup + std::string(linked ? "1" : "0"),

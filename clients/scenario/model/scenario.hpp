@@ -1,4 +1,4 @@
-// A scenario as it was read: what is asked (idl/proto/scenario.proto), and the machine that is to do it.
+// A scenario as read from its file: what is asked (idl/proto/scenario.proto), and the machine that does it.
 #pragma once
 
 #include <expected>
@@ -44,7 +44,7 @@ std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& m
 std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
                                                const MachineConfig& machine, const std::vector<double>& start_mm);
 
-/// The machine of a scenario is whole on this host, apart from all others, and keeps its record where it is told to.
-MachineConfig staged(MachineConfig machine, Asked::Place place);
+/// The machine with all its parts on this host, on a network of its own, with records in the scenario's directory.
+MachineConfig isolated(MachineConfig machine, Asked::Place place);
 
 }  // namespace lockstep::scenario

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "clients/scenario/runner/control_groups.hpp"
-#include "clients/scenario/runner/world.hpp"
+#include "clients/scenario/runner/sandbox.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kImages = "store {{.Store.GraphDriverName}} {{.Store.GraphRoot}}";
 constexpr const char* kBuild = "podman build -t lockstep -f deploy/Dockerfile .";
 
-// Nothing that podman writes is the host's; a container's user has no rights.
+// Podman writes nothing on the host; a container's user has no rights.
 constexpr const char* kPodman =
     "podman --root /dev/shm/podman --runroot /run/podman --cgroup-manager cgroupfs --events-backend none";
 constexpr const char* kRun =
@@ -22,33 +22,35 @@ constexpr const char* kRun =
 }  // namespace
 
 std::expected<Containers, std::string> Containers::of(const std::string& image) {
-    const auto said = said_by_program({"podman", "info", "--format", kImages});
-    if (!said) { return std::unexpected("no container can be run: " + said.error()); }
-    if (!said_by_program({"podman", "image", "exists", image})) {
+    const auto output = output_of_program({"podman", "info", "--format", kImages});
+    if (!output) { return std::unexpected("no container can be run: " + output.error()); }
+    if (!output_of_program({"podman", "image", "exists", image})) {
         return std::unexpected("podman has no image " + image + "; build it: " + kBuild + ", or name one by --image");
     }
     Containers containers;
     containers.image_ = image;
     containers.group_ = own_control_group();
-    std::istringstream found(said->substr(std::min(said->find("store "), said->size())));
+    std::istringstream found(output->substr(std::min(output->find("store "), output->size())));
     std::string store;
     found >> store >> containers.driver_ >> containers.store_;
-    if (containers.store_.empty()) { return std::unexpected("podman does not tell where its images are: " + *said); }
+    if (containers.store_.empty()) {
+        return std::unexpected("podman does not report where its images are: " + *output);
+    }
     return containers;
 }
 
-Words Containers::entry(const std::string& process, const std::string& network) const {
+CommandLine Containers::entry(const std::string& process, const std::string& network) const {
     const std::string joins = network.empty() ? "none" : "ns:/run/netns/" + network;
-    const std::string number = numbers() / (process + ".pid");
-    const std::string state = world_folder() / "state";
-    Words line = words_of(kPodman);
+    const std::string pid_file = pid_folder() / (process + ".pid");
+    const std::string state = sandbox_folder() / "state";
+    CommandLine line = split_words(kPodman);
     line.insert(line.end(), {"--storage-driver", driver_, "--storage-opt", "additionalimagestore=" + store_});
-    for (const std::string& word : words_of(kRun)) { line.push_back(word); }
-    line.insert(line.end(), {"--cgroup-parent", "/" + group_, "--name", process, "--pidfile", number, "--network",
+    for (const std::string& word : split_words(kRun)) { line.push_back(word); }
+    line.insert(line.end(), {"--cgroup-parent", "/" + group_, "--name", process, "--pidfile", pid_file, "--network",
                              joins, "--env", "LOCKSTEP_STATE=" + state, image_});
     return line;
 }
 
-std::filesystem::path Containers::numbers() { return "/run"; }
+std::filesystem::path Containers::pid_folder() { return "/run"; }
 
 }  // namespace lockstep::scenario

@@ -1,25 +1,25 @@
-// A container for each process of a scenario: podman runs the image that deploy/Dockerfile builds, on the network that
-// the stage makes. The image is read where the host keeps it; all that podman writes is the world's, and gone with it.
+// A container for each process of a scenario: podman runs the image that deploy/Dockerfile builds, on the network of
+// the sandbox. The image is read where the host keeps it; all that podman writes is in the sandbox and removed with it.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "clients/scenario/runner/child.hpp"
+#include "clients/scenario/runner/child_process.hpp"
 
 namespace lockstep::scenario {
 
 class Containers {
 public:
-    /// Call it outside of any world. Error: podman or the image is not there, and the remedy.
+    /// Call it outside of any sandbox. Error: podman or the image is missing, and the remedy.
     static std::expected<Containers, std::string> of(const std::string& image);
 
-    /// What a process's command line begins with, in a world; `network`: the name of its own, empty: none. It can
-    /// write to memory alone, which all share: state, notes, devices' windows.
-    Words entry(const std::string& process, const std::string& network) const;
+    /// The prefix of a process's command line in a sandbox; `network`: the name of its own network, empty: none. The
+    /// process can write only to memory that all share: state, flight recorders, device windows.
+    CommandLine entry(const std::string& process, const std::string& network) const;
 
-    /// The directory in which the processes' numbers are, NAME.pid: what is started is podman, which waits for them.
-    static std::filesystem::path numbers();
+    /// The directory of the process ids, NAME.pid: the started program is podman, which waits for the process.
+    static std::filesystem::path pid_folder();
 
 private:
     Containers() = default;

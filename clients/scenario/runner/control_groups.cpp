@@ -45,7 +45,7 @@ std::vector<fs::path> groups_left() {
     return left;
 }
 
-/// The kernel refuses to remove one that something is in.
+/// The kernel refuses to remove a group that is not empty.
 void remove_group(const fs::path& group) {
     for (const fs::path& inner : folders_in(group)) { remove_group(inner); }
     rmdir(group.c_str());
@@ -56,7 +56,7 @@ void remove_group(const fs::path& group) {
 std::string own_control_group() { return std::string(kName) + std::to_string(getpid()); }
 
 void remove_control_groups() {
-    constexpr int kTries = 100;  // who was killed takes a moment to be gone
+    constexpr int kTries = 100;  // a killed process takes a moment to end
     for (int tries = 0; tries < kTries; ++tries) {
         const auto left = groups_left();
         if (left.empty()) { return; }

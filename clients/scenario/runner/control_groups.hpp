@@ -1,14 +1,14 @@
-// The control groups in which this process's containers are: the kernel keeps them when a world is gone.
+// The control groups of this process's containers: the kernel keeps them after a sandbox has ended.
 #pragma once
 
 #include <string>
 
 namespace lockstep::scenario {
 
-/// By the number of this process, which is outside of any world.
+/// Named by the id of this process, which is outside of any sandbox.
 std::string own_control_group();
 
-/// Takes away this process's, and those of processes that are no more, once nothing is in them.
+/// Removes those of this process and of processes that have ended, once they are empty.
 void remove_control_groups();
 
 }  // namespace lockstep::scenario

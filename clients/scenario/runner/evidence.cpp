@@ -6,7 +6,7 @@
 #include "clients/incident/incident_input.hpp"
 #include "clients/merge/named_logs.hpp"
 #include "clients/merge/report.hpp"
-#include "clients/scenario/model/judgement.hpp"
+#include "clients/scenario/model/evaluation.hpp"
 #include "clients/verification/verification.hpp"
 #include "services/files/directories.hpp"
 #include "services/flight/incident_file.hpp"
@@ -35,21 +35,21 @@ std::string name_of_peer(const incident::Incident& incident, const FlightPeer& p
     return peer.kind == FlightPeer::Kind::Axis ? "axis-" + incident.machine.axes[peer.axis].name : "coordinator";
 }
 
-/// Wishes and faults are vetoed, too: those do not count.
-bool is_for_want(const FlightEvent& event) {
+/// An axis also vetoes because of a fault or a stop of its own: those do not count.
+bool lacks_something(const FlightEvent& event) {
     return event.kind == FlightKind::Vetoed && event.detail != static_cast<std::uint8_t>(VetoReason::Own);
 }
 
-void read_notes(const MachineConfig& machine, Evidence& evidence) {
+void read_incident_files(const MachineConfig& machine, Evidence& evidence) {
     const auto input = read_incidents({incident_directory(machine)});
-    if (!input) { return; }  // nobody noted any
+    if (!input) { return; }  // no process wrote any
     for (const incident::Incident& incident : input->incidents) {
         const incident::Cause cause = incident::judge(incident).cause;
         evidence.causes.push_back(
             {std::string(name_of(cause.kind)), cause.who ? name_of_peer(incident, *cause.who) : "", cause.text});
         for (const incident::Entry& entry : incident.timeline) {
             const FlightPeer& who = incident.processes[entry.process].who;
-            if (is_for_want(entry.event) && who.kind == FlightPeer::Kind::Axis) {
+            if (lacks_something(entry.event) && who.kind == FlightPeer::Kind::Axis) {
                 evidence.vetoed_by.insert(incident.machine.axes[who.axis].name);
             }
         }
@@ -73,7 +73,7 @@ Evidence read_evidence(const MachineConfig& machine, const fs::path& folder) {
         evidence.analysis = std::unexpected(found.error());
     }
     if (auto facts = record_facts(whole)) { evidence.record = *std::move(facts); }
-    read_notes(machine, evidence);
+    read_incident_files(machine, evidence);
     return evidence;
 }
 

@@ -1,4 +1,4 @@
-// What is left of a machine that was played with, read: its record, whole, and its processes' notes.
+// Reads what a scenario's machine leaves: its merged record and its incident files.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace lockstep::scenario {
 
-/// `folder`: of the logs, with run.lcm of lcm-logger; the whole log is written into it.
+/// `folder`: of the logs, with run.lcm of lcm-logger; the merged log is written into it.
 Evidence read_evidence(const MachineConfig& machine, const std::filesystem::path& folder);
 
 }  // namespace lockstep::scenario

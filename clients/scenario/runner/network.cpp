@@ -10,7 +10,7 @@ constexpr const char* kMtu = "65535";    // no datagram in pieces: a firewall kn
 constexpr const char* kRecordPort = "7667";
 constexpr const char* kMulticast = "224.0.0.0/4";
 
-Words joined(Words first, const Words& second) {
+CommandLine joined(CommandLine first, const CommandLine& second) {
     first.insert(first.end(), second.begin(), second.end());
     return first;
 }
@@ -22,7 +22,7 @@ std::expected<Network, std::string> Network::make(Asked::Place place, const std:
     Network network(log);
     if (const auto made = network.make_loopback(); !made) { return std::unexpected(made.error()); }
     if (!has_links(place)) {
-        const auto routed = network.run_all({words_of(std::string("ip route add ") + kMulticast + " dev lo")});
+        const auto routed = network.run_all({split_words(std::string("ip route add ") + kMulticast + " dev lo")});
         if (!routed) { return std::unexpected(routed.error()); }
         return network;
     }
@@ -36,15 +36,15 @@ std::expected<Network, std::string> Network::make(Asked::Place place, const std:
 }
 
 std::expected<void, std::string> Network::make_loopback() {
-    return run_all({words_of("ip link set lo up multicast on")});
+    return run_all({split_words("ip link set lo up multicast on")});
 }
 
 std::expected<void, std::string> Network::make_bridge() {
     const std::string bridge = kBridge;
-    return run_all({words_of("ip link add " + bridge + " type bridge mcast_snooping 0"),
-                    words_of("ip link set " + bridge + " mtu " + kMtu + " up"),
-                    words_of("ip addr add 10.9.0.1/24 dev " + bridge),
-                    words_of(std::string("ip route add ") + kMulticast + " dev " + bridge)});
+    return run_all({split_words("ip link add " + bridge + " type bridge mcast_snooping 0"),
+                    split_words("ip link set " + bridge + " mtu " + kMtu + " up"),
+                    split_words("ip addr add 10.9.0.1/24 dev " + bridge),
+                    split_words(std::string("ip route add ") + kMulticast + " dev " + bridge)});
 }
 
 std::expected<void, std::string> Network::add(const std::string& process, int number) {
@@ -52,16 +52,16 @@ std::expected<void, std::string> Network::add(const std::string& process, int nu
     const std::string link = "to-" + std::to_string(number);
     const std::string on = "ip -n " + process + " ";
     namespaces_[process] = process;
-    return run_all({words_of("ip netns add " + process),
-                    words_of("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
-                    words_of("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
-                    words_of(on + "link set lo up"), words_of(on + "link set " + bridge + " mtu " + kMtu + " up"),
-                    words_of(on + "addr add 10.9.0." + std::to_string(number) + "/24 dev " + bridge),
-                    words_of(on + "route add " + kMulticast + " dev " + bridge)});
+    return run_all({split_words("ip netns add " + process),
+                    split_words("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
+                    split_words("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
+                    split_words(on + "link set lo up"), split_words(on + "link set " + bridge + " mtu " + kMtu + " up"),
+                    split_words(on + "addr add 10.9.0." + std::to_string(number) + "/24 dev " + bridge),
+                    split_words(on + "route add " + kMulticast + " dev " + bridge)});
 }
 
-std::expected<void, std::string> Network::run_all(const std::vector<Words>& commands) const {
-    for (const Words& command : commands) {
+std::expected<void, std::string> Network::run_all(const std::vector<CommandLine>& commands) const {
+    for (const CommandLine& command : commands) {
         if (const auto ran = run_program(command, log_); !ran) { return ran; }
     }
     return {};
@@ -72,7 +72,7 @@ std::string Network::namespace_of(const std::string& process) const {
     return found == namespaces_.end() ? "" : found->second;
 }
 
-Words Network::entry(const std::string& process) const {
+CommandLine Network::entry(const std::string& process) const {
     const std::string name = namespace_of(process);
     if (name.empty()) { return {}; }
     return {"nsenter", "--net=/run/netns/" + name};
@@ -81,18 +81,19 @@ Words Network::entry(const std::string& process) const {
 std::expected<void, std::string> Network::lose(const std::string& process, double percent, Asked::Way way) {
     const bool all = percent >= 100;
     const std::string chance = all ? "" : " -m statistic --mode random --probability " + number_text(percent / 100);
-    std::vector<Words> commands;
-    for (const bool hears : {true, false}) {
-        if (way == (hears ? Asked::SAYS : Asked::HEARS)) { continue; }
-        const std::string chain = hears ? "INPUT -i " : "OUTPUT -o ";
-        commands.push_back(joined(entry(process), words_of("iptables -w -A " + chain + kBridge + " -p udp ! --dport " +
-                                                           kRecordPort + chance + " -j DROP")));
+    std::vector<CommandLine> commands;
+    for (const bool inbound : {true, false}) {
+        if (way == (inbound ? Asked::SAYS : Asked::HEARS)) { continue; }
+        const std::string chain = inbound ? "INPUT -i " : "OUTPUT -o ";
+        commands.push_back(
+            joined(entry(process), split_words("iptables -w -A " + chain + kBridge + " -p udp ! --dport " +
+                                               kRecordPort + chance + " -j DROP")));
     }
     return run_all(commands);
 }
 
 std::expected<void, std::string> Network::heal(const std::string& process) {
-    return run_all({joined(entry(process), words_of("iptables -w -F"))});
+    return run_all({joined(entry(process), split_words("iptables -w -F"))});
 }
 
 std::expected<void, std::string> Network::heal_all() {

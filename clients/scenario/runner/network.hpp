@@ -1,4 +1,4 @@
-// The network of a world: one for all processes, or one for each, joined by a bridge, with links that can be cut.
+// The network of a sandbox: one for all processes, or one for each, joined by a bridge, with links that can be cut.
 #pragma once
 
 #include <expected>
@@ -8,22 +8,22 @@
 #include <vector>
 
 #include "clients/scenario/model/scenario.hpp"
-#include "clients/scenario/runner/child.hpp"
+#include "clients/scenario/runner/child_process.hpp"
 
 namespace lockstep::scenario {
 
 class Network {
 public:
-    /// Of the world that calls. `log`: of the programs that make it. Error: what failed.
+    /// In the sandbox of the caller. `log`: for the output of the programs that make it. Error: what failed.
     static std::expected<Network, std::string> make(Asked::Place place, const std::vector<std::string>& processes,
                                                     const std::filesystem::path& log);
 
     /// The name of a process's own network; empty: it has none.
     std::string namespace_of(const std::string& process) const;
-    /// What a process's command line begins with, so that it runs where it belongs.
-    Words entry(const std::string& process) const;
+    /// The prefix of a process's command line that runs it in its own network.
+    CommandLine entry(const std::string& process) const;
 
-    /// Loses so many of the packets, but those of the record, until it is healed. Error: what failed.
+    /// Drops this share of the packets, except those of the record, until heal(). Error: what failed.
     std::expected<void, std::string> lose(const std::string& process, double percent, Asked::Way way);
     std::expected<void, std::string> heal(const std::string& process);
     std::expected<void, std::string> heal_all();
@@ -36,7 +36,7 @@ private:
     std::expected<void, std::string> make_loopback();
     std::expected<void, std::string> make_bridge();
     std::expected<void, std::string> add(const std::string& process, int number);
-    std::expected<void, std::string> run_all(const std::vector<Words>& commands) const;
+    std::expected<void, std::string> run_all(const std::vector<CommandLine>& commands) const;
 
     std::filesystem::path log_;
     std::map<std::string, std::string> namespaces_;  // of processes

@@ -1,9 +1,9 @@
-// Scenarios are read whole or refused with the place, the value, the limit and the remedy.
+// A scenario is accepted whole, or refused with place, value, limit and remedy.
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "clients/scenario/model/words.hpp"
+#include "clients/scenario/model/scenario_text.hpp"
 #include "tests/unit/scenario/scenario_text.hpp"
 
 namespace lockstep::scenario {
@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(ScenarioReading, TakesWhatIsRight) {
+TEST(ScenarioReading, AcceptsValidScenario) {
     const Scenario scenario = parsed(
         whole("step { run { gcode: \"G21 G90\\nG1 X10 Y5 F600\" }\n"
               "  during { line: 2 after_s: 0.2 act { pause: \"axis-Y\" for_s: 0.04 } rests_within_frames: 5 } }\n"
@@ -24,7 +24,7 @@ TEST(ScenarioReading, TakesWhatIsRight) {
               (std::vector<std::string>{"coordinator", "axis-X", "axis-Y"}));
 }
 
-TEST(ScenarioReading, EveryScenarioThatShipsCanBePlayedAndSaysWhatItWouldDo) {
+TEST(ScenarioReading, AcceptsAndOutlinesEveryInstalledScenario) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(LOCKSTEP_SCENARIOS)) {
         if (entry.path().extension() != ".textproto") { continue; }
@@ -36,22 +36,22 @@ TEST(ScenarioReading, EveryScenarioThatShipsCanBePlayedAndSaysWhatItWouldDo) {
     EXPECT_GE(count, 12);
 }
 
-TEST(ScenarioReading, TheMachineOfAScenarioIsApartFromAllOthers) {
+TEST(ScenarioReading, GivesTheMachineANetworkOfItsOwn) {
     const Scenario scenario = parsed(whole("place: NAMESPACE"));
     EXPECT_EQ(scenario.machine.network.interface, "eth0");
     EXPECT_THAT(scenario.machine.network.lcm_url, HasSubstr("ttl=1"));
     EXPECT_EQ(parsed(whole("")).machine.network.interface, "lo");
 }
 
-TEST(ScenarioReading, MemoryIsSharedOnlyWhereThereAreNoLinks) {
+TEST(ScenarioReading, SharesMemoryOnlyWithoutLinks) {
     MachineConfig machine;
     machine.network.one_host = true;
-    EXPECT_TRUE(staged(machine, Asked::PROCESS).network.one_host);
-    EXPECT_FALSE(staged(machine, Asked::NAMESPACE).network.one_host);
-    EXPECT_FALSE(staged(machine, Asked::CONTAINER).network.one_host);
+    EXPECT_TRUE(isolated(machine, Asked::PROCESS).network.one_host);
+    EXPECT_FALSE(isolated(machine, Asked::NAMESPACE).network.one_host);
+    EXPECT_FALSE(isolated(machine, Asked::CONTAINER).network.one_host);
 }
 
-TEST(ScenarioReading, APlaceThatIsNamedTakesThePlaceOfTheScenarios) {
+TEST(ScenarioReading, OptionOverridesPlaceOfTheScenario) {
     const std::string cut = whole("step { act { cut { process: \"axis-X\" } } }");
     EXPECT_FALSE(parse_scenario(cut, "here.textproto")) << "on one host there are no links";
     const auto scenario = parse_scenario(cut, "here.textproto", Asked::CONTAINER);
@@ -63,15 +63,15 @@ TEST(ScenarioReading, APlaceThatIsNamedTakesThePlaceOfTheScenarios) {
 struct Bad {
     const char* name;
     std::string text;
-    std::vector<const char*> says;
+    std::vector<const char*> texts;
 };
 
 class BadScenario : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadScenario, IsRefusedWithPlaceValueLimitAndRemedy) {
     const std::string errors = errors_of(GetParam().text);
-    ASSERT_FALSE(errors.empty()) << "it was taken";
-    for (const char* part : GetParam().says) { EXPECT_THAT(errors, HasSubstr(part)); }
+    ASSERT_FALSE(errors.empty()) << "it was accepted";
+    for (const char* part : GetParam().texts) { EXPECT_THAT(errors, HasSubstr(part)); }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,4 +1,4 @@
-// Scenarios as tests write them: a machine of two axes, and what is to be said of it.
+// Scenarios for tests: a machine of two axes, and the text that follows it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ inline const std::string kMachine =
     "  axis { name: \"Y\" steps_per_mm: 80 start_velocity_mm_s: 10 max_velocity_mm_s: 100 max_accel_mm_s2: 1000\n"
     "    position_min_mm: 0 position_max_mm: 100 } }\n";
 
-/// What is said comes on line 6 and on.
+/// `text` begins on line 6.
 inline std::string with_machine(const std::string& text) { return kMachine + text; }
 
-/// One that is right, but for what `text` adds: a step that homes, and what it shows.
+/// A valid scenario with a homing step, followed by `text`.
 inline std::string whole(const std::string& text) {
     return with_machine("shows: \"something\"\nstep { home {} }\n" + text);
 }

@@ -10,7 +10,7 @@ constexpr Term kLater{2000, 950};
 
 JobVerdict verdict(std::uint64_t job, std::optional<JobOutcome> outcome, const Term& term = kAsked,
                    const Term& begun = kAsked) {
-    return judge({.term = term, .job = job, .outcome = outcome, .job_begun = begun}, 5, kAsked, kAsked);
+    return verdict_of({.term = term, .job = job, .outcome = outcome, .job_begun = begun}, 5, kAsked, kAsked);
 }
 
 TEST(JobVerdict, IsWhatTheCoordinatorSaysOfThatJob) {
@@ -33,7 +33,7 @@ TEST(JobVerdict, IsOpenWhileAnotherOwnerGoesOnWithIt) {
     EXPECT_EQ(verdict(5, std::nullopt, kLater), JobVerdict::InProgress);
     EXPECT_EQ(verdict(5, std::nullopt, kLater, kLater), JobVerdict::Lost) << "a job of its own, of the same number";
     const MachineState stopped{.term = kLater, .job = 5, .outcome = JobOutcome::Stopped, .job_begun = kAsked};
-    EXPECT_EQ(judge(stopped, 5, kAsked, kLater), JobVerdict::Stopped) << "by somebody, after it had gone on";
+    EXPECT_EQ(verdict_of(stopped, 5, kAsked, kLater), JobVerdict::Stopped) << "by somebody, after it had gone on";
 }
 
 TEST(JobVerdict, IsCutShortWhereAStandbyTookOver) {

@@ -1,4 +1,4 @@
-#include "clients/scenario/runner/child.hpp"
+#include "clients/scenario/runner/child_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -15,12 +15,12 @@
 
 namespace lockstep::scenario {
 
-Words words_of(const std::string& text) {
+CommandLine split_words(const std::string& text) {
     std::istringstream stream(text);
     return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
 }
 
-std::expected<pid_t, std::string> start_program(const Words& words, const std::filesystem::path& log) {
+std::expected<pid_t, std::string> start_program(const CommandLine& words, const std::filesystem::path& log) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -37,7 +37,7 @@ std::expected<pid_t, std::string> start_program(const Words& words, const std::f
                            "; is it installed? deploy/install-dependencies installs what is needed");
 }
 
-std::expected<void, std::string> run_program(const Words& words, const std::filesystem::path& log) {
+std::expected<void, std::string> run_program(const CommandLine& words, const std::filesystem::path& log) {
     const auto pid = start_program(words, log);
     if (!pid) { return std::unexpected(pid.error()); }
     int status = 0;
@@ -45,18 +45,18 @@ std::expected<void, std::string> run_program(const Words& words, const std::file
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) { return {}; }
     std::string text;
     for (const std::string& word : words) { text += (text.empty() ? "" : " ") + word; }
-    return std::unexpected(text + ": failed, and said:\n" + tail_of(log, 3));
+    return std::unexpected(text + ": failed; its output:\n" + tail_of(log, 3));
 }
 
-std::expected<std::string, std::string> said_by_program(const Words& words) {
-    const int memory = memfd_create("said", MFD_CLOEXEC);
+std::expected<std::string, std::string> output_of_program(const CommandLine& words) {
+    const int memory = memfd_create("output", MFD_CLOEXEC);
     const std::filesystem::path log = "/proc/self/fd/" + std::to_string(memory);
     const auto ran = run_program(words, log);
     std::ifstream file(log);
-    const std::string said{std::istreambuf_iterator<char>(file), {}};
+    const std::string output{std::istreambuf_iterator<char>(file), {}};
     close(memory);
     if (!ran) { return std::unexpected(ran.error()); }
-    return said;
+    return output;
 }
 
 }  // namespace lockstep::scenario

@@ -1,4 +1,4 @@
-// When what is to befall a machine during a job is due, by what the machine says of itself. Pure.
+// When the scripted events of a job are due, decided from the states that the machine publishes. Pure.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace lockstep::scenario {
 
-/// What is known of the machine at one time.
+/// The state of the machine at one time.
 struct Moment {
     double since_begun_s = 0;  // of the job
     MachinePhase phase = MachinePhase::Waiting;
     std::int32_t line = 0;                     // of the G-code in motion
-    std::vector<std::optional<double>> at_mm;  // of each axis; nothing: not heard
+    std::vector<std::optional<double>> at_mm;  // of each axis; nothing: no state received
 };
 
-class Course {
+class EventSchedule {
 public:
     /// `axes`: the names of those in Moment::at_mm. `step` outlives this.
-    Course(const Asked::Step& step, std::vector<std::string> axes) : step_(step), axes_(std::move(axes)) {}
+    EventSchedule(const Asked::Step& step, std::vector<std::string> axes) : step_(step), axes_(std::move(axes)) {}
 
     /// The next that is due now; null: none is, yet. Call it until it is null.
     const Asked::During* next(const Moment& now);
 
-    /// How many have come to pass.
+    /// How many have been due.
     int done() const { return done_; }
 
 private:

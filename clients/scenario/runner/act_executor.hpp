@@ -1,5 +1,5 @@
-// Does what a scenario's acts say: to processes, to the network, or by a command to the machine; and undoes what was to
-// last for a time.
+// Executes the acts of a scenario on processes, on the network, or by commands to the machine, and undoes those that
+// last for a given time.
 #pragma once
 
 #include <chrono>
@@ -8,20 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "clients/scenario/runner/cast.hpp"
 #include "clients/scenario/runner/network.hpp"
+#include "clients/scenario/runner/process_set.hpp"
 #include "clients/session/session.hpp"
 
 namespace lockstep::scenario {
 
-class Acts {
+class ActExecutor {
 public:
-    Acts(Cast& cast, Network& network, Session& session) : cast_(cast), network_(network), session_(session) {}
+    ActExecutor(ProcessSet& processes, Network& network, Session& session)
+        : processes_(processes), network_(network), session_(session) {}
 
     /// Error: why it could not be done, or the machine's refusal.
-    std::expected<void, std::string> act(const Asked::Act& act);
+    std::expected<void, std::string> execute(const Asked::Act& act);
 
-    /// What is due to be undone now, if anything is; it is taken from the list. Call it until it gives none.
+    /// The next act that undoes an earlier one and is due now; it is removed. Call it until it returns nothing.
     std::optional<Asked::Act> take_due();
     bool has_more_to_undo() const { return !undoing_.empty(); }
 
@@ -31,14 +32,14 @@ private:
         Asked::Act act;
     };
 
-    std::expected<void, std::string> do_it(const Asked::Act& act);
+    std::expected<void, std::string> apply(const Asked::Act& act);
     std::expected<void, std::string> lose(const Asked::Loss& loss);
     std::expected<void, std::string> command(Asked::Command word);
     std::expected<void, std::string> reset();
     std::expected<void, std::string> stop_at_once();
     std::expected<void, std::string> ask(const Command& command);
 
-    Cast& cast_;
+    ProcessSet& processes_;
     Network& network_;
     Session& session_;
     std::vector<Undo> undoing_;

@@ -1,13 +1,13 @@
-#include "clients/scenario/model/course.hpp"
+#include "clients/scenario/model/event_schedule.hpp"
 
 #include <algorithm>
 
-#include "clients/scenario/model/words.hpp"
+#include "clients/scenario/model/scenario_text.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep::scenario {
 
-const Asked::During* Course::next(const Moment& now) {
+const Asked::During* EventSchedule::next(const Moment& now) {
     if (done_ == step_.during_size()) { return nullptr; }
     const Asked::During& during = step_.during(done_);
     if (!event_at_s_ && has_happened(during, now)) {
@@ -21,7 +21,7 @@ const Asked::During* Course::next(const Moment& now) {
     return &during;
 }
 
-bool Course::has_happened(const Asked::During& during, const Moment& now) const {
+bool EventSchedule::has_happened(const Asked::During& during, const Moment& now) const {
     switch (during.event_case()) {
         case Asked::During::kLine: return now.line >= during.line();
         case Asked::During::kPasses: return passes(during.passes(), now);
@@ -31,7 +31,7 @@ bool Course::has_happened(const Asked::During& during, const Moment& now) const 
     return true;
 }
 
-bool Course::passes(const Asked::Target& place, const Moment& now) const {
+bool EventSchedule::passes(const Asked::Target& place, const Moment& now) const {
     const auto axis = static_cast<std::size_t>(std::ranges::find(axes_, place.axis()) - axes_.begin());
     if (axis == axes_.size() || !before_ || !before_->at_mm[axis] || !now.at_mm[axis]) { return false; }
     const auto [low, high] = std::minmax(*before_->at_mm[axis], *now.at_mm[axis]);

@@ -1,4 +1,4 @@
-// Collects what is wrong with a scenario, each with the place of the key in the text.
+// Collects the errors of a scenario file, each with the place of its key in the text.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,9 @@ inline std::string listed(const std::vector<std::string>& words) {
     return text;
 }
 
-class Complaints {
+class Problems {
 public:
-    explicit Complaints(const TextSource& source) : source_(source) {}
+    explicit Problems(const TextSource& source) : source_(source) {}
 
     void add(const std::string& path, const std::string& message) {
         const auto place = source_.place_of(*Asked::descriptor(), path);

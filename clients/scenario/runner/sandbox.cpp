@@ -1,4 +1,4 @@
-#include "clients/scenario/runner/world.hpp"
+#include "clients/scenario/runner/sandbox.hpp"
 
 #include <fcntl.h>
 #include <sched.h>
@@ -16,11 +16,11 @@
 namespace lockstep::scenario {
 namespace {
 
-constexpr char kResult = '+';  // what comes first out of a world
+constexpr char kResult = '+';  // the first byte of the output
 constexpr char kError = '-';
 
 std::string why(const std::string& what) {
-    return what + ": " + std::strerror(errno) + "; a scenario is played in namespaces of its own, which root may make";
+    return what + ": " + std::strerror(errno) + "; a scenario runs in namespaces of its own, which only root can make";
 }
 
 void write_all(int pipe, const std::string& text) {
@@ -32,7 +32,7 @@ void write_all(int pipe, const std::string& text) {
     }
 }
 
-/// Memory in place of what is on the host. Empty: done; else why not.
+/// Mounts memory over the directories of the host. Empty: done; else why not.
 std::string make_own_folders() {
     if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) { return why("cannot keep mounts apart"); }
     if (mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) != 0) {
@@ -44,20 +44,20 @@ std::string make_own_folders() {
         }
     }
     std::error_code error;
-    std::filesystem::create_directories(world_folder(), error);
-    return error ? "cannot make " + world_folder().string() + ": " + error.message() : "";
+    std::filesystem::create_directories(sandbox_folder(), error);
+    return error ? "cannot make " + sandbox_folder().string() + ": " + error.message() : "";
 }
 
-/// The first process of the world: when it ends, the kernel ends all others in it.
-[[noreturn]] void be_first(const std::function<std::string()>& play, int pipe) {
+/// The first process of the sandbox: when it ends, the kernel ends all others in it.
+[[noreturn]] void run_inside(const std::function<std::string()>& run, int pipe) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const std::string obstacle = make_own_folders();
-    write_all(pipe, obstacle.empty() ? kResult + play() : kError + obstacle);
+    write_all(pipe, obstacle.empty() ? kResult + run() : kError + obstacle);
     _exit(0);
 }
 
 /// The process outside, which waits for the first one inside.
-[[noreturn]] void be_keeper(const std::function<std::string()>& play, int pipe, pid_t parent) {
+[[noreturn]] void run_keeper(const std::function<std::string()>& run, int pipe, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) { _exit(0); }  // it died before that took effect
     if (unshare(CLONE_NEWNET | CLONE_NEWNS | CLONE_NEWPID) != 0) {
@@ -65,7 +65,7 @@ std::string make_own_folders() {
         _exit(0);
     }
     const pid_t first = fork();
-    if (first == 0) { be_first(play, pipe); }
+    if (first == 0) { run_inside(run, pipe); }
     if (first < 0) { write_all(pipe, kError + why("cannot start a process")); }
     close(pipe);
     int status = 0;
@@ -75,52 +75,52 @@ std::string make_own_folders() {
 
 }  // namespace
 
-std::filesystem::path world_folder() { return "/dev/shm/scenario"; }
+std::filesystem::path sandbox_folder() { return "/dev/shm/scenario"; }
 
-std::expected<World, std::string> World::begin(const std::function<std::string()>& play) {
+std::expected<Sandbox, std::string> Sandbox::start(const std::function<std::string()>& run) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) { return std::unexpected(why("cannot make a pipe")); }
     const pid_t self = getpid();
     const pid_t keeper = fork();
     if (keeper == 0) {
         close(ends[0]);
-        be_keeper(play, ends[1], self);
+        run_keeper(run, ends[1], self);
     }
     close(ends[1]);
     if (keeper < 0) {
         close(ends[0]);
         return std::unexpected(why("cannot start a process"));
     }
-    return World(keeper, ends[0]);
+    return Sandbox(keeper, ends[0]);
 }
 
-World::World(World&& other) noexcept
+Sandbox::Sandbox(Sandbox&& other) noexcept
     : keeper_(std::exchange(other.keeper_, 0)),
       pipe_(std::exchange(other.pipe_, -1)),
-      said_(std::move(other.said_)),
+      output_(std::move(other.output_)),
       ended_(other.ended_) {}
 
-/// The pipe's other end is closed by the world's last process.
-World::~World() {
+/// The last process of the sandbox closes the pipe's other end.
+Sandbox::~Sandbox() {
     if (pipe_ < 0) { return; }
     kill(keeper_, SIGKILL);
-    while (!take()) {}
+    while (!read_output()) {}
     waitpid(keeper_, nullptr, 0);
     close(pipe_);
 }
 
-bool World::take() {
+bool Sandbox::read_output() {
     std::array<char, 4096> buffer{};
     const ssize_t n = ended_ ? 0 : read(pipe_, buffer.data(), buffer.size());
-    if (n > 0) { said_.append(buffer.data(), static_cast<std::size_t>(n)); }
+    if (n > 0) { output_.append(buffer.data(), static_cast<std::size_t>(n)); }
     ended_ = n == 0 || (n < 0 && errno != EINTR);
     return ended_;
 }
 
-std::expected<std::string, std::string> World::result() const {
-    if (said_.empty()) { return std::unexpected("what was playing it was ended from outside, or crashed"); }
-    if (said_.front() == kError) { return std::unexpected(said_.substr(1)); }
-    return said_.substr(1);
+std::expected<std::string, std::string> Sandbox::result() const {
+    if (output_.empty()) { return std::unexpected("the process that ran it was killed or crashed"); }
+    if (output_.front() == kError) { return std::unexpected(output_.substr(1)); }
+    return output_.substr(1);
 }
 
 }  // namespace lockstep::scenario

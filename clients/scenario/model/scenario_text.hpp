@@ -1,4 +1,4 @@
-// What a scenario asks, in words: for what `check` says it would do, for the story, and for what is judged.
+// Texts of what a scenario asks: for `scenario check`, for the events and for the checks.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::string text_of(const Asked::Step& step);      // "run gcode"
 std::string text_of(Asked::Step::Ending ending);   // "done"
 std::string text_of(Asked::Phase phase);           // "Idle", as MachinePhase is called
 
-/// One line for each: the machine, where it runs, what it does, what befalls it, what must be true.
+/// One line for each: the machine, where it runs, its steps, the scripted events, the expectations.
 std::string outline(const Scenario& scenario);
 
 }  // namespace lockstep::scenario

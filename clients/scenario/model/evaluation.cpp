@@ -1,9 +1,9 @@
-#include "clients/scenario/model/judgement.hpp"
+#include "clients/scenario/model/evaluation.hpp"
 
 #include <algorithm>
 
-#include "clients/scenario/model/complaints.hpp"
-#include "clients/scenario/model/words.hpp"
+#include "clients/scenario/model/problems.hpp"
+#include "clients/scenario/model/scenario_text.hpp"
 #include "clients/text/words.hpp"
 
 namespace lockstep::scenario {
@@ -13,15 +13,15 @@ using Names = std::vector<std::string>;
 
 std::string mm_text(double mm) { return fixed(mm, 4) + " mm"; }
 
-std::string nobody_or(const Names& names) { return names.empty() ? "nobody" : listed(names); }
+std::string listed_or_none(const Names& names) { return names.empty() ? "none" : listed(names); }
 
-class Judge {
+class Evaluation {
 public:
-    Judge(const Scenario& scenario, const Seen& seen, const Evidence& evidence)
-        : machine_(scenario.machine), expect_(scenario.asked.expect()), seen_(seen), evidence_(evidence) {}
+    Evaluation(const Scenario& scenario, const Observations& observed, const Evidence& evidence)
+        : machine_(scenario.machine), expect_(scenario.asked.expect()), observed_(observed), evidence_(evidence) {}
 
     std::vector<Check> checks() {
-        for (const AwaitedRest& rest : seen_.rests) { check_rest(rest); }
+        for (const AwaitedRest& rest : observed_.rests) { check_rest(rest); }
         for (const auto& end : expect_.final()) { check_final(end); }
         if (expect_.has_path_within_mm()) { check_path(); }
         if (expect_.has_interruptions()) { check_interruptions(); }
@@ -43,15 +43,15 @@ private:
     void check_rest(const AwaitedRest& rest) {
         const std::string asked =
             rest.act + ": " + listed(rest.axes) + " at rest within " + std::to_string(rest.within_frames) + " frames";
-        if (rest.axes.empty()) { return add(asked, "no axis's process ran any more", kAsPlayed, false); }
+        if (rest.axes.empty()) { return add(asked, "no process of an axis was running", kAsObserved, false); }
         const auto at = evidence_.record.all_at_rest(rest.axes, rest.at);
-        if (!at) { return add(asked, "the record knows of no rest after it", kWholeLog, false); }
+        if (!at) { return add(asked, "the record has no rest after it", kWholeLog, false); }
         const double frames =
             static_cast<double>((*at - rest.at).value) / static_cast<double>(machine_.frame_ticks().value);
         add(asked, "after " + fixed(frames, 2) + " frames", place_at(*at), frames <= rest.within_frames);
     }
 
-    /// Where the processes' notes are, of what --keep keeps.
+    /// Where --keep keeps the incident files.
     std::string notes() const { return "state/" + machine_.name + "/record/incidents"; }
 
     static std::string place_at(Tick tick) { return std::string(kWholeLog) + ", tick " + std::to_string(tick.value); }
@@ -67,9 +67,7 @@ private:
         const std::string asked = end.axis() + " at " + mm_text(end.mm()) +
                                   (end.has_within_mm() ? " within " + mm_text(end.within_mm()) : " to the step");
         const proto::AxisAnalysis* axis = analysis_of(end.axis());
-        if (axis == nullptr || !axis->has_position_end_mm()) {
-            return add(asked, "the record does not say", kWholeLog, false);
-        }
+        if (axis == nullptr || !axis->has_position_end_mm()) { return add(asked, "not on record", kWholeLog, false); }
         const double found = axis->position_end_mm();
         const auto config = std::ranges::find(machine_.axes, end.axis(), &AxisConfig::name);
         const bool held = end.has_within_mm() ? std::abs(found - end.mm()) <= end.within_mm()
@@ -80,9 +78,7 @@ private:
     void check_path() {
         const std::string asked = "every step within " + mm_text(expect_.path_within_mm()) + " of the line asked";
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
-        if (!evidence_.analysis->has_largest_distance_mm()) {
-            return add(asked, "the record does not say", kWholeLog, false);
-        }
+        if (!evidence_.analysis->has_largest_distance_mm()) { return add(asked, "not on record", kWholeLog, false); }
         const double found = evidence_.analysis->largest_distance_mm();
         add(asked, mm_text(found) + " at most", kWholeLog, found <= expect_.path_within_mm());
     }
@@ -109,7 +105,7 @@ private:
         std::ranges::sort(asked);
         const Names found{evidence_.vetoed_by.begin(), evidence_.vetoed_by.end()};
         const bool held = std::ranges::includes(asked, found) && found.empty() == asked.empty();
-        add("vetoes by " + nobody_or(asked), "by " + nobody_or(found), notes(), held);
+        add("vetoes by " + listed_or_none(asked), "by " + listed_or_none(found), notes(), held);
     }
 
     void check_cause() {
@@ -122,28 +118,28 @@ private:
             found += (found.empty() ? "" : "; ") + one.kind + ": " + one.text;
         }
         add("cause " + cause.kind() + (cause.has_process() ? " of " + cause.process() : ""),
-            found.empty() ? "no incident was noted" : found, notes(), std::ranges::any_of(evidence_.causes, is_asked));
+            found.empty() ? "no incident on record" : found, notes(), std::ranges::any_of(evidence_.causes, is_asked));
     }
 
     void check_axis(const Asked::AxisEnd& end) {
-        const auto& axes = seen_.status.axes();
+        const auto& axes = observed_.status.axes();
         const auto axis = std::ranges::find_if(axes, [&](const auto& one) { return one.name() == end.name(); });
-        const bool is_heard = axis != axes.end() && axis->present();
+        const bool is_present = axis != axes.end() && axis->present();
         const auto yes_no = [&](bool asked, bool found, const std::string& what) {
             add(end.name() + (asked ? " " : " not ") + what, found ? what : "not " + what, "status at the end",
                 asked == found);
         };
-        if (end.has_heard()) { yes_no(end.heard(), is_heard, "heard"); }
-        if (end.has_homed()) { yes_no(end.homed(), is_heard && axis->homed(), "homed"); }
+        if (end.has_heard()) { yes_no(end.heard(), is_present, "heard"); }
+        if (end.has_homed()) { yes_no(end.homed(), is_present && axis->homed(), "homed"); }
         if (!end.has_fault()) { return; }
-        const std::string fault = !is_heard ? "not heard" : axis->has_fault() ? axis->fault().name() : "none";
+        const std::string fault = !is_present ? "not received" : axis->has_fault() ? axis->fault().name() : "none";
         add(end.name() + " has fault " + end.fault(), fault, "status at the end", fault == end.fault());
     }
 
     void check_phase() {
-        const std::string found = seen_.status.phase();
+        const std::string found = observed_.status.phase();
         const std::string asked = text_of(expect_.phase());
-        add("the machine is " + asked + " at the end", found.empty() ? "not heard" : found, "status at the end",
+        add("the machine is " + asked + " at the end", found.empty() ? "not received" : found, "status at the end",
             expect_.phase() == Asked::ANY || found == asked);
     }
 
@@ -175,15 +171,15 @@ private:
 
     const MachineConfig& machine_;
     const Asked::Expect& expect_;
-    const Seen& seen_;
+    const Observations& observed_;
     const Evidence& evidence_;
     std::vector<Check> checks_;
 };
 
 }  // namespace
 
-std::vector<Check> judge(const Scenario& scenario, const Seen& seen, const Evidence& evidence) {
-    return Judge(scenario, seen, evidence).checks();
+std::vector<Check> evaluate(const Scenario& scenario, const Observations& observed, const Evidence& evidence) {
+    return Evaluation(scenario, observed, evidence).checks();
 }
 
 }  // namespace lockstep::scenario

@@ -1,5 +1,5 @@
-// Each expectation holds where it is true of the record, fails where it is not, and says what was found and where.
-#include "clients/scenario/model/judgement.hpp"
+// Each expectation holds where the record agrees, fails where it does not, and reports what was found and where.
+#include "clients/scenario/model/evaluation.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A good run: X at 10 mm, exact, complete, nobody vetoed, both axes with frame 7 in the end.
+/// A good run: X at 10 mm, exact, complete, no vetoes, both axes ended with frame 7.
 Evidence good() {
     Evidence evidence;
     evidence.verified->set_exact(true);
@@ -24,30 +24,31 @@ Evidence good() {
     return evidence;
 }
 
-Seen seen_well() {
-    Seen seen;
-    seen.status.set_phase("Idle");
-    proto::AxisStatus& axis = *seen.status.add_axes();
+Observations good_observations() {
+    Observations observed;
+    observed.status.set_phase("Idle");
+    proto::AxisStatus& axis = *observed.status.add_axes();
     axis.set_name("X");
     axis.set_present(true);
     axis.set_homed(true);
-    return seen;
+    return observed;
 }
 
-std::vector<Check> checks(const std::string& expect, const Evidence& evidence, const Seen& seen = seen_well()) {
-    return judge(parsed(whole("expect { " + expect + " }")), seen, evidence);
+std::vector<Check> checks(const std::string& expect, const Evidence& evidence,
+                          const Observations& observed = good_observations()) {
+    return evaluate(parsed(whole("expect { " + expect + " }")), observed, evidence);
 }
 
-/// The first check: what is expected comes before what is always judged.
-Check check(const std::string& expect, const Evidence& evidence, const Seen& seen = seen_well()) {
-    return checks(expect, evidence, seen).front();
+/// The first check: expectations come before what is always checked.
+Check check(const std::string& expect, const Evidence& evidence, const Observations& observed = good_observations()) {
+    return checks(expect, evidence, observed).front();
 }
 
-bool holds(const std::string& expect, const Evidence& evidence, const Seen& seen = seen_well()) {
-    return check(expect, evidence, seen).held();
+bool holds(const std::string& expect, const Evidence& evidence, const Observations& observed = good_observations()) {
+    return check(expect, evidence, observed).held();
 }
 
-TEST(ScenarioJudgement, AnEndIsJudgedToTheStepUnlessMoreIsAllowed) {
+TEST(ScenarioEvaluation, ComparesFinalPositionToTheStepUnlessToleranceIsGiven) {
     EXPECT_TRUE(holds("final { axis: \"X\" mm: 10 }", good()));
     EXPECT_FALSE(holds("final { axis: \"X\" mm: 10.0125 }", good())) << "a step away";
     EXPECT_TRUE(holds("final { axis: \"X\" mm: 10.0125 within_mm: 0.02 }", good()));
@@ -56,7 +57,7 @@ TEST(ScenarioJudgement, AnEndIsJudgedToTheStepUnlessMoreIsAllowed) {
     EXPECT_THAT(altered.where(), HasSubstr("whole.lcm"));
 }
 
-TEST(ScenarioJudgement, WhatTheRecordDoesNotSayDoesNotHold) {
+TEST(ScenarioEvaluation, FailsExpectationThatIsNotOnRecord) {
     EXPECT_FALSE(holds("final { axis: \"Y\" mm: 10 }", good()));
     Evidence evidence = good();
     evidence.analysis->clear_largest_distance_mm();
@@ -65,12 +66,12 @@ TEST(ScenarioJudgement, WhatTheRecordDoesNotSayDoesNotHold) {
     EXPECT_EQ(check("path_within_mm: 1", evidence).found(), "no log");
 }
 
-TEST(ScenarioJudgement, TheDistanceFromThePath) {
+TEST(ScenarioEvaluation, ComparesLargestDistanceFromThePath) {
     EXPECT_TRUE(holds("path_within_mm: 0.0126", good()));
     EXPECT_FALSE(holds("path_within_mm: 0.009", good()));
 }
 
-TEST(ScenarioJudgement, AxesThatEndWithOtherFramesAreNotTogether) {
+TEST(ScenarioEvaluation, FailsTogetherWhereAxesEndWithDifferentFrames) {
     EXPECT_TRUE(holds("together: \"X\" together: \"Y\"", good()));
     Evidence evidence = good();
     evidence.record.epochs[4] = {{"X", {2, true}}, {"Y", {3, false}}};
@@ -79,13 +80,13 @@ TEST(ScenarioJudgement, AxesThatEndWithOtherFramesAreNotTogether) {
     EXPECT_THAT(parted.found(), HasSubstr("X with the tail of frame 2, Y with frame 3"));
 }
 
-TEST(ScenarioJudgement, NoEpochIsNoProofOfBeingTogether) {
+TEST(ScenarioEvaluation, FailsTogetherWithoutAnyEpoch) {
     Evidence evidence = good();
     evidence.record.epochs.clear();
     EXPECT_FALSE(holds("together: \"X\" together: \"Y\"", evidence));
 }
 
-TEST(ScenarioJudgement, VetoesAreBySomeOfThoseNamedAndNoOthers) {
+TEST(ScenarioEvaluation, AcceptsVetoesOnlyOfNamedAxes) {
     Evidence evidence = good();
     EXPECT_TRUE(holds("vetoes {}", evidence));
     EXPECT_FALSE(holds("vetoes { by: \"X\" }", evidence));
@@ -94,10 +95,10 @@ TEST(ScenarioJudgement, VetoesAreBySomeOfThoseNamedAndNoOthers) {
     EXPECT_FALSE(holds("vetoes { by: \"X\" }", evidence));
     EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence));
     evidence.vetoed_by = {"Y"};
-    EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence)) << "the other had not to say it any more";
+    EXPECT_TRUE(holds("vetoes { by: \"Y\" by: \"X\" }", evidence)) << "one of the named axes is enough";
 }
 
-TEST(ScenarioJudgement, InterruptionsOfAllJobsAreCounted) {
+TEST(ScenarioEvaluation, CountsInterruptionsOfAllJobs) {
     Evidence evidence = good();
     evidence.analysis->add_jobs()->set_interruptions(1);
     evidence.analysis->add_jobs()->set_interruptions(2);
@@ -105,40 +106,40 @@ TEST(ScenarioJudgement, InterruptionsOfAllJobsAreCounted) {
     EXPECT_FALSE(holds("interruptions: 0", evidence));
 }
 
-TEST(ScenarioJudgement, ACauseIsOneOfThoseThatWereNoted) {
+TEST(ScenarioEvaluation, FindsCauseAmongAllIncidents) {
     Evidence evidence = good();
-    EXPECT_EQ(check("cause { kind: \"process-ended\" }", evidence).found(), "no incident was noted");
-    evidence.causes = {{"asked", "", "somebody asked"}, {"process-ended", "axis-Y", "axis Y ended"}};
+    EXPECT_EQ(check("cause { kind: \"process-ended\" }", evidence).found(), "no incident on record");
+    evidence.causes = {{"asked", "", "requested"}, {"process-ended", "axis-Y", "axis Y ended"}};
     EXPECT_TRUE(holds("cause { kind: \"process-ended\" process: \"axis-Y\" }", evidence));
     EXPECT_FALSE(holds("cause { kind: \"process-ended\" process: \"axis-X\" }", evidence));
 }
 
-TEST(ScenarioJudgement, RestIsWhenAllAreAtRestTogether) {
-    Seen seen = seen_well();
+TEST(ScenarioEvaluation, MeasuresRestWhenAllAxesAreAtRest) {
+    Observations observed = good_observations();
     const std::int64_t frame = parsed(whole("")).machine.frame_ticks().value;
     Evidence evidence = good();
     evidence.record.rests = {{"X", {{{0}, {frame}}, {{3 * frame}, {9 * frame}}}},
                              {"Y", {{{2 * frame}, {2 * frame + 5}}, {{4 * frame}, {9 * frame}}}}};
-    seen.rests = {{"hold", {frame + 1}, 3, {"X", "Y"}}};
-    EXPECT_TRUE(holds("", evidence, seen));
-    EXPECT_THAT(check("", evidence, seen).found(), HasSubstr("3.00 frames"));
-    seen.rests[0].within_frames = 2;
-    EXPECT_FALSE(holds("", evidence, seen));
-    seen.rests[0].at = {10 * frame};
-    EXPECT_FALSE(holds("", evidence, seen)) << "nothing is known of it";
+    observed.rests = {{"hold", {frame + 1}, 3, {"X", "Y"}}};
+    EXPECT_TRUE(holds("", evidence, observed));
+    EXPECT_THAT(check("", evidence, observed).found(), HasSubstr("3.00 frames"));
+    observed.rests[0].within_frames = 2;
+    EXPECT_FALSE(holds("", evidence, observed));
+    observed.rests[0].at = {10 * frame};
+    EXPECT_FALSE(holds("", evidence, observed)) << "not on record";
 }
 
-TEST(ScenarioJudgement, AxesAndMachineAreJudgedAsTheyAreFound) {
+TEST(ScenarioEvaluation, ComparesAxesAndMachineWithFinalStatus) {
     EXPECT_TRUE(holds("axis { name: \"X\" heard: true }", good()));
     EXPECT_TRUE(holds("axis { name: \"X\" homed: true }", good()));
     EXPECT_TRUE(holds("axis { name: \"X\" fault: \"none\" }", good()));
     EXPECT_FALSE(holds("axis { name: \"X\" fault: \"axis-lost\" }", good()));
-    EXPECT_FALSE(holds("axis { name: \"Y\" homed: true }", good())) << "nobody hears it";
+    EXPECT_FALSE(holds("axis { name: \"Y\" homed: true }", good())) << "its state is not received";
     EXPECT_TRUE(holds("phase: IDLE", good()));
     EXPECT_FALSE(holds("phase: FAULT", good()));
 }
 
-TEST(ScenarioJudgement, TheRecordIsExactAndCompleteUnlessItNeedNotBe) {
+TEST(ScenarioEvaluation, RequiresExactAndCompleteRecordByDefault) {
     Evidence evidence = good();
     ASSERT_EQ(checks("", evidence).size(), 2);
     evidence.verified->set_exact(false);

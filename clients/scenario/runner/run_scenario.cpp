@@ -1,4 +1,4 @@
-#include "clients/scenario/runner/stage.hpp"
+#include "clients/scenario/runner/run_scenario.hpp"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -10,10 +10,10 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/report_page/report_page.hpp"
-#include "clients/scenario/model/judgement.hpp"
+#include "clients/scenario/model/evaluation.hpp"
 #include "clients/scenario/runner/evidence.hpp"
-#include "clients/scenario/runner/player.hpp"
-#include "clients/scenario/runner/world.hpp"
+#include "clients/scenario/runner/sandbox.hpp"
+#include "clients/scenario/runner/scenario_executor.hpp"
 #include "clients/supervisor/flight_files.hpp"
 #include "clients/supervisor/program_folder.hpp"
 #include "clients/text/words.hpp"
@@ -38,7 +38,7 @@ std::string clock_error_text(const Asked::WrongClock& clock) {
     return text;
 }
 
-/// The command lines of all processes, each begun where its network is, or in its container.
+/// The command lines of all processes, each in its own network or container.
 std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const Containers* containers,
                                   const StateDirectory& state) {
     const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
@@ -50,14 +50,14 @@ std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& netwo
             if (line.name != "axis-" + clock.axis()) { continue; }
             line.words.insert(line.words.end(), {"--clock-error", clock_error_text(clock)});
         }
-        const Words entry = containers == nullptr ? network.entry(line.name)
-                                                  : containers->entry(line.name, network.namespace_of(line.name));
+        const CommandLine entry = containers == nullptr ? network.entry(line.name)
+                                                        : containers->entry(line.name, network.namespace_of(line.name));
         line.words.insert(line.words.begin(), entry.begin(), entry.end());
     }
     return lines;
 }
 
-/// lcm-logger, for as long as it lives.
+/// Runs lcm-logger while it exists.
 class Logger {
 public:
     Logger(const std::string& lcm_url, const fs::path& folder)
@@ -77,11 +77,11 @@ private:
     std::expected<pid_t, std::string> pid_;
 };
 
-/// Each until it can be attached to: a scenario's time does not begin with waiting for devices.
-std::expected<void, std::string> start_devices(const Scenario& scenario, Cast& cast) {
+/// Waits for each device, so that no time of the scenario passes before axes can attach.
+std::expected<void, std::string> start_devices(const Scenario& scenario, ProcessSet& processes) {
     for (const AxisConfig& axis : scenario.machine.axes) {
         const std::string name = "fpga-" + axis.name;
-        if (const auto started = cast.start(name); !started) { return started; }
+        if (const auto started = processes.start(name); !started) { return started; }
         const auto deadline = monotonic_now() + kStartPatience;
         for (auto window = open_window(shared_device(scenario.machine, axis)); !window;
              window = open_window(shared_device(scenario.machine, axis))) {
@@ -93,68 +93,67 @@ std::expected<void, std::string> start_devices(const Scenario& scenario, Cast& c
 }
 
 /// Error: with the end of the process's log.
-std::expected<void, std::string> bring_up(const Scenario& scenario, Cast& cast, Session& session, Player& player,
-                                          const StateDirectory& state) {
+std::expected<void, std::string> bring_up(const Scenario& scenario, ProcessSet& processes, Session& session,
+                                          ScenarioExecutor& executor, const StateDirectory& state) {
     if (scenario.asked.separate_devices()) {
-        if (const auto started = start_devices(scenario, cast); !started) { return started; }
+        if (const auto started = start_devices(scenario, processes); !started) { return started; }
     }
     for (const std::string& name : processes_of(scenario.asked, scenario.machine)) {
         if (name == kStandby || name.starts_with("fpga-")) { continue; }
-        if (const auto started = cast.start(name); !started) { return started; }
+        if (const auto started = processes.start(name); !started) { return started; }
     }
-    if (!player.wait_for(Asked::IDLE)) {
-        return std::unexpected("the machine does not become Idle; the coordinator said last:\n" +
+    if (!executor.wait_for(Asked::IDLE)) {
+        return std::unexpected("the machine does not become Idle; last output of the coordinator:\n" +
                                tail_of(state.log_file("coordinator"), 4));
     }
     if (!scenario.asked.standby()) { return {}; }
-    if (const auto started = cast.start(kStandby); !started) { return started; }
+    if (const auto started = processes.start(kStandby); !started) { return started; }
     const auto deadline = monotonic_now() + kStartPatience;
     while (!session.has_standby()) {
-        if (monotonic_now() > deadline) { return std::unexpected("the coordinator that is to stand by is not heard"); }
+        if (monotonic_now() > deadline) { return std::unexpected("no state of the standby coordinator is received"); }
         session.listen(50ms);
     }
     return {};
 }
 
-/// Nothing to be judged: why it could not even begin.
-Seen broken(const std::string& why) {
-    Seen seen;
-    seen.broken = why;
-    return seen;
+/// No observations: why the run could not begin.
+Observations broken(const std::string& why) {
+    Observations observed;
+    observed.broken = why;
+    return observed;
 }
 
 /// A clock is set only if its process lives for so long.
-void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, Seen& seen) {
+void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, Observations& observed) {
     const double lived_s = static_cast<double>(lived.count()) * 1e-9;
     for (const auto& clock : scenario.asked.wrong_clock()) {
         if (!clock.has_step_s()) { continue; }
         const bool was_set = lived_s > clock.step_at_s();
-        seen.checks.push_back(
-            check_of("the clock of " + clock.axis() + " is set by " + number_text(clock.step_s()) + " s, " +
-                         number_text(clock.step_at_s()) + " s after its process started",
-                     was_set ? "it was" : "never came to pass: all ended after " + fixed(lived_s, 1) + " s", kAsPlayed,
-                     was_set));
+        observed.checks.push_back(check_of(
+            "the clock of " + clock.axis() + " is set by " + number_text(clock.step_s()) + " s, " +
+                number_text(clock.step_at_s()) + " s after its process started",
+            was_set ? "it was" : "never happened: all ended after " + fixed(lived_s, 1) + " s", kAsObserved, was_set));
     }
 }
 
-Seen play_with(const Scenario& scenario, const ChosenMachine& machine, Cast& cast, Network& network,
-               const StateDirectory& state) {
+Observations run_session(const Scenario& scenario, const ChosenMachine& machine, ProcessSet& processes,
+                         Network& network, const StateDirectory& state) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session) { return broken(to_text("", session.error().errors)); }
-    Acts acts(cast, network, *session);
-    Player player(scenario, *session, cast, acts);
+    ActExecutor acts(processes, network, *session);
+    ScenarioExecutor executor(scenario, *session, processes, acts);
     const auto begun = monotonic_now();
-    if (const auto up = bring_up(scenario, cast, *session, player, state); !up) { return broken(up.error()); }
-    player.play();
+    if (const auto up = bring_up(scenario, processes, *session, executor, state); !up) { return broken(up.error()); }
+    executor.execute();
     (void)write_flight_files(scenario.machine);
-    Seen seen = player.seen();
-    add_clock_checks(scenario, monotonic_now() - begun, seen);
-    return seen;
+    Observations observed = executor.observations();
+    add_clock_checks(scenario, monotonic_now() - begun, observed);
+    return observed;
 }
 
-/// Brings it up, plays, takes it down.
-Seen put_on(const Scenario& scenario, const Containers* containers, const fs::path& folder) {
-    if (containers != nullptr) { umask(0); }  // a container's user writes what root has made, too
+/// Brings the machine up, executes the steps, takes it down.
+Observations run_machine(const Scenario& scenario, const Containers* containers, const fs::path& folder) {
+    if (containers != nullptr) { umask(0); }  // a container's user writes files that root has made
     const StateDirectory state(scenario.machine.name);
     const fs::path file = folder / "machine.textproto";
     const auto made = state.make();
@@ -168,12 +167,13 @@ Seen put_on(const Scenario& scenario, const Containers* containers, const fs::pa
     if (!network) { return broken(network.error()); }
     const Logger logger(scenario.machine.network.lcm_url, folder);
     if (!logger.pid()) { return broken(logger.pid().error()); }
-    Cast cast(lines_of(scenario, *network, containers, state), state,
-              containers == nullptr ? fs::path() : Containers::numbers());
-    Seen seen = play_with(scenario, {file, scenario.machine, config_hash(scenario.machine)}, cast, *network, state);
-    seen.checks.push_back(cast.ends_check());
-    cast.end_all();
-    return seen;
+    ProcessSet processes(lines_of(scenario, *network, containers, state), state,
+                         containers == nullptr ? fs::path() : Containers::pid_folder());
+    Observations observed =
+        run_session(scenario, {file, scenario.machine, config_hash(scenario.machine)}, processes, *network, state);
+    observed.checks.push_back(processes.exit_check());
+    processes.end_all();
+    return observed;
 }
 
 /// With a page of the run.
@@ -185,31 +185,32 @@ void keep_logs(const fs::path& folder, int directory) {
     fs::copy(folder, "/proc/self/fd/" + std::to_string(directory), fs::copy_options::recursive, error);
 }
 
-proto::ScenarioReport report_of(const Scenario& scenario, const Seen& seen, const std::vector<Check>& judged) {
+proto::ScenarioReport report_of(const Scenario& scenario, const Observations& observed,
+                                const std::vector<Check>& evaluated) {
     proto::ScenarioReport report;
     report.set_file(scenario.file.string());
     report.set_shows(scenario.asked.shows());
-    report.set_broken(seen.broken);
-    report.mutable_story()->Add(seen.story.begin(), seen.story.end());
-    report.mutable_checks()->Add(seen.checks.begin(), seen.checks.end());
-    report.mutable_checks()->Add(judged.begin(), judged.end());
+    report.set_broken(observed.broken);
+    report.mutable_story()->Add(observed.events.begin(), observed.events.end());
+    report.mutable_checks()->Add(observed.checks.begin(), observed.checks.end());
+    report.mutable_checks()->Add(evaluated.begin(), evaluated.end());
     const auto& checks = report.checks();
-    report.set_held(seen.broken.empty() &&
+    report.set_held(observed.broken.empty() &&
                     std::ranges::all_of(checks, [](const Check& check) { return check.held(); }));
     return report;
 }
 
 }  // namespace
 
-proto::ScenarioReport play(const Scenario& scenario, const std::optional<Containers>& containers, int keep) {
+proto::ScenarioReport run_scenario(const Scenario& scenario, const std::optional<Containers>& containers, int keep) {
     const auto begun = monotonic_now();
-    const fs::path folder = world_folder();
+    const fs::path folder = sandbox_folder();
     setenv("LOCKSTEP_STATE", (folder / "state").c_str(), 1);
     const bool in_containers = scenario.asked.place() == Asked::CONTAINER;
-    const Seen seen = put_on(scenario, in_containers ? &*containers : nullptr, folder);
-    std::vector<Check> judged;
-    if (seen.broken.empty()) { judged = judge(scenario, seen, read_evidence(scenario.machine, folder)); }
-    proto::ScenarioReport report = report_of(scenario, seen, judged);
+    const Observations observed = run_machine(scenario, in_containers ? &*containers : nullptr, folder);
+    std::vector<Check> evaluated;
+    if (observed.broken.empty()) { evaluated = evaluate(scenario, observed, read_evidence(scenario.machine, folder)); }
+    proto::ScenarioReport report = report_of(scenario, observed, evaluated);
     if (keep >= 0) { keep_logs(folder, keep); }
     report.set_took_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     return report;

@@ -1,4 +1,4 @@
-#include "clients/scenario/runner/season.hpp"
+#include "clients/scenario/runner/scenario_runner.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -8,15 +8,15 @@
 #include <map>
 
 #include "clients/scenario/runner/control_groups.hpp"
-#include "clients/scenario/runner/stage.hpp"
-#include "clients/scenario/runner/world.hpp"
+#include "clients/scenario/runner/run_scenario.hpp"
+#include "clients/scenario/runner/sandbox.hpp"
 
 namespace lockstep::scenario {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kGlance_ms = 100;
+constexpr int kPollInterval_ms = 100;
 
 /// A new directory for a scenario's logs, open.
 std::expected<int, std::string> open_folder(const fs::path& path) {
@@ -30,33 +30,33 @@ std::expected<int, std::string> open_folder(const fs::path& path) {
     return folder;
 }
 
-class Season {
+class ScenarioRunner {
 public:
-    Season(const std::vector<Scenario>& scenarios, const SeasonOptions& options)
+    ScenarioRunner(const std::vector<Scenario>& scenarios, const RunnerOptions& options)
         : scenarios_(scenarios), options_(options), reports_(scenarios.size()) {}
-    ~Season() {
+    ~ScenarioRunner() {
         for (const int folder : folders_) { close(folder); }
-        worlds_.clear();
+        sandboxes_.clear();
         if (containers_) { remove_control_groups(); }
     }
-    Season(const Season&) = delete;
-    Season& operator=(const Season&) = delete;
+    ScenarioRunner(const ScenarioRunner&) = delete;
+    ScenarioRunner& operator=(const ScenarioRunner&) = delete;
 
-    std::expected<proto::ScenarioRunReport, std::string> play() {
+    std::expected<proto::ScenarioRunReport, std::string> run() {
         if (const auto found = find_image(); !found) { return std::unexpected(found.error()); }
         if (const auto opened = open_folders(); !opened) { return std::unexpected(opened.error()); }
-        while (next_ < scenarios_.size() || !worlds_.empty()) {
+        while (next_ < scenarios_.size() || !sandboxes_.empty()) {
             if (options_.interrupted && options_.interrupted()) { break; }
-            if (const auto begun = begin_some(); !begun) { return std::unexpected(begun.error()); }
+            if (const auto begun = start_some(); !begun) { return std::unexpected(begun.error()); }
             wait();
-            take();
+            collect();
         }
-        worlds_.clear();
+        sandboxes_.clear();
         return report();
     }
 
 private:
-    /// All before the first is played.
+    /// All before the first one runs.
     std::expected<void, std::string> open_folders() {
         for (const Scenario& scenario : scenarios_) {
             if (!options_.keep) { break; }
@@ -76,14 +76,14 @@ private:
         return {};
     }
 
-    std::expected<void, std::string> begin_some() {
-        while (next_ < scenarios_.size() && worlds_.size() < static_cast<std::size_t>(options_.at_a_time)) {
+    std::expected<void, std::string> start_some() {
+        while (next_ < scenarios_.size() && sandboxes_.size() < static_cast<std::size_t>(options_.at_a_time)) {
             const Scenario& scenario = scenarios_[next_];
             const int folder = options_.keep ? folders_[next_] : -1;
-            auto world =
-                World::begin([&] { return scenario::play(scenario, containers_, folder).SerializeAsString(); });
-            if (!world) { return std::unexpected(world.error()); }
-            worlds_.emplace(next_++, *std::move(world));
+            auto sandbox =
+                Sandbox::start([&] { return run_scenario(scenario, containers_, folder).SerializeAsString(); });
+            if (!sandbox) { return std::unexpected(sandbox.error()); }
+            sandboxes_.emplace(next_++, *std::move(sandbox));
         }
         return {};
     }
@@ -91,27 +91,27 @@ private:
     void wait() {
         std::vector<pollfd> ends;
         std::string names;
-        for (const auto& [index, world] : worlds_) {
-            ends.push_back({world.readable(), POLLIN, 0});
+        for (const auto& [index, sandbox] : sandboxes_) {
+            ends.push_back({sandbox.readable(), POLLIN, 0});
             names += (names.empty() ? "" : ", ") + scenarios_[index].name();
         }
-        if (options_.progress) { options_.progress("playing " + names); }
-        poll(ends.data(), ends.size(), kGlance_ms);
-        for (auto end = ends.begin(); auto& [index, world] : worlds_) {
-            if ((end++)->revents != 0 && world.take()) { ended_.push_back(index); }
+        if (options_.progress) { options_.progress("running " + names); }
+        poll(ends.data(), ends.size(), kPollInterval_ms);
+        for (auto end = ends.begin(); auto& [index, sandbox] : sandboxes_) {
+            if ((end++)->revents != 0 && sandbox.read_output()) { ended_.push_back(index); }
         }
     }
 
-    void take() {
+    void collect() {
         for (const std::size_t index : ended_) {
-            const auto result = worlds_.at(index).result();
+            const auto result = sandboxes_.at(index).result();
             proto::ScenarioReport& report = reports_[index];
             if (!result || !report.ParseFromString(*result)) {
                 fill_broken(index, result ? "its report is damaged" : result.error());
             }
             if (options_.keep) { report.set_kept((*options_.keep / scenarios_[index].name()).string()); }
-            if (options_.played) { options_.played(report); }
-            worlds_.erase(index);
+            if (options_.finished) { options_.finished(report); }
+            sandboxes_.erase(index);
         }
         ended_.clear();
     }
@@ -134,20 +134,20 @@ private:
     }
 
     const std::vector<Scenario>& scenarios_;
-    const SeasonOptions& options_;
+    const RunnerOptions& options_;
     std::vector<proto::ScenarioReport> reports_;
     std::vector<int> folders_;  // of the scenarios, open
     std::optional<Containers> containers_;
-    std::map<std::size_t, World> worlds_;  // by the scenario's place
+    std::map<std::size_t, Sandbox> sandboxes_;  // by the scenario's place
     std::vector<std::size_t> ended_;
     std::size_t next_ = 0;
 };
 
 }  // namespace
 
-std::expected<proto::ScenarioRunReport, std::string> play_all(const std::vector<Scenario>& scenarios,
-                                                              const SeasonOptions& options) {
-    return Season(scenarios, options).play();
+std::expected<proto::ScenarioRunReport, std::string> run_scenarios(const std::vector<Scenario>& scenarios,
+                                                                   const RunnerOptions& options) {
+    return ScenarioRunner(scenarios, options).run();
 }
 
 }  // namespace lockstep::scenario

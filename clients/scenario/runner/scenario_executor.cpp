@@ -1,6 +1,6 @@
-#include "clients/scenario/runner/player.hpp"
+#include "clients/scenario/runner/scenario_executor.hpp"
 
-#include "clients/scenario/model/words.hpp"
+#include "clients/scenario/model/scenario_text.hpp"
 #include "clients/session/job_plan.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/session/reports.hpp"
@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 using Step = Asked::Step;
 
-constexpr nanoseconds kGlance = 5ms;
+constexpr nanoseconds kPollInterval = 5ms;
 constexpr nanoseconds kWaitPatience = 30s;
 constexpr nanoseconds kJobPatience = 180s;
 constexpr nanoseconds kSettlePatience = 5s;
@@ -48,96 +48,96 @@ std::string text_of(const Failure& failure) { return to_text(failure.file, failu
 
 }  // namespace
 
-Player::Player(const Scenario& scenario, Session& session, Cast& cast, Acts& acts)
+ScenarioExecutor::ScenarioExecutor(const Scenario& scenario, Session& session, ProcessSet& processes, ActExecutor& acts)
     : scenario_(scenario),
       session_(session),
-      cast_(cast),
+      processes_(processes),
       acts_(acts),
       clock_(scenario.machine.tick_ns, scenario.machine.timing.time_source),
       start_(clock_.now()) {}
 
-void Player::play() {
+void ScenarioExecutor::execute() {
     start_ = clock_.now();
     for (const Step& step : scenario_.asked.step()) {
         ++step_;
-        play_step(step);
-        if (!seen_.broken.empty()) { return; }
+        execute_step(step);
+        if (!observed_.broken.empty()) { return; }
     }
     settle();
 }
 
-void Player::play_step(const Step& step) {
-    if (step.has_wait()) { return play_wait(step); }
-    if (!step.has_act()) { return play_job(step); }
-    tell(text_of(step.act()));
-    const auto done = acts_.act(step.act());
+void ScenarioExecutor::execute_step(const Step& step) {
+    if (step.has_wait()) { return execute_wait(step); }
+    if (!step.has_act()) { return execute_job(step); }
+    note(text_of(step.act()));
+    const auto done = acts_.execute(step.act());
     add_check(title(step), done ? "done" : done.error(), done.has_value());
 }
 
-void Player::play_wait(const Step& step) {
+void ScenarioExecutor::execute_wait(const Step& step) {
     const Asked::Wait& wait = step.wait();
     if (wait.has_phase()) {
         const bool is_there = wait_for(wait.phase());
-        if (!is_there) { seen_.broken = title(step) + ": in vain, it is " + status_report(session_).phase(); }
-        tell(title(step) + (is_there ? ": it is" : ": in vain"));
+        if (!is_there) { observed_.broken = title(step) + ": not reached, it is " + status_report(session_).phase(); }
+        note(title(step) + (is_there ? ": it is" : ": not reached"));
     }
     const nanoseconds until = monotonic_now() + to_time(wait.seconds());
-    while (monotonic_now() < until) { glance(); }
+    while (monotonic_now() < until) { poll_session(); }
     if (step.has_fault()) { check_found(step); }
 }
 
-void Player::check_found(const Step& step) {
+void ScenarioExecutor::check_found(const Step& step) {
     const auto fault = session_.state() ? fault_of(session_.state()->state, scenario_.machine) : std::nullopt;
     const std::string found = fault ? fault->name() : "none";
     add_check(title(step) + ": the fault is " + step.fault(), found, found == step.fault());
 }
 
-bool Player::wait_for(Asked::Phase phase) {
+bool ScenarioExecutor::wait_for(Asked::Phase phase) {
     const nanoseconds deadline = monotonic_now() + kWaitPatience;
     const nanoseconds since = monotonic_now();
     const auto is_there = [&] {
         const auto& heard = session_.state();
-        return heard && heard->time > since && is_in(phase, heard->state.phase) && hears_all(since);
+        return heard && heard->time > since && is_in(phase, heard->state.phase) && receives_all(since);
     };
-    while (!is_there() && monotonic_now() < deadline) { glance(); }
+    while (!is_there() && monotonic_now() < deadline) { poll_session(); }
     return is_there();
 }
 
-bool Player::hears_all(nanoseconds since) {
+bool ScenarioExecutor::receives_all(nanoseconds since) {
     const auto& axes = scenario_.machine.axes;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const bool is_heard =
+        const bool is_received =
             session_.axis(i) && session_.axis(i)->time > since && has_axis(session_.state()->state.axes_present, i);
-        if (cast_.is_acting("axis-" + axes[i].name) && !is_heard) { return false; }
+        if (processes_.is_active("axis-" + axes[i].name) && !is_received) { return false; }
     }
     return true;
 }
 
-void Player::play_job(const Step& step) {
-    tell(text_of(step));
+void ScenarioExecutor::execute_job(const Step& step) {
+    note(text_of(step));
     const Term asked = session_.state() ? session_.state()->state.term : Term{};
     const auto reply = begin(step);
-    Course course(step, axis_names(scenario_.machine));
+    EventSchedule schedule(step, axis_names(scenario_.machine));
     if (!reply) {
-        seen_.broken = title(step) + ": " + reply.error();
+        observed_.broken = title(step) + ": " + reply.error();
         return;
     }
     std::optional<Ended> end;
     if (reply->status == ReplyStatus::Refused) {
         end = Ended{Step::REFUSED, std::string(name_of(static_cast<FaultCode>(reply->fault)))};
     } else {
-        end = watch({reply->job, asked, asked}, course);
+        end = watch({reply->job, asked, asked}, schedule);
     }
     if (!end) {
-        seen_.broken = title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
-        return check_left(step, course, "the job has not ended");
+        observed_.broken = title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
+        return check_left(step, schedule, "the job has not ended");
     }
-    tell(text_of(step) + ": " + text_of(end->ending) + (end->fault.empty() ? "" : ", " + end->fault));
-    check_left(step, course, "the job ended before (" + text_of(end->ending) + ")");
+    note(text_of(step) + ": " + text_of(end->ending) + (end->fault.empty() ? "" : ", " + end->fault));
+    check_left(step, schedule, "the job ended before (" + text_of(end->ending) + ")");
     check_ending(step, *end);
 }
 
-std::expected<Reply, std::string> Player::begin(const Step& step) {
+std::expected<Reply, std::string> ScenarioExecutor::begin(const Step& step) {
     Command command{.kind = command_of(step)};
     for (const std::string& name : step.home().axis()) {
         command.axes |= axis_bit(find_axis(scenario_.machine, name).value_or(0));
@@ -152,7 +152,7 @@ std::expected<Reply, std::string> Player::begin(const Step& step) {
     return *std::move(reply);
 }
 
-std::expected<std::uint64_t, std::string> Player::send(const Step& step) {
+std::expected<std::uint64_t, std::string> ScenarioExecutor::send(const Step& step) {
     const auto start_mm = start_places(session_);
     if (!start_mm) { return std::unexpected(text_of(start_mm.error())); }
     const auto program = program_of_step(step, *start_mm);
@@ -162,7 +162,8 @@ std::expected<std::uint64_t, std::string> Player::send(const Step& step) {
     return *sent;
 }
 
-std::expected<Program, std::string> Player::program_of_step(const Step& step, const std::vector<double>& start_mm) {
+std::expected<Program, std::string> ScenarioExecutor::program_of_step(const Step& step,
+                                                                      const std::vector<double>& start_mm) {
     if (step.has_run()) {
         auto program = program_of(step.run(), scenario_.folder(), scenario_.machine, start_mm);
         if (!program) { return std::unexpected(to_text("the program", program.error())); }
@@ -173,20 +174,20 @@ std::expected<Program, std::string> Player::program_of_step(const Step& step, co
     return move_program(scenario_.machine, start_mm, options);
 }
 
-std::optional<Player::Ended> Player::watch(Watched watched, Course& course) {
+std::optional<ScenarioExecutor::Ended> ScenarioExecutor::watch(WatchedJob watched, EventSchedule& schedule) {
     const nanoseconds since = monotonic_now();
     while (monotonic_now() - since < kJobPatience) {
-        befall(course, since);
+        inject_due(schedule, since);
         if (const auto end = ended(watched)) { return end; }
-        glance();
+        poll_session();
     }
     return std::nullopt;
 }
 
-std::optional<Player::Ended> Player::ended(Watched& watched) {
-    if (session_.is_silent()) { return all_heard_rest() ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt; }
+std::optional<ScenarioExecutor::Ended> ScenarioExecutor::ended(WatchedJob& watched) {
+    if (session_.is_silent()) { return all_present_rest() ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt; }
     const MachineState& state = session_.state()->state;
-    const JobVerdict verdict = lockstep::judge(state, watched.job, watched.asked, watched.runs_it);
+    const JobVerdict verdict = lockstep::verdict_of(state, watched.job, watched.asked, watched.runs_it);
     if (verdict == JobVerdict::InProgress) {
         if (state.phase != MachinePhase::Waiting) { watched.runs_it = state.term; }
         return std::nullopt;
@@ -195,15 +196,15 @@ std::optional<Player::Ended> Player::ended(Watched& watched) {
     return Ended{ending_of(verdict), fault ? fault->name() : ""};
 }
 
-/// Who has not been heard of late is not asked.
-bool Player::all_heard_rest() const {
+/// Axes whose states are overdue do not count.
+bool ScenarioExecutor::all_present_rest() const {
     for (std::size_t i = 0; i < scenario_.machine.axes.size(); ++i) {
         if (session_.axis_present(i) && !session_.axis(i)->state.at_rest) { return false; }
     }
     return true;
 }
 
-Moment Player::moment(nanoseconds begun) const {
+Moment ScenarioExecutor::moment(nanoseconds begun) const {
     Moment now{.since_begun_s = to_seconds(monotonic_now() - begun)};
     if (session_.state()) {
         now.phase = session_.state()->state.phase;
@@ -217,74 +218,76 @@ Moment Player::moment(nanoseconds begun) const {
     return now;
 }
 
-void Player::befall(Course& course, nanoseconds begun) {
-    while (const Asked::During* during = course.next(moment(begun))) {
+void ScenarioExecutor::inject_due(EventSchedule& schedule, nanoseconds begun) {
+    while (const Asked::During* during = schedule.next(moment(begun))) {
         const Tick at = clock_.now();
-        tell(text_of(*during), at);
-        const auto done = acts_.act(during->act());
+        note(text_of(*during), at);
+        const auto done = acts_.execute(during->act());
         add_check(text_of(*during), done ? "done at " + fixed(at_s(at), 3) + " s" : done.error(), done.has_value());
         if (!during->has_rests_within_frames()) { continue; }
         AwaitedRest rest{text_of(during->act()), at, during->rests_within_frames(), {}};
         for (const AxisConfig& axis : scenario_.machine.axes) {
-            if (cast_.is_acting("axis-" + axis.name)) { rest.axes.push_back(axis.name); }
+            if (processes_.is_active("axis-" + axis.name)) { rest.axes.push_back(axis.name); }
         }
-        seen_.rests.push_back(std::move(rest));
+        observed_.rests.push_back(std::move(rest));
     }
 }
 
-void Player::glance() {
+void ScenarioExecutor::poll_session() {
     undo_due();
-    session_.listen(kGlance);
+    session_.listen(kPollInterval);
 }
 
-void Player::undo_due() {
+void ScenarioExecutor::undo_due() {
     while (const auto act = acts_.take_due()) {
-        tell(text_of(*act));
-        const auto done = acts_.act(*act);
+        note(text_of(*act));
+        const auto done = acts_.execute(*act);
         if (!done) { add_check(text_of(*act), done.error(), false); }
     }
 }
 
-void Player::check_left(const Step& step, const Course& course, const std::string& because) {
-    for (int i = course.done(); i < step.during_size(); ++i) {
-        add_check(text_of(step.during(i)), "never came to pass: " + because, false);
+void ScenarioExecutor::check_left(const Step& step, const EventSchedule& schedule, const std::string& because) {
+    for (int i = schedule.done(); i < step.during_size(); ++i) {
+        add_check(text_of(step.during(i)), "never happened: " + because, false);
     }
 }
 
-void Player::check_ending(const Step& step, const Ended& found) {
+void ScenarioExecutor::check_ending(const Step& step, const Ended& found) {
     const auto with = [](const std::string& fault) { return fault.empty() ? "" : " with " + fault; };
     const bool held = found.ending == step.ends() && (!step.has_fault() || step.fault() == found.fault);
     add_check(title(step) + ": ends " + text_of(step.ends()) + with(step.fault()),
               text_of(found.ending) + with(found.fault), held);
 }
 
-/// What was to be undone is; and each axis that acts, and none other, counts as heard.
-void Player::settle() {
+/// Waits until all acts are undone, and exactly the axes with active processes count as present.
+void ScenarioExecutor::settle() {
     const nanoseconds since = monotonic_now();
     const auto is_settled = [&] {
         const auto& axes = scenario_.machine.axes;
         for (std::size_t i = 0; i < axes.size(); ++i) {
-            if (session_.axis_present(i) != cast_.is_acting("axis-" + axes[i].name)) { return false; }
+            if (session_.axis_present(i) != processes_.is_active("axis-" + axes[i].name)) { return false; }
         }
         return !acts_.has_more_to_undo();
     };
-    while (acts_.has_more_to_undo() || (!is_settled() && monotonic_now() - since < kSettlePatience)) { glance(); }
-    seen_.status = status_report(session_);
+    while (acts_.has_more_to_undo() || (!is_settled() && monotonic_now() - since < kSettlePatience)) { poll_session(); }
+    observed_.status = status_report(session_);
 }
 
-std::string Player::title(const Step& step) const { return "step " + std::to_string(step_) + ", " + text_of(step); }
+std::string ScenarioExecutor::title(const Step& step) const {
+    return "step " + std::to_string(step_) + ", " + text_of(step);
+}
 
-double Player::at_s(Tick tick) const { return scenario_.machine.microseconds(tick - start_) * 1e-6; }
+double ScenarioExecutor::at_s(Tick tick) const { return scenario_.machine.microseconds(tick - start_) * 1e-6; }
 
-void Player::tell(const std::string& what, Tick at) {
-    proto::ScenarioHappening& happening = seen_.story.emplace_back();
+void ScenarioExecutor::note(const std::string& what, Tick at) {
+    proto::ScenarioHappening& happening = observed_.events.emplace_back();
     happening.set_tick(at.value);
     happening.set_at_s(at_s(at));
     happening.set_what(what);
 }
 
-void Player::add_check(const std::string& asked, const std::string& found, bool held) {
-    seen_.checks.push_back(check_of(asked, found, kAsPlayed, held));
+void ScenarioExecutor::add_check(const std::string& asked, const std::string& found, bool held) {
+    observed_.checks.push_back(check_of(asked, found, kAsObserved, held));
 }
 
 }  // namespace lockstep::scenario

@@ -1,4 +1,4 @@
-#include "clients/scenario/runner/acts.hpp"
+#include "clients/scenario/runner/act_executor.hpp"
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ using Done = std::expected<void, std::string>;
 constexpr double kAll = 100;  // percent
 constexpr auto kStopPatience = 500ms;
 
-/// What undoes an act.
-std::vector<Asked::Act> undone(const Asked::Act& act) {
+/// The acts that undo an act.
+std::vector<Asked::Act> undo_of(const Asked::Act& act) {
     std::vector<Asked::Act> acts(1);
     if (act.has_pause()) { acts[0].set_unpause(act.pause()); }
     if (act.has_cut()) { acts[0].set_heal(act.cut().process()); }
@@ -30,16 +30,16 @@ std::string text_of(const Failure& failure) { return failure.errors.front().mess
 
 }  // namespace
 
-Done Acts::act(const Asked::Act& act) {
-    const Done done = do_it(act);
+Done ActExecutor::execute(const Asked::Act& act) {
+    const Done done = apply(act);
     if (!done || !act.has_for_s()) { return done; }
     const auto at = monotonic_now() +
                     std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(act.for_s()));
-    for (const Asked::Act& undo : undone(act)) { undoing_.push_back({at, undo}); }
+    for (const Asked::Act& undo : undo_of(act)) { undoing_.push_back({at, undo}); }
     return done;
 }
 
-std::optional<Asked::Act> Acts::take_due() {
+std::optional<Asked::Act> ActExecutor::take_due() {
     const auto now = monotonic_now();
     const auto due = std::ranges::find_if(undoing_, [&](const Undo& undo) { return undo.at <= now; });
     if (due == undoing_.end()) { return std::nullopt; }
@@ -48,13 +48,13 @@ std::optional<Asked::Act> Acts::take_due() {
     return act;
 }
 
-Done Acts::do_it(const Asked::Act& act) {
+Done ActExecutor::apply(const Asked::Act& act) {
     using Act = Asked::Act;
     switch (act.what_case()) {
-        case Act::kKill: return cast_.kill(act.kill());
-        case Act::kRestart: return cast_.restart(act.restart());
-        case Act::kPause: return cast_.pause(act.pause());
-        case Act::kUnpause: return cast_.unpause(act.unpause());
+        case Act::kKill: return processes_.kill(act.kill());
+        case Act::kRestart: return processes_.restart(act.restart());
+        case Act::kPause: return processes_.pause(act.pause());
+        case Act::kUnpause: return processes_.unpause(act.unpause());
         case Act::kCut: return network_.lose(act.cut().process(), kAll, act.cut().way());
         case Act::kLose: return lose(act.lose());
         case Act::kHeal: return act.heal() == "all" ? network_.heal_all() : network_.heal(act.heal());
@@ -65,10 +65,10 @@ Done Acts::do_it(const Asked::Act& act) {
                         .rapid_percent = act.override().rapid()});
         case Act::WHAT_NOT_SET: break;
     }
-    return std::unexpected("there is nothing to do");
+    return std::unexpected("the act is empty");
 }
 
-Done Acts::lose(const Asked::Loss& loss) {
+Done ActExecutor::lose(const Asked::Loss& loss) {
     const auto all = network_.linked();
     const auto way = loss.has_way() ? loss.way() : Asked::HEARS;
     const std::vector<std::string> named{loss.process().begin(), loss.process().end()};
@@ -78,33 +78,33 @@ Done Acts::lose(const Asked::Loss& loss) {
     return {};
 }
 
-Done Acts::command(Asked::Command word) {
-    switch (word) {
+Done ActExecutor::command(Asked::Command asked_command) {
+    switch (asked_command) {
         case Asked::HOLD: return ask({.kind = CommandKind::Hold});
         case Asked::RESUME: return ask({.kind = CommandKind::Resume});
         case Asked::STOP: return ask({.kind = CommandKind::Stop});
         case Asked::RESET: return reset();
         case Asked::EMERGENCY_STOP: return stop_at_once();
-        default: return std::unexpected("there is nothing to ask");
+        default: return std::unexpected("the command is empty");
     }
 }
 
-/// Done once the machine is Idle.
-Done Acts::reset() {
+/// Returns once the machine is Idle.
+Done ActExecutor::reset() {
     if (const Done asked = ask({.kind = CommandKind::Reset}); !asked) { return asked; }
     const auto phase = await_effect(session_, CommandKind::Reset);
     if (!phase) { return std::unexpected(phase.error()); }
     return {};
 }
 
-/// The axes hear it themselves, whether a coordinator answers or not.
-Done Acts::stop_at_once() {
+/// The axes receive the command themselves, whether a coordinator answers or not.
+Done ActExecutor::stop_at_once() {
     const auto reply = session_.stop_at_once(kStopPatience);
     if (!reply || reply->status == ReplyStatus::Accepted) { return {}; }
     return std::unexpected("refused: " + reply->text);
 }
 
-Done Acts::ask(const Command& command) {
+Done ActExecutor::ask(const Command& command) {
     const auto reply = session_.command(command);
     if (!reply) { return std::unexpected(text_of(reply.error())); }
     if (reply->status == ReplyStatus::Accepted) { return {}; }

@@ -1,8 +1,8 @@
-#include "clients/scenario/model/words.hpp"
+#include "clients/scenario/model/scenario_text.hpp"
 
 #include <array>
 
-#include "clients/scenario/model/complaints.hpp"
+#include "clients/scenario/model/problems.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep::scenario {
@@ -17,16 +17,16 @@ std::string seconds(double value) { return number_text(value) + " s"; }
 
 std::string way_text(Asked::Way way) {
     switch (way) {
-        case Asked::HEARS: return "what it hears";
-        case Asked::SAYS: return "what it says";
+        case Asked::HEARS: return "what it receives";
+        case Asked::SAYS: return "what it sends";
         default: return "both ways";
     }
 }
 
 std::string loss_text(const Asked::Loss& loss) {
-    const std::string who =
-        loss.process().empty() ? "everybody" : listed({loss.process().begin(), loss.process().end()});
-    return "lose " + number_text(loss.percent()) + " % at " + who + ", " +
+    const std::string names =
+        loss.process().empty() ? "every process" : listed({loss.process().begin(), loss.process().end()});
+    return "lose " + number_text(loss.percent()) + " % at " + names + ", " +
            way_text(loss.has_way() ? loss.way() : Asked::HEARS);
 }
 
@@ -76,8 +76,8 @@ void add_expectations(const Asked::Expect& expect, std::string& text) {
         text += "  expect   the same frames: " + listed({expect.together().begin(), expect.together().end()}) + "\n";
     }
     if (expect.has_vetoes()) {
-        const std::string who = listed({expect.vetoes().by().begin(), expect.vetoes().by().end()});
-        text += "  expect   vetoes by: " + (who.empty() ? "nobody" : who) + "\n";
+        const std::string names = listed({expect.vetoes().by().begin(), expect.vetoes().by().end()});
+        text += "  expect   vetoes by: " + (names.empty() ? "none" : names) + "\n";
     }
     if (expect.has_cause()) { text += "  expect   its cause: " + expect.cause().kind() + "\n"; }
     if (!expect.has_exact() || expect.exact()) { text += "  expect   every step as planned\n"; }

@@ -1,0 +1,17 @@
+// Evaluates the expectations of a scenario against its results. Pure.
+#pragma once
+
+#include <vector>
+
+#include "clients/scenario/model/facts.hpp"
+#include "clients/scenario/model/scenario.hpp"
+
+namespace lockstep::scenario {
+
+/// The file with all logs merged, among those that --keep keeps.
+inline constexpr const char* kWholeLog = "whole.lcm";
+
+/// One check for each expectation and for each awaited rest: what was asked, what was found, and where.
+std::vector<Check> evaluate(const Scenario& scenario, const Observations& observed, const Evidence& evidence);
+
+}  // namespace lockstep::scenario

@@ -1,0 +1,72 @@
+// Executes the steps of a scenario on a machine that is up: begins each, injects the scripted events, waits for its end
+// and notes what it observes for the evaluation.
+#pragma once
+
+#include <functional>
+
+#include "clients/scenario/model/event_schedule.hpp"
+#include "clients/scenario/model/facts.hpp"
+#include "clients/scenario/runner/act_executor.hpp"
+#include "clients/session/job_verdict.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep::scenario {
+
+class ScenarioExecutor {
+public:
+    ScenarioExecutor(const Scenario& scenario, Session& session, ProcessSet& processes, ActExecutor& acts);
+
+    /// Waits until the machine is in this phase and receives states of all axes whose processes are active. False: not
+    /// in time.
+    bool wait_for(Asked::Phase phase);
+    /// From the first step to the last, or to one that cannot be executed.
+    void execute();
+    const Observations& observations() const { return observed_; }
+
+private:
+    struct WatchedJob {
+        std::uint64_t job = 0;
+        Term asked;    // of the coordinator that began it
+        Term runs_it;  // of the coordinator that was last received as running it
+    };
+    struct Ended {
+        Asked::Step::Ending ending;
+        std::string fault;  // by name; empty: none
+    };
+
+    void execute_step(const Asked::Step& step);
+    void execute_job(const Asked::Step& step);
+    void execute_wait(const Asked::Step& step);
+    void check_found(const Asked::Step& step);
+    std::expected<Reply, std::string> begin(const Asked::Step& step);
+    std::expected<std::uint64_t, std::string> send(const Asked::Step& step);
+    std::expected<Program, std::string> program_of_step(const Asked::Step& step, const std::vector<double>& start_mm);
+    std::optional<Ended> watch(WatchedJob watched, EventSchedule& schedule);
+    std::optional<Ended> ended(WatchedJob& watched);
+    void inject_due(EventSchedule& schedule, std::chrono::nanoseconds begun);
+    void undo_due();
+    void poll_session();
+    void check_ending(const Asked::Step& step, const Ended& found);
+    void check_left(const Asked::Step& step, const EventSchedule& schedule, const std::string& because);
+    void settle();
+
+    Moment moment(std::chrono::nanoseconds begun) const;
+    bool receives_all(std::chrono::nanoseconds since);
+    bool all_present_rest() const;
+    std::string title(const Asked::Step& step) const;
+    double at_s(Tick tick) const;
+    void note(const std::string& what) { note(what, clock_.now()); }
+    void note(const std::string& what, Tick at);
+    void add_check(const std::string& asked, const std::string& found, bool held);
+
+    const Scenario& scenario_;
+    Session& session_;
+    ProcessSet& processes_;
+    ActExecutor& acts_;
+    MachineClock clock_;
+    Tick start_;
+    int step_ = 0;  // counted from 1
+    Observations observed_;
+};
+
+}  // namespace lockstep::scenario
