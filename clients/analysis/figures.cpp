@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/curves.hpp"
-#include "clients/analysis/words.hpp"
 #include "clients/drawing/motion_figures.hpp"
 #include "services/files/text_file.hpp"
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/verdict.hpp"
-#include "clients/analysis/words.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "clients/analysis/words.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 namespace {
 
@@ -51,7 +51,7 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, con
 /// Help and version are what was asked for; anything else is bad usage, said as JSON where JSON was asked for.
 int say_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first, bool json) {
     if (error.get_exit_code() == 0) { return app.exit(error); }
-    return Voice(json).fail(bad_input(what_is_wrong(app, error, first)));
+    return Output(json).fail(bad_input(what_is_wrong(app, error, first)));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "clients/analysis/record_state.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/verdict.hpp"
-#include "clients/analysis/words.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/report_page/page_charts.hpp"
 #include "clients/report_page/page_parts.hpp"

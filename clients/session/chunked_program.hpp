@@ -1,5 +1,5 @@
-// A program's bytes on their way to the coordinator: cut into chunks, a few in flight at a time, each sent again until
-// it is answered. Pure: it is told the time.
+// Sends the bytes of a program to the coordinator in chunks: a few in flight at a time, each repeated until it is
+// answered. Pure: the caller gives the time.
 #pragma once
 
 #include <chrono>
@@ -25,9 +25,9 @@ public:
     std::uint32_t answered() const { return answered_; }
     bool done() const { return answered_ == count_; }
 
-    /// What is to be sent now: what was never sent, as far as the window allows, and what has waited too long.
+    /// The chunks to send now: new ones as far as the window allows, and those whose answer is overdue.
     std::vector<ProgramChunk> due(std::chrono::nanoseconds now);
-    /// A reply came. Others' sequence numbers are ignored.
+    /// Takes a reply. Sequence numbers of other requests are ignored.
     void take_answer(std::uint64_t sequence);
 
 private:

@@ -1,7 +1,7 @@
 #include "clients/session/command_effect.hpp"
 
 #include "clients/session/reports.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -50,7 +50,7 @@ std::expected<MachinePhase, std::string> await_effect(Session& session, CommandK
         const auto& heard = session.state();
         return heard && heard->time > replied + slot && shows_effect(command, heard->state.phase);
     };
-    while (!is_shown() && monotonic_now() - replied < kPatience) { session.listen(50ms); }
+    while (!is_shown() && monotonic_now() - replied < kPatience) { session.receive(50ms); }
     if (!is_shown()) { return std::unexpected(late_text(session, command)); }
     const MachineState& state = session.state()->state;
     if (command != CommandKind::Reset || state.phase != MachinePhase::Fault) { return state.phase; }

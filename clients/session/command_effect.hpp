@@ -1,4 +1,4 @@
-// Whether a command that was accepted has had its effect.
+// Waits for the effect of an accepted command.
 #pragma once
 
 #include <expected>
@@ -8,8 +8,8 @@
 
 namespace lockstep {
 
-/// Waits until the machine's state shows the effect, some seconds at most: a hold and a stop have brought it to rest, a
-/// reset has ended its Fault. Error: it has not, with what the machine does instead and what to do.
+/// Waits some seconds at most until the machine's state shows the effect: a hold or stop has brought it to rest, a
+/// reset has ended its Fault. Error: it has not, with the machine's state and the remedy.
 std::expected<MachinePhase, std::string> await_effect(Session& session, CommandKind command);
 
 }  // namespace lockstep

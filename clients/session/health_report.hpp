@@ -1,4 +1,4 @@
-// An axis's live figures as its part of the status report, in the units people read.
+// The live figures of an axis as its part of the status report, in the user's units.
 #pragma once
 
 #include "core/machine.hpp"

@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// Where every axis stands, in mm and to the step. Error: an axis is not heard.
+/// The position of every axis, in mm and to the step. Error: an axis is not received.
 std::expected<std::vector<double>, Failure> start_places(Session& session);
 
 /// How long a program takes from there with the session's overrides, s. Error: why it cannot be planned.

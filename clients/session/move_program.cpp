@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "core/axis_unit.hpp"
 #include "core/gcode/gcode.hpp"
 #include "services/documents/names.hpp"

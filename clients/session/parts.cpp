@@ -21,46 +21,46 @@ proto::AwaitedPart awaited(const std::string& name, const std::string& host, con
     return part;
 }
 
-/// Of an axis that is not heard by all.
-std::string axis_state(const MachineConfig& machine, const PartsSeen& seen, std::size_t axis) {
-    if (has_axis(seen.axes_heard, axis)) { return "started, not heard by the coordinator"; }
-    if (!is_present(seen.present, axis)) { return kAbsent; }
+/// Of an axis that is not received everywhere.
+std::string axis_state(const MachineConfig& machine, const KnownParts& known, std::size_t axis) {
+    if (has_axis(known.axes_present, axis)) { return "started, not heard by the coordinator"; }
+    if (!is_present(known.present, axis)) { return kAbsent; }
     const bool lacks_time = machine.timing.time_source == TimeSource::Network;
     return lacks_time ? "started, waits for the coordinator's clock" : "started, not heard";
 }
 
 }  // namespace
 
-PartsSeen parts_seen(const Session& session) {
-    PartsSeen seen{.coordinator_heard = session.state() && !session.is_silent(), .present = session.present()};
+KnownParts known_parts(const Session& session) {
+    KnownParts known{.coordinator_present = session.state() && !session.is_silent(), .present = session.present()};
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        if (session.axis_present(i)) { seen.axes_heard |= axis_bit(i); }
+        if (session.axis_present(i)) { known.axes_present |= axis_bit(i); }
     }
-    if (seen.coordinator_heard) { seen.axes_heard_by_coordinator = session.state()->state.axes_present; }
-    return seen;
+    if (known.coordinator_present) { known.axes_present_at_coordinator = session.state()->state.axes_present; }
+    return known;
 }
 
 std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis) {
     return axis ? "axis " + machine.axes[*axis].name : "coordinator";
 }
 
-std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const PartsSeen& seen) {
+std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& known) {
     std::vector<proto::AwaitedPart> parts;
-    if (!seen.coordinator_heard) {
-        const bool is_there = is_present(seen.present, std::nullopt);
+    if (!known.coordinator_present) {
+        const bool is_there = is_present(known.present, std::nullopt);
         parts.push_back(
             awaited(part_name(machine, {}), machine.coordinator_host, is_there ? "started, not heard" : kAbsent));
     }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const bool is_known = !seen.coordinator_heard || has_axis(seen.axes_heard_by_coordinator, i);
-        if (has_axis(seen.axes_heard, i) && is_known) { continue; }
-        parts.push_back(awaited(part_name(machine, i), machine.axes[i].host, axis_state(machine, seen, i)));
+        const bool is_known = !known.coordinator_present || has_axis(known.axes_present_at_coordinator, i);
+        if (has_axis(known.axes_present, i) && is_known) { continue; }
+        parts.push_back(awaited(part_name(machine, i), machine.axes[i].host, axis_state(machine, known, i)));
     }
     return parts;
 }
 
 void add_awaited(const Session& session, proto::StatusReport& report) {
-    for (proto::AwaitedPart& part : awaited_parts(session.config(), parts_seen(session))) {
+    for (proto::AwaitedPart& part : awaited_parts(session.config(), known_parts(session))) {
         *report.add_waits_for() = std::move(part);
     }
 }

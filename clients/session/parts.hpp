@@ -1,4 +1,4 @@
-// The parts of a machine, the coordinator and the axes, each on its host: which are awaited, and how far each has come.
+// The parts of a machine, coordinator and axes, each on its host: which are awaited, and in which state each is.
 #pragma once
 
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace lockstep {
 
-/// What one process knows of a machine's parts.
-struct PartsSeen {
-    bool coordinator_heard = false;
-    AxisSet axes_heard = 0;
-    AxisSet axes_heard_by_coordinator = 0;
+/// The parts that one process knows of.
+struct KnownParts {
+    bool coordinator_present = false;
+    AxisSet axes_present = 0;
+    AxisSet axes_present_at_coordinator = 0;
     std::vector<PresentProcess> present;
 };
 
-PartsSeen parts_seen(const Session& session);
+KnownParts known_parts(const Session& session);
 
 /// "coordinator", "axis Z". Nothing: the coordinator.
 std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis);
 
-/// The parts that are not heard, or not by the coordinator. Pure.
-std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const PartsSeen& seen);
+/// The parts that are not received, or not by the coordinator. Pure.
+std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& seen);
 
 void add_awaited(const Session& session, proto::StatusReport& report);
 

@@ -1,4 +1,4 @@
-// Where a program starts, as a person says it.
+// The start position of a program, from a command line.
 #pragma once
 
 #include <expected>
@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// "X=10,Y=5": parked, as after homing, but for the axes that it names. Error: what is wrong with it, and an example.
+/// "X=10,Y=5": the named axes there, the others parked as after homing. Error: what is wrong with it, and an example.
 std::expected<std::vector<double>, std::string> places_at_start(const MachineConfig& machine, const std::string& start);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Messages of the record that its processes could not write or send, as a person is told of them.
+// Texts about messages of the record that its processes could not write or send.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// Of all processes that are heard, since each was started.
+/// Of all processes that are received, since the start of each.
 std::uint64_t lost_records(const proto::StatusReport& status);
 /// Which processes lost how many, and what to do; empty: none did.
 std::string record_loss_text(const proto::StatusReport& status);

@@ -4,13 +4,13 @@
 
 namespace lockstep {
 
-ExitCode say_refusal(const Reply& reply, Voice& voice) {
+ExitCode print_refusal(const Reply& reply, Output& output) {
     proto::CommandReport report;
     report.set_accepted(false);
     *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
     report.set_text(reply.text);
-    voice.report(report);
-    if (!voice.json()) { voice.warn("refused: " + reply.text + "\n" + fault_text(report.fault())); }
+    output.report(report);
+    if (!output.json()) { output.warn("refused: " + reply.text + "\n" + fault_text(report.fault())); }
     return kExitFailed;
 }
 

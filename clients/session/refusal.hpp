@@ -1,13 +1,13 @@
-// How a verb says that the coordinator has refused its command.
+// Reports that the coordinator has refused a command.
 #pragma once
 
 #include "clients/text/exit_code.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
 
 /// The reason and the remedy, or a CommandReport with both.
-ExitCode say_refusal(const Reply& reply, Voice& voice);
+ExitCode print_refusal(const Reply& reply, Output& output);
 
 }  // namespace lockstep

@@ -1,7 +1,7 @@
 #include "clients/session/reports.hpp"
 
 #include "clients/session/health_report.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "services/flight/incident_file.hpp"
 #include "services/runtime/clock.hpp"
 

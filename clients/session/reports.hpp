@@ -1,4 +1,4 @@
-// What a session knows, as the reports of report.proto: the one source of both the JSON and the text that is shown.
+// The state of a session as the reports of report.proto: the one source of both JSON and text.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, cons
 
 proto::StatusReport status_report(const Session& session);
 
-/// Where the incident files are that this host's flight recorders wrote; reads the directory.
+/// Adds where this host's flight recorders wrote incident files; reads the directory.
 void add_incidents(const MachineConfig& machine, proto::StatusReport& report);
 
 /// Where an axis stands: position and count.

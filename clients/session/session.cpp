@@ -21,9 +21,9 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRepeatCommandAfter = 250ms;
 constexpr nanoseconds kAnswerPatience = 3s;
-constexpr nanoseconds kHeardPatience = 5s;       // for an axis that the coordinator hears: this process will, too
-constexpr nanoseconds kUnheardPatience = 500ms;  // for one that it does not
-constexpr nanoseconds kPlanPatience = 60s;       // a coordinator that reads or plans a large program answers late
+constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
+constexpr nanoseconds kAbsentPatience = 500ms;  // for one that it does not
+constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
 
 static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
 
@@ -50,7 +50,7 @@ Session::Session(const ChosenMachine& machine, Bus bus)
       healths_(axes_.size()) {}
 
 std::expected<Session, Failure> Session::join(const ChosenMachine& machine, Purpose purpose) {
-    hear_dds([](const std::string&) {});  // for silent(): what is on the terminal is the verb's
+    hear_dds([](const std::string&) {});  // for silent(): only the verb writes to the terminal
     const bool looks = purpose == Purpose::Look;
     auto admission = admit(machine.config, looks ? viewer_member() : client_member());
     if (!admission) { return std::unexpected(failed(admission.error())); }
@@ -67,7 +67,7 @@ std::expected<Session, Failure> Session::open(const ChosenMachine& machine, Purp
     return session;
 }
 
-/// A client waits for those who listen to it, too.
+/// A commanding client also waits until its readers and writers are matched.
 bool Session::is_reached() {
     if (!state_) { return false; }
     const ClientBus* bus = std::get_if<ClientBus>(&bus_);
@@ -78,7 +78,7 @@ std::expected<void, Failure> Session::reach(nanoseconds patience) {
     const nanoseconds deadline = monotonic_now() + patience;
     while (!is_reached()) {
         if (monotonic_now() > deadline) { return std::unexpected(silent()); }
-        listen(50ms);
+        receive(50ms);
     }
     return {};
 }
@@ -91,7 +91,7 @@ std::expected<void, Failure> Session::reach_axes() {
                 return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
                                                    "' is not heard; start its lockstep-axis, or see its log"));
             }
-            listen(50ms);
+            receive(50ms);
         }
     }
     return {};
@@ -100,43 +100,43 @@ std::expected<void, Failure> Session::reach_axes() {
 void Session::await_axes() {
     const nanoseconds begin = monotonic_now();
     const auto may_come = [&](std::size_t i) {
-        const bool is_heard = state_ && has_axis(state_->state.axes_present, i);
-        return !axis_present(i) && monotonic_now() - begin < (is_heard ? kHeardPatience : kUnheardPatience);
+        const bool is_received = state_ && has_axis(state_->state.axes_present, i);
+        return !axis_present(i) && monotonic_now() - begin < (is_received ? kReceivedPatience : kAbsentPatience);
     };
-    while (std::ranges::any_of(std::views::iota(std::size_t{0}, axes_.size()), may_come)) { listen(50ms); }
+    while (std::ranges::any_of(std::views::iota(std::size_t{0}, axes_.size()), may_come)) { receive(50ms); }
 }
 
 void Session::await_healths(nanoseconds patience) {
     const nanoseconds deadline = monotonic_now() + patience;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        while (axes_[i] && !healths_[i] && monotonic_now() < deadline) { listen(20ms); }
+        while (axes_[i] && !healths_[i] && monotonic_now() < deadline) { receive(20ms); }
     }
 }
 
-void Session::listen(nanoseconds at_most) {
-    (void)heard().arrivals->wait_for(at_most);
-    take();
+void Session::receive(nanoseconds at_most) {
+    (void)viewer_bus().arrivals->wait_for(at_most);
+    take_messages();
 }
 
-void Session::take() {
+void Session::take_messages() {
     const nanoseconds now = monotonic_now();
-    heard().machine.take([&](MachineState&& state) {
+    viewer_bus().machine.take([&](MachineState&& state) {
         if (state.phase == MachinePhase::Standby) {
             standby_ = {state, now};
             return;
         }
-        // Where two speak, the lower term gives way; one that has fallen silent was replaced.
+        // Of two coordinators the higher term counts, unless it has fallen silent and was replaced.
         const bool is_lower = state_ && state.term < state_->state.term;
         if (!is_lower || now - state_->time > 1s) { state_ = {state, now}; }
     });
-    heard().states.take([&](AxisState&& state) {
+    viewer_bus().states.take([&](AxisState&& state) {
         if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
     });
-    heard().healths.take([&](AxisHealth&& health) {
+    viewer_bus().healths.take([&](AxisHealth&& health) {
         if (health.axis < healths_.size()) { healths_[health.axis] = health; }
     });
     if (!std::holds_alternative<ClientBus>(bus_)) { return; }
-    asking().replies.take([&](Reply&& reply) {
+    client_bus().replies.take([&](Reply&& reply) {
         if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }
     });
 }
@@ -150,7 +150,7 @@ bool Session::axis_present(std::size_t i) const {
     return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
 }
 
-/// Not the owner himself, as he was before he owned.
+/// The owner may have been the standby before: its old state does not count.
 bool Session::has_standby() const {
     const bool is_owner = standby_ && state_ && standby_->state.term.coordinator == state_->state.term.coordinator;
     return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence();
@@ -162,12 +162,12 @@ std::vector<PresentProcess> Session::present() const {
     return std::visit([](const ViewerBus& bus) { return present_processes(bus.participant); }, bus_);
 }
 
-std::string Session::whereabouts() const {
+std::string Session::place_text() const {
     return "machine '" + config().name + "' answers on interface " + config().network.interface + ", domain " +
            std::to_string(config().network.domain);
 }
 
-std::string Session::axes_heard() const {
+std::string Session::received_axes() const {
     std::string names;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (axis_present(i)) { names += (names.empty() ? "" : ", ") + config().axes[i].name; }
@@ -175,7 +175,7 @@ std::string Session::axes_heard() const {
     return names;
 }
 
-std::string Session::axes_there() const {
+std::string Session::present_axes() const {
     std::string names;
     for (const PresentProcess& process : present()) {
         if (!process.axis || *process.axis >= axes_.size()) { continue; }
@@ -186,17 +186,17 @@ std::string Session::axes_there() const {
 
 Failure Session::silent() const {
     const std::string refused = dds_said_last().empty() ? "" : " (DDS says: " + dds_said_last() + ")";
-    const std::string none = "no coordinator of " + whereabouts() + refused;
+    const std::string none = "no coordinator of " + place_text() + refused;
     if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
-        const std::string waiting = axes_there();
+        const std::string waiting = present_axes();
         return unreachable(none + "; it belongs on " + host + ", there: lockstep up" +
                            (waiting.empty() ? "" : "; axes that wait for it: " + waiting));
     }
     const std::string start = "lockstep up --machine " + machine_.file.string();
-    const std::string heard = axes_heard();
-    if (heard.empty()) { return unreachable(none + ": is it up? " + start); }
-    return unreachable(none + ", though its axes do (" + heard + "): start lockstep-coordinator, or: lockstep down, " +
-                       start);
+    const std::string received = received_axes();
+    if (received.empty()) { return unreachable(none + ": is it up? " + start); }
+    return unreachable(none + ", though its axes do (" + received +
+                       "): start lockstep-coordinator, or: lockstep down, " + start);
 }
 
 std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {
@@ -209,12 +209,12 @@ std::expected<Reply, Failure> Session::command(Command command, const StopSignal
         if (now > deadline) { return std::unexpected(silent()); }
         const bool is_stopped = stop != nullptr && stop->requested();
         if (is_stopped && repeat_at != nanoseconds::max()) { deadline = std::min(deadline, now + kAnswerPatience); }
-        if (is_stopped) { repeat_at = nanoseconds::max(); }  // what was asked may have been begun
+        if (is_stopped) { repeat_at = nanoseconds::max(); }  // the command may have begun already
         if (now >= repeat_at) {
-            (void)asking().commands.write(command);
+            (void)client_bus().commands.write(command);
             repeat_at = now + kRepeatCommandAfter;
         }
-        listen(50ms);
+        receive(50ms);
     }
     return replies_.extract(command.sequence).mapped();
 }
@@ -223,23 +223,23 @@ std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
     const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
     const nanoseconds deadline = monotonic_now() + patience;
     while (!replies_.contains(command.sequence) && monotonic_now() < deadline) {
-        (void)asking().commands.write(command);
-        listen(20ms);
+        (void)client_bus().commands.write(command);
+        receive(20ms);
     }
     if (!replies_.contains(command.sequence)) { return std::nullopt; }
     return replies_.extract(command.sequence).mapped();
 }
 
 std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop) {
-    const std::uint64_t id = new_identity() | 1;  // never 0, which says: none
+    const std::uint64_t id = new_identity() | 1;  // never 0, which means none
     ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program));
     sequence_ += chunks.count();
     nanoseconds deadline = monotonic_now() + kPlanPatience;
     while (!chunks.done()) {
         if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
         if (monotonic_now() > deadline) { return std::unexpected(silent()); }
-        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)asking().chunks.write(chunk); }
-        listen(50ms);
+        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)client_bus().chunks.write(chunk); }
+        receive(50ms);
         for (const auto& [sequence, reply] : std::exchange(replies_, {})) {
             if (reply.status == ReplyStatus::Refused) { return std::unexpected(failed(reply.text)); }
             chunks.take_answer(sequence);

@@ -1,4 +1,4 @@
-// A client's conversation with a machine: what it hears of coordinator and axes, what it asks, and the answers.
+// A client's connection to a machine: states received from coordinator and axes, commands sent, and the replies.
 #pragma once
 
 #include <chrono>
@@ -23,81 +23,85 @@ namespace lockstep {
 inline constexpr std::chrono::seconds kReachPatience{3};
 
 template <typename State>
-struct Heard {
+struct Received {
     State state;
     std::chrono::nanoseconds time;  // CLOCK_MONOTONIC of this host
 };
 
-/// What a session is for: where security is on, it takes the keys of a viewer or of a client.
+/// With security, a session that looks uses the keys of a viewer, one that commands those of a client.
 enum class Purpose { Look, Command };
 
 class Session {
 public:
-    /// On the machine's network; hears nobody yet. Error: DDS cannot be opened, or security does not let it in.
+    /// On the machine's network; nothing is received yet. Error: DDS cannot be opened, or security refuses the client.
     static std::expected<Session, Failure> join(const ChosenMachine& machine, Purpose purpose);
-    /// join, and reach.
+    /// join() and reach().
     static std::expected<Session, Failure> open(const ChosenMachine& machine, Purpose purpose);
 
-    /// Waits until a coordinator speaks and listens. Error: none does; who is heard at all, and what to do.
+    /// Waits until a coordinator publishes states and is matched with this client. Error: none is; which axes are
+    /// received, and the remedy.
     std::expected<void, Failure> reach(std::chrono::nanoseconds patience = kReachPatience);
-    /// Waits until every axis is heard. Error: who is not.
+    /// Waits until every axis is received. Error: an axis that is not.
     std::expected<void, Failure> reach_axes();
-    /// Waits for the axes that the coordinator hears, and a moment for the others: who is not heard then is not there.
+    /// Waits for the axes that the coordinator receives, and shortly for the others: those still missing count as
+    /// absent.
     void await_axes();
-    /// Waits, at most so long, for the live figures of every axis that is heard: they come ten times a second.
+    /// Waits for the live figures of every axis that is received: they are published ten times a second.
     void await_healths(std::chrono::nanoseconds patience);
 
-    /// Sleeps until something comes, at most so long, and takes it.
-    void listen(std::chrono::nanoseconds at_most);
+    /// Waits for messages and takes them.
+    void receive(std::chrono::nanoseconds at_most);
 
     const MachineConfig& config() const { return machine_.config; }
-    /// Of another configuration than the client's: its places and limits are not to be relied on.
+    /// The coordinator runs another configuration than the client has: its positions and limits may differ.
     bool config_differs() const { return state_ && state_->state.config_hash != machine_.hash; }
 
-    /// The newest heard; nothing before the first.
-    const std::optional<Heard<MachineState>>& state() const { return state_; }
-    const std::optional<Heard<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
+    /// The newest received; nothing before the first.
+    const std::optional<Received<MachineState>>& state() const { return state_; }
+    const std::optional<Received<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
     const std::optional<AxisHealth>& health(std::size_t i) const { return healths_[i]; }
-    /// Whether it was heard within the time after which the machine counts it as gone.
+    /// Whether a state came within the time after which the machine counts an axis as absent.
     bool axis_present(std::size_t i) const;
-    /// Whether a coordinator that stands by is heard.
+    /// Whether a standby coordinator is received.
     bool has_standby() const;
     /// No state of the coordinator for longer than any stall that the machine's timing allows.
     bool is_silent() const;
     Failure silent() const;
-    /// The machine's processes on the network, also those that say nothing yet.
+    /// The machine's processes on the network, also those that publish nothing yet.
     std::vector<PresentProcess> present() const;
 
-    /// Asks until the answer comes; who asks is filled in. Error: none comes, or not soon after a signal to `stop`.
+    /// Repeats the command until the reply comes; fills in client and sequence. Error: no reply, or none soon after a
+    /// signal to `stop`.
     std::expected<Reply, Failure> command(Command command, const StopSignal* stop = nullptr);
-    /// Calls out to coordinator and axes alike: axes stop by themselves. Nothing: no coordinator answered in the time.
+    /// Sends an emergency stop to coordinator and axes: axes stop by themselves. Nothing: no coordinator replied in
+    /// time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
-    /// Sends a program; what it is called in a command. Error: it is refused, no answer comes, or a signal to `stop`.
+    /// Sends a program; returns its id for a command. Error: refused, no reply, or a signal to `stop`.
     std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr);
 
 private:
     using Bus = std::variant<ViewerBus, ClientBus>;
     Session(const ChosenMachine& machine, Bus bus);
-    ViewerBus& heard() {
+    ViewerBus& viewer_bus() {
         return std::visit([](ViewerBus& bus) -> ViewerBus& { return bus; }, bus_);
     }
-    /// Only of a session that is to command.
-    ClientBus& asking() { return std::get<ClientBus>(bus_); }
+    /// Only of a session with Purpose::Command.
+    ClientBus& client_bus() { return std::get<ClientBus>(bus_); }
     bool is_reached();
 
-    void take();
+    void take_messages();
     std::chrono::nanoseconds longest_silence() const;
-    std::string whereabouts() const;
-    std::string axes_heard() const;
-    std::string axes_there() const;
+    std::string place_text() const;
+    std::string received_axes() const;
+    std::string present_axes() const;
 
     ChosenMachine machine_;
     Bus bus_;
     Identity client_;
     std::uint64_t sequence_ = 0;
-    std::optional<Heard<MachineState>> state_;  // the owner's
-    std::optional<Heard<MachineState>> standby_;
-    std::vector<std::optional<Heard<AxisState>>> axes_;
+    std::optional<Received<MachineState>> state_;  // the owner's
+    std::optional<Received<MachineState>> standby_;
+    std::vector<std::optional<Received<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at
 };

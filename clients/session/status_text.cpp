@@ -7,7 +7,7 @@
 
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep {
 namespace {

@@ -26,33 +26,33 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kUpPatience = 20s;
-constexpr nanoseconds kUpPatienceEach = 400ms;  // for each axis besides: they start one by one, and greet each other
+constexpr nanoseconds kUpPatienceEach = 400ms;  // for each axis: they start one by one, and discover each other
 constexpr std::size_t kTailLines = 6;
 
-void route_multicast(const NetworkConfig& network, Voice& voice) {
+void route_multicast(const NetworkConfig& network, Output& output) {
     if (network.interface == "lo") {
-        if (const auto route = ensure_loopback_multicast(); !route) { voice.warn(route.error()); }
+        if (const auto route = ensure_loopback_multicast(); !route) { output.warn(route.error()); }
     }
-    if (const auto may = check_multicast(network); !may) { voice.warn("nothing is recorded: " + may.error()); }
+    if (const auto may = check_multicast(network); !may) { output.warn("nothing is recorded: " + may.error()); }
 }
 
 void warn_of_directory(const std::string& lost, const std::filesystem::path& path, const std::string& key,
-                       Voice& voice) {
+                       Output& output) {
     const std::string why = doctor::why_not_writable(path);
     if (why.empty()) { return; }
-    voice.warn(lost + ": " + path.string() + " cannot be written (" + why + "); make it this user's: install -d -o " +
-               "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another one");
+    output.warn(lost + ": " + path.string() + " cannot be written (" + why + "); make it this user's: install -d -o " +
+                "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another one");
 }
 
-/// The services find the same, but say it in their logs only.
-void warn_of_directories(const MachineConfig& machine, const Placement& placed, Voice& voice) {
+/// The services find the same, but report it only in their logs.
+void warn_of_directories(const MachineConfig& machine, const Placement& placed, Output& output) {
     if (machine.record.own_logs) {
         warn_of_directory("no log of its own is kept by any process here", own_log_directory(machine),
-                          "record { directory }", voice);
+                          "record { directory }", output);
     }
     if (placed.axes.empty()) { return; }
     warn_of_directory("no position is kept", position_file(machine, placed.axes.front()).parent_path(),
-                      "position_directory", voice);
+                      "position_directory", output);
 }
 
 std::expected<void, Failure> check_programs(const std::vector<ServiceLine>& lines) {
@@ -156,7 +156,7 @@ std::string part_without_host(const MachineConfig& machine) {
 }  // namespace
 
 std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
-                                         const StateDirectory& state, Voice& voice) {
+                                         const StateDirectory& state, Output& output) {
     const Placement placed = placed_on(machine.config, host_name());
     if (placed.empty()) {
         return std::unexpected(bad_input(machine.file.string() + ": places nothing on this host, " + host_name() +
@@ -170,8 +170,8 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
     const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
     if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
-    route_multicast(machine.config.network, voice);
-    warn_of_directories(machine.config, placed, voice);
+    route_multicast(machine.config.network, output);
+    warn_of_directories(machine.config, placed, output);
     return OwnParts{placed, lines};
 }
 
@@ -214,13 +214,13 @@ std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, cons
         }
         if (are_present(parts.lines, state.recorded(), present) && (!alone || is_whole(*session))) { return session; }
         if (monotonic_now() > deadline) { return std::unexpected(missing(*session, parts, state)); }
-        session->listen(100ms);
+        session->receive(100ms);
     }
 }
 
 bool await_others(Session& session, nanoseconds patience) {
     const nanoseconds deadline = monotonic_now() + patience;
-    while (!is_whole(session) && monotonic_now() < deadline) { session.listen(100ms); }
+    while (!is_whole(session) && monotonic_now() < deadline) { session.receive(100ms); }
     return is_whole(session);
 }
 

@@ -9,12 +9,12 @@
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/supervisor/service_lines.hpp"
 #include "clients/supervisor/state_directory.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "services/documents/placement.hpp"
 
 namespace lockstep {
 
-/// What of a machine this host is to run.
+/// The parts of a machine that this host runs.
 struct OwnParts {
     Placement placed;
     std::vector<ServiceLine> lines;
@@ -23,7 +23,7 @@ struct OwnParts {
 /// Routes multicast and claims the state directory, with a copy of the configuration in it; warns where the record
 /// or positions cannot be kept. Error: the machine is up already, or a program or the directory is missing.
 std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
-                                         const StateDirectory& state, Voice& voice);
+                                         const StateDirectory& state, Output& output);
 
 /// Supervises in this process until SIGTERM or SIGINT.
 void supervise(const StateDirectory& state, const std::vector<ServiceLine>& lines);
@@ -33,19 +33,19 @@ void supervise(const StateDirectory& state, const std::vector<ServiceLine>& line
 std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state,
                                                               const std::vector<ServiceLine>& lines);
 
-/// Idle, or in Fault, with all axes heard.
+/// Idle, or in Fault, with all axes present.
 bool is_whole(const Session& session);
 
 /// Whether this host runs every part of the machine.
 bool is_alone(const MachineConfig& machine, const Placement& placed);
 
-/// Waits until this host's parts are on the network; where it runs all of them, until the machine is whole. What
-/// belongs on other hosts may be started at any time. Error: a part is run by others, was given up, or is missing, with
+/// Waits until this host's parts are on the network; where it runs all of them, until the machine is whole. Parts
+/// of other hosts may start at any time. Error: a part is run by others, was given up, or is missing, with
 /// the end of its log.
 std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const OwnParts& parts,
                                               const StateDirectory& state, const ProcessRecord& supervisor);
 
-/// Waits for the parts on other hosts, at most so long. Whether the machine is whole.
+/// Waits for the parts on other hosts. Returns whether the machine is whole.
 bool await_others(Session& session, std::chrono::nanoseconds patience);
 
 }  // namespace lockstep

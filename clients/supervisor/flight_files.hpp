@@ -1,4 +1,4 @@
-// What each process of a machine on this host noted last is written to files, because somebody asks.
+// Writes the flight recorders of all processes of a machine on this host to files, on request.
 #pragma once
 
 #include "core/machine.hpp"
@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Of processes that live, are stopped, hang, or have died: they need do nothing for it.
+/// Works for processes that run, are stopped, hang or have died: it reads their shared memory.
 proto::FlightReport write_flight_files(const MachineConfig& machine);
 
 }  // namespace lockstep

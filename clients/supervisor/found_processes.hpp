@@ -1,4 +1,4 @@
-// A machine's processes on this host by the host's process table: for when the record of them is damaged or gone.
+// Finds a machine's processes in the process table of this host, for when the record of them is damaged or lost.
 #pragma once
 
 #include <filesystem>

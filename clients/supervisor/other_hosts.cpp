@@ -80,7 +80,7 @@ OtherHosts::~OtherHosts() {
     }
 }
 
-bool OtherHosts::finish(Voice& voice, std::size_t lines_where_well) {
+bool OtherHosts::finish(Output& output, std::size_t lines_where_well) {
     bool good = true;
     for (Remote& remote : remotes_) {
         std::istringstream lines(all_of(remote.output));
@@ -90,13 +90,13 @@ bool OtherHosts::finish(Voice& voice, std::size_t lines_where_well) {
         const bool is_well = ended && WIFEXITED(status) && WEXITSTATUS(status) == 0;
         std::size_t said = 0;
         for (std::string line; (!is_well || said < lines_where_well) && std::getline(lines, line); ++said) {
-            voice.say(remote.host + ": " + line);
+            output.print(remote.host + ": " + line);
         }
         if (is_well) { continue; }
         good = false;
-        voice.warn(remote.host + ": it failed there, with code " +
-                   (ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : std::string("unknown")) +
-                   "; does `ssh " + remote.host + " lockstep status` work?");
+        output.warn(remote.host + ": it failed there, with code " +
+                    (ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : std::string("unknown")) +
+                    "; does `ssh " + remote.host + " lockstep status` work?");
     }
     return good;
 }

@@ -1,11 +1,11 @@
-// The same verb on a machine's other hosts, over ssh.
+// Runs the same verb on the machine's other hosts, over ssh.
 #pragma once
 
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -26,7 +26,7 @@ public:
     OtherHosts& operator=(const OtherHosts&) = delete;
 
     /// Waits for all, and says what each said behind its host's name. False: one failed.
-    bool finish(Voice& voice, std::size_t lines_where_well = std::numeric_limits<std::size_t>::max());
+    bool finish(Output& output, std::size_t lines_where_well = std::numeric_limits<std::size_t>::max());
 
 private:
     struct Remote {

@@ -1,4 +1,4 @@
-// The processes a machine on one host consists of, and the command line of each. Pure.
+// The processes of a machine on one host, and the command line of each. Pure.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace lockstep {
 
 enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's process; Shared: in a process of its own
 
-/// What of it there is a choice about.
+/// The choices of `lockstep up`.
 struct Layout {
     FpgaKind fpga = FpgaKind::AsConfigured;
     bool standby = false;    // a second coordinator stands by

@@ -11,7 +11,7 @@ namespace lockstep {
 
 struct TakenDown {
     std::vector<std::string> ended;  // their names
-    std::vector<std::string> left;   // that did not end, also by force
+    std::vector<std::string> left;   // that did not end, even by force
 };
 
 /// The supervisor ends the rest; where it is gone or does not, they are ended one by one. `also`: ended like the

@@ -1,4 +1,4 @@
-// Why the command could not do what was asked: for a person on standard error, for a script as an ErrorReport.
+// Why a command failed: for a person on standard error, for a script as an ErrorReport.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace lockstep {
 struct Failure {
     ExitCode exit = kExitFailed;
     std::string file;    // that the errors are about; empty: none
-    Diagnostics errors;  // each says what to do next
+    Diagnostics errors;  // each with the next step for the user
 };
 
 inline Failure failed(std::string why) { return {kExitFailed, {}, {{.message = std::move(why)}}}; }

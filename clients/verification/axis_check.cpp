@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "clients/analysis/words.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "services/record/step_batcher.hpp"
 
 namespace lockstep::verification {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/log/log_step.hpp"
-#include "clients/analysis/words.hpp"
 #include "core/faults.hpp"
 
 namespace lockstep::verification {

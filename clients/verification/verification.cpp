@@ -1,6 +1,6 @@
 #include "clients/verification/verification.hpp"
 
-#include "clients/analysis/words.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/verification/log_check.hpp"
 
 namespace lockstep::verification {

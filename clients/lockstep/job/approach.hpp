@@ -1,4 +1,4 @@
-// How a machine comes to where a program goes on: it lifts, crosses, and only then goes down to the work.
+// The approach to the place where a program continues: lift, cross, and only then go down to the work.
 #pragma once
 
 #include <expected>

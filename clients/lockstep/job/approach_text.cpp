@@ -1,6 +1,6 @@
 #include "clients/lockstep/job/approach_text.hpp"
 
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep {
 

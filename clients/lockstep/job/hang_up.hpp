@@ -1,12 +1,12 @@
-// SIGHUP and SIGPIPE as a flag that loops look at: the terminal was closed, or nobody reads what is said.
+// SIGHUP and SIGPIPE as a flag for loops: the terminal was closed, or nobody reads the output.
 #pragma once
 
 #include <csignal>
 
 namespace lockstep {
 
-/// One at a time in a process. A SIGHUP that is ignored already, as under nohup, stays ignored. The handlers of before
-/// come back on destruction.
+/// One at a time in a process. A SIGHUP that is ignored already, as under nohup, stays ignored. The destructor
+/// restores the previous handlers.
 class HangUp {
 public:
     HangUp();

@@ -6,7 +6,7 @@
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kFinalStatePatience = 1s;  // for the axes' word of where they came to rest
+constexpr nanoseconds kFinalStatePatience = 1s;  // for the final states of the axes
 
 std::string outcome_name(JobVerdict verdict) {
     switch (verdict) {
@@ -31,7 +31,7 @@ std::string outcome_name(JobVerdict verdict) {
     return "lost";
 }
 
-/// The axes' states reach a client by themselves: waits for ones said after the job's end.
+/// Waits for axis states published after the end of the job: they come independently of the coordinator's.
 void add_final_positions(Session& session, proto::RunReport& report) {
     const nanoseconds end = monotonic_now();
     const MachineConfig& machine = session.config();
@@ -39,7 +39,7 @@ void add_final_positions(Session& session, proto::RunReport& report) {
         const auto rests = [&] {
             return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
         };
-        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.listen(10ms); }
+        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.receive(10ms); }
         if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
     }
 }
@@ -60,25 +60,25 @@ std::string stopped_text(const Job& job, const Session& session) {
     return unhomed_text(status_report(session));
 }
 
-void say_end(const Session& session, const Job& job, const proto::RunReport& report, Voice& voice) {
+void print_end(const Session& session, const Job& job, const proto::RunReport& report, Output& output) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
     const std::string place = report.final_positions().empty() ? "where its axes stand is not known: none is heard"
                                                                : "at " + places_text(report);
-    voice.say(wrapped(title(job) + ": " + report.outcome() + time + "; " + place, 80, "  "));
-    if (report.has_fault()) { voice.say(fault_text(report.fault())); }
-    if (report.outcome() == "stopped") { voice.say(stopped_text(job, session)); }
-    if (report.outcome() == "held") { voice.say("go on with: lockstep resume; end the job with: lockstep stop"); }
-    if (report.outcome() == "cut-short") { voice.say(wrapped(cut_short_text(report), 80, "  ")); }
+    output.print(wrapped(title(job) + ": " + report.outcome() + time + "; " + place, 80, "  "));
+    if (report.has_fault()) { output.print(fault_text(report.fault())); }
+    if (report.outcome() == "stopped") { output.print(stopped_text(job, session)); }
+    if (report.outcome() == "held") { output.print("go on with: lockstep resume; end the job with: lockstep stop"); }
+    if (report.outcome() == "cut-short") { output.print(wrapped(cut_short_text(report), 80, "  ")); }
     if (report.outcome() == "lost") {
-        voice.say("how it ended is not known: another job or coordinator came after it; see: lockstep status");
+        output.print("how it ended is not known: another job or coordinator came after it; see: lockstep status");
     }
 }
 
-ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Voice& voice) {
+ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Output& output) {
     report.set_outcome("refused");
     *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
-    voice.report(report);
-    if (!voice.json()) { voice.warn(title(job) + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
+    output.report(report);
+    if (!output.json()) { output.warn(title(job) + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
     return kExitFailed;
 }
 
@@ -106,7 +106,7 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
                "known, and a stop was sent; see: lockstep status"));
 }
 
-ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Voice& voice) {
+ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Output& output) {
     report.set_outcome(outcome_name(verdict));
     if (verdict == JobVerdict::Failed) {
         if (auto fault = fault_of(session.state()->state, session.config())) {
@@ -116,37 +116,37 @@ ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunRep
     const std::int32_t line = session.state()->state.line;
     if (verdict == JobVerdict::CutShort && line > 0) { report.set_line(line); }
     if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
-    voice.report(report);
+    output.report(report);
     if (verdict == JobVerdict::InProgress) {
-        voice.say(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
+        output.print(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
         return kExitDone;
     }
-    say_end(session, job, report, voice);
+    print_end(session, job, report, output);
     return verdict == JobVerdict::Done ? kExitDone : kExitFailed;
 }
 
 }  // namespace
 
-ExitCode run_job(Session& session, const Job& job, Voice& voice) {
-    if (session.config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+ExitCode run_job(Session& session, const Job& job, Output& output) {
+    if (session.config_differs()) { output.warn("the coordinator runs another configuration than this command reads"); }
     const StopSignal stop;
     const HangUp hang_up;
     proto::RunReport report = new_report(job);
     const std::uint64_t lost = lost_records(status_report(session));
     const auto reply = begin(session, job, stop);
-    if (!reply) { return voice.fail(reply.error()); }
-    if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, voice); }
+    if (!reply) { return output.fail(reply.error()); }
+    if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }
     report.set_job(reply->job);
-    if (job.detach) { return end(session, job, JobVerdict::InProgress, report, voice); }
-    voice.say(title(job) + ": job " + std::to_string(reply->job) +
-              (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
+    if (job.detach) { return end(session, job, JobVerdict::InProgress, report, output); }
+    output.print(title(job) + ": job " + std::to_string(reply->job) +
+                 (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
-    const auto verdict = JobWatch(session, reply->job, job.command, voice, stop, hang_up).wait();
-    if (!verdict) { return voice.fail(verdict.error()); }
+    const auto verdict = JobWatch(session, reply->job, job.command, output, stop, hang_up).wait();
+    if (!verdict) { return output.fail(verdict.error()); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
-    if (report.lost_records() > 0) { voice.warn(record_loss_text(status_report(session))); }
-    return end(session, job, *verdict, report, voice);
+    if (report.lost_records() > 0) { output.warn(record_loss_text(status_report(session))); }
+    return end(session, job, *verdict, report, output);
 }
 
 }  // namespace lockstep

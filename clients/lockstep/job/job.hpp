@@ -1,11 +1,11 @@
-// A job from the command that begins it to its end: what home, move and run have in common.
+// Runs a job from its command to its end: common to home, move and run.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "clients/session/session.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "core/program.hpp"
 
 namespace lockstep {
@@ -21,8 +21,8 @@ struct Job {
     bool detach = false;  // ends when the job has begun
 };
 
-/// Begins it, shows its progress, waits for its end, reports. SIGINT and SIGTERM stop the machine on its path first;
-/// SIGHUP, a closed terminal, holds it. Both end this within some 15 s, whatever the machine does.
-ExitCode run_job(Session& session, const Job& job, Voice& voice);
+/// Begins the job, shows its progress, waits for its end, reports. SIGINT and SIGTERM first stop the machine on its
+/// path; SIGHUP, a closed terminal, holds it. Both end this call within some 15 s, whatever the machine does.
+ExitCode run_job(Session& session, const Job& job, Output& output);
 
 }  // namespace lockstep

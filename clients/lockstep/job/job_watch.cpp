@@ -14,12 +14,12 @@ constexpr std::chrono::seconds kRestPatience{10};
 
 }  // namespace
 
-JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Voice& voice, const StopSignal& stop,
+JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Output& output, const StopSignal& stop,
                    const HangUp& hang_up)
     : session_(session),
       number_(number),
       command_(command),
-      voice_(voice),
+      output_(output),
       stop_(stop),
       hang_up_(hang_up),
       asked_(session.state()->state.term),
@@ -27,7 +27,7 @@ JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, 
 
 std::expected<JobVerdict, Failure> JobWatch::wait() {
     for (;;) {
-        session_.listen(kGlance);
+        session_.receive(kGlance);
         if (session_.is_silent()) { return std::unexpected(silent()); }
         const MachineState& state = session_.state()->state;
         const JobVerdict verdict = verdict_of(state, number_, asked_, runs_it_);
@@ -36,7 +36,7 @@ std::expected<JobVerdict, Failure> JobWatch::wait() {
         if (hang_up_.came() && rests && state.job == number_) { return JobVerdict::Held; }
         if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
         if (rest_asked_ && monotonic_now() - *rest_asked_ > kRestPatience) { return std::unexpected(restless()); }
-        if (state.job == number_) { tell(state); }
+        if (state.job == number_) { print_phase(state); }
     }
 }
 
@@ -69,7 +69,7 @@ std::expected<void, Failure> JobWatch::send_hold() {
 std::expected<void, Failure> JobWatch::send_stop() {
     stop_sent_ = true;
     rest_asked_ = monotonic_now();
-    voice_.say(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
+    output_.print(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
     const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }
     const bool has_ended = reply->fault == static_cast<std::uint16_t>(FaultCode::NothingToDo);
@@ -78,27 +78,27 @@ std::expected<void, Failure> JobWatch::send_stop() {
         failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
 }
 
-void JobWatch::tell(const MachineState& state) {
+void JobWatch::print_phase(const MachineState& state) {
     if (state.line > 0) { line_ = state.line; }
     if (state.term != runs_it_ && state.phase != MachinePhase::Waiting) {
         runs_it_ = state.term;
-        voice_.say("another coordinator has taken over and goes on with the job" +
-                   (line_ > 0 ? " at line " + std::to_string(line_) : ""));
+        output_.print("another coordinator has taken over and goes on with the job" +
+                      (line_ > 0 ? " at line " + std::to_string(line_) : ""));
     }
     const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
-    if (rests && state.phase != told_) {
+    if (rests && state.phase != printed_) {
         const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
         const std::string where = line_ > 0 ? " at line " + std::to_string(line_) : "";
-        voice_.say(how + where + ": go on with lockstep resume, or end it with lockstep stop");
+        output_.print(how + where + ": go on with lockstep resume, or end it with lockstep stop");
     }
-    told_ = state.phase;
-    if (!rests) { tell_progress(); }
+    printed_ = state.phase;
+    if (!rests) { print_progress(); }
 }
 
-void JobWatch::tell_progress() {
+void JobWatch::print_progress() {
     const proto::StatusReport status = status_report(session_);
-    if (command_ == CommandKind::Home) { return voice_.progress(homing_text(status)); }
-    voice_.progress(voice_.is_terminal() ? progress_bar(status) : progress_text(status));
+    if (command_ == CommandKind::Home) { return output_.progress(homing_text(status)); }
+    output_.progress(output_.is_terminal() ? progress_bar(status) : progress_text(status));
 }
 
 }  // namespace lockstep

@@ -26,15 +26,15 @@ std::expected<AxisSet, Failure> axes_of(const MachineConfig& machine, const std:
 }
 
 ExitCode home(const HomeOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     const auto axes = axes_of(machine->config, options.axes);
-    if (!axes) { return voice.fail(axes.error()); }
+    if (!axes) { return output.fail(axes.error()); }
     auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     const Job job{.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes, .detach = options.detach};
-    return run_job(*session, job, voice);
+    return run_job(*session, job, output);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "clients/session/session.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {
@@ -47,32 +47,32 @@ std::string next_text(const Session& session, const Interrupt& interrupt, Machin
     return unhomed_text(status_report(session));
 }
 
-ExitCode say_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Voice& voice) {
-    if (reply.status == ReplyStatus::Refused) { return say_refusal(reply, voice); }
+ExitCode say_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Output& output) {
+    if (reply.status == ReplyStatus::Refused) { return print_refusal(reply, output); }
     const auto phase = await_effect(session, interrupt.command);
-    if (!phase) { return voice.fail(failed(std::string(interrupt.name) + ": accepted, but " + phase.error())); }
+    if (!phase) { return output.fail(failed(std::string(interrupt.name) + ": accepted, but " + phase.error())); }
     proto::CommandReport report;
     report.set_accepted(true);
     report.set_text("the machine is " + std::string(name_of(*phase)));
-    voice.report(report);
+    output.report(report);
     const std::string then = next_text(session, interrupt, *phase);
-    voice.say(std::string(interrupt.name) + ": accepted; " + report.text() + (then.empty() ? "" : "\n" + then));
+    output.print(std::string(interrupt.name) + ": accepted; " + report.text() + (then.empty() ? "" : "\n" + then));
     return kExitDone;
 }
 
 ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrupt) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     const auto reply = session->command({.kind = interrupt.command});
-    if (!reply) { return voice.fail(reply.error()); }
-    return say_outcome(*session, interrupt, *reply, voice);
+    if (!reply) { return output.fail(reply.error()); }
+    return say_outcome(*session, interrupt, *reply, output);
 }
 
 /// Which axes stand and which do not, where nobody speaks for the machine.
-ExitCode say_axes(const Session& session, Voice& voice) {
+ExitCode say_axes(const Session& session, Output& output) {
     std::string at_rest;
     std::string other;
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
@@ -80,25 +80,25 @@ ExitCode say_axes(const Session& session, Voice& voice) {
         std::string& list = rests ? at_rest : other;
         list += (list.empty() ? "" : ", ") + session.config().axes[i].name;
     }
-    if (at_rest.empty()) { return voice.fail(session.silent()); }
+    if (at_rest.empty()) { return output.fail(session.silent()); }
     proto::CommandReport report;
     report.set_accepted(other.empty());
     report.set_text("no coordinator answers; at rest by themselves: " + at_rest +
                     (other.empty() ? "" : "; in motion or not heard: " + other));
-    voice.report(report);
-    voice.say("estop: " + report.text() + "\nsee: lockstep status; take the machine down: lockstep down");
+    output.report(report);
+    output.print("estop: " + report.text() + "\nsee: lockstep status; take the machine down: lockstep down");
     return other.empty() ? kExitDone : kExitFailed;
 }
 
 /// The axes hear it themselves: it needs no coordinator.
 ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto session = Session::join(*machine, Purpose::Command);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     const auto reply = session->stop_at_once(kStopPatience);
-    return reply ? say_outcome(*session, interrupt, *reply, voice) : say_axes(*session, voice);
+    return reply ? say_outcome(*session, interrupt, *reply, output) : say_axes(*session, output);
 }
 
 }  // namespace

@@ -17,19 +17,19 @@ struct MoveVerbOptions : LiveOptions {
 };
 
 ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, bool detach,
-                       Voice& voice) {
+                       Output& output) {
     const auto planned_s = planned_seconds(session, program, start_mm);
-    if (!planned_s) { return voice.fail(planned_s.error()); }
+    if (!planned_s) { return output.fail(planned_s.error()); }
     const Job job{.command = CommandKind::Move,
                   .kind = "move",
                   .name = program.name,
                   .program = program,
                   .planned_s = *planned_s,
                   .detach = detach};
-    return run_job(session, job, voice);
+    return run_job(session, job, output);
 }
 
-ExitCode move_own(Session& session, const MoveVerbOptions& options, const Program& program, Voice& voice) {
+ExitCode move_own(Session& session, const MoveVerbOptions& options, const Program& program, Output& output) {
     const Job job{.command = CommandKind::MoveOwn,
                   .kind = "own-move",
                   .name = "own-move",
@@ -37,26 +37,26 @@ ExitCode move_own(Session& session, const MoveVerbOptions& options, const Progra
                   .ticks = ticks_of(session.config(), options.move),
                   .planned_s = options.move.in_s,
                   .detach = options.detach};
-    return run_job(session, job, voice);
+    return run_job(session, job, output);
 }
 
 ExitCode move(const MoveVerbOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     // Names and numbers are judged before anybody is asked; a relative place once it is known where the axes stand.
     const std::vector<double> anywhere(machine->config.axes.size());
     if (auto program = move_program(machine->config, anywhere, options.move); !program && !options.move.relative) {
-        return voice.fail(bad_input(program.error()));
+        return output.fail(bad_input(program.error()));
     }
     auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     const auto start_mm = start_places(*session);
-    if (!start_mm) { return voice.fail(start_mm.error()); }
+    if (!start_mm) { return output.fail(start_mm.error()); }
     auto program = move_program(machine->config, *start_mm, options.move);
-    if (!program) { return voice.fail(bad_input(program.error())); }
-    return options.move.own ? move_own(*session, options, *program, voice)
-                            : move_together(*session, *program, *start_mm, options.detach, voice);
+    if (!program) { return output.fail(bad_input(program.error())); }
+    return options.move.own ? move_own(*session, options, *program, output)
+                            : move_together(*session, *program, *start_mm, options.detach, output);
 }
 
 }  // namespace

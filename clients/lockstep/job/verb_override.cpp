@@ -6,7 +6,7 @@
 #include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "core/overrides.hpp"
 #include "idl/proto/report.pb.h"
 
@@ -24,11 +24,11 @@ std::string text_of(const Overrides& overrides) {
 }
 
 ExitCode turn(const OverrideOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     Overrides overrides = session->state()->state.overrides;
     if (options.feed_percent != 0) { overrides.feed_percent = options.feed_percent; }
     if (options.rapid_percent != 0) { overrides.rapid_percent = options.rapid_percent; }
@@ -36,14 +36,14 @@ ExitCode turn(const OverrideOptions& options) {
         const auto reply = session->command({.kind = CommandKind::Override,
                                              .feed_percent = options.feed_percent,
                                              .rapid_percent = options.rapid_percent});
-        if (!reply) { return voice.fail(reply.error()); }
-        if (reply->status == ReplyStatus::Refused) { return say_refusal(*reply, voice); }
+        if (!reply) { return output.fail(reply.error()); }
+        if (reply->status == ReplyStatus::Refused) { return print_refusal(*reply, output); }
     }
     proto::CommandReport report;
     report.set_accepted(true);
     report.set_text(text_of(overrides));
-    voice.report(report);
-    voice.say("override: " + report.text());
+    output.report(report);
+    output.print("override: " + report.text());
     return kExitDone;
 }
 

@@ -13,7 +13,7 @@
 #include "clients/session/job_plan.hpp"
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/documents/program_file.hpp"
 #include "services/files/text_file.hpp"
@@ -33,16 +33,16 @@ struct RunOptions : LiveOptions {
     bool is_restart() const { return restart.from_line > 0; }
 };
 
-ExitCode say_dry_run(const Job& job, const std::vector<ApproachMove>& approach, Voice& voice) {
+ExitCode say_dry_run(const Job& job, const std::vector<ApproachMove>& approach, Output& output) {
     proto::RunReport report;
     report.set_kind(job.kind);
     report.set_name(job.name);
     report.set_outcome("dry-run");
     report.set_planned_s(*job.planned_s);
     fill_approach(*job.program, approach, report);
-    voice.report(report);
-    voice.say(job.name + ": would run " + std::to_string(job.program->blocks.size()) + " blocks in " +
-              duration_text(*job.planned_s) + " from where the machine stands; nothing was sent");
+    output.report(report);
+    output.print(job.name + ": would run " + std::to_string(job.program->blocks.size()) + " blocks in " +
+                 duration_text(*job.planned_s) + " from where the machine stands; nothing was sent");
     return kExitDone;
 }
 
@@ -58,22 +58,22 @@ std::expected<Program, Failure> read(const RunOptions& options, const MachineCon
 
 /// The program that is to run: all of it, or an approach and the rest, which a person is told of.
 std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
-                                    const std::vector<double>& stands_mm, Voice& voice) {
+                                    const std::vector<double>& stands_mm, Output& output) {
     auto program = read(options, machine, stands_mm);
     if (!program) { return std::unexpected(program.error()); }
     if (!options.is_restart()) { return Rest{*std::move(program), {}, {}}; }
     const GcodeSetup setup = gcode_setup(machine, program->start_mm, program->name, options.switches);
     auto rest = rest_of(*program, text, setup, options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
-    voice.say("from line " + std::to_string(options.restart.from_line) + ":\n" +
-              approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
+    output.print("from line " + std::to_string(options.restart.from_line) + ":\n" +
+                 approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
     return *std::move(rest);
 }
 
 /// A restart moves the machine before the program does: a person has seen how, or a script says --yes.
-std::expected<void, Failure> confirm(const RunOptions& options, const Voice& voice) {
+std::expected<void, Failure> confirm(const RunOptions& options, const Output& output) {
     if (options.yes || !options.is_restart()) { return {}; }
-    if (options.json || !voice.is_terminal() || isatty(STDIN_FILENO) != 1) {
+    if (options.json || !output.is_terminal() || isatty(STDIN_FILENO) != 1) {
         return std::unexpected(
             bad_input("--from-line first moves the machine to where that line begins, and without a terminal nobody "
                       "can be asked: look at it with --dry-run, then say --yes"));
@@ -86,28 +86,28 @@ std::expected<void, Failure> confirm(const RunOptions& options, const Voice& voi
 }
 
 ExitCode run(const RunOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto text = read_text_file(options.file);
-    if (!text) { return voice.fail(bad_file(options.file, {text.error()})); }
+    if (!text) { return output.fail(bad_file(options.file, {text.error()})); }
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     const auto start_mm = start_places(*session);
-    if (!start_mm) { return voice.fail(start_mm.error()); }
-    auto chosen = choose(options, *text, machine->config, *start_mm, voice);
-    if (!chosen) { return voice.fail(chosen.error()); }
+    if (!start_mm) { return output.fail(start_mm.error()); }
+    auto chosen = choose(options, *text, machine->config, *start_mm, output);
+    if (!chosen) { return output.fail(chosen.error()); }
     const auto planned_s = planned_seconds(*session, chosen->program, *start_mm);
-    if (!planned_s) { return voice.fail(bad_file(options.file, planned_s.error().errors)); }
+    if (!planned_s) { return output.fail(bad_file(options.file, planned_s.error().errors)); }
     const Job job{.command = CommandKind::Run,
                   .kind = "run",
                   .name = chosen->program.name,
                   .program = std::move(chosen->program),
                   .planned_s = *planned_s,
                   .detach = options.detach};
-    if (options.dry_run) { return say_dry_run(job, chosen->approach, voice); }
-    if (const auto confirmed = confirm(options, voice); !confirmed) { return voice.fail(confirmed.error()); }
-    return run_job(*session, job, voice);
+    if (options.dry_run) { return say_dry_run(job, chosen->approach, output); }
+    if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
+    return run_job(*session, job, output);
 }
 
 void add_restart_options(CLI::App& verb, RunOptions& options) {

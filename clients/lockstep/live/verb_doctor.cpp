@@ -11,7 +11,7 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/axis/device_driver.hpp"
 #include "services/axis/device_window.hpp"
@@ -61,7 +61,7 @@ void examine_network(const MachineConfig& machine, Findings& findings) {
     findings.push_back(doctor::judge_send_buffer(needed, doctor::send_buffer_given(needed)));
 }
 
-void examine_host(const MachineConfig& machine, double seconds, Voice& voice, Findings& findings) {
+void examine_host(const MachineConfig& machine, double seconds, Output& output, Findings& findings) {
     const auto real_time = doctor::look_at_real_time();
     findings.push_back(doctor::judge_scheduler(machine.real_time, real_time));
     findings.push_back(doctor::judge_memory(machine.real_time, real_time));
@@ -69,8 +69,8 @@ void examine_host(const MachineConfig& machine, double seconds, Voice& voice, Fi
     const auto period = std::chrono::microseconds(machine.timing.slot_us) / 4;
     const auto during = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
     findings.push_back(doctor::judge_stalls(machine.timing, doctor::look_for_stalls(period, during, [&](double done) {
-                                                voice.progress("watching for stalls " +
-                                                               std::to_string(std::lround(done * 100)) + " %");
+                                                output.progress("watching for stalls " +
+                                                                std::to_string(std::lround(done * 100)) + " %");
                                             })));
 }
 
@@ -118,7 +118,7 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
         findings.push_back({Verdict::Bad, "DDS", session.error().errors.front().message, "see: interface"});
         return;
     }
-    for (const auto until = monotonic_now() + kListening; monotonic_now() < until;) { session->listen(100ms); }
+    for (const auto until = monotonic_now() + kListening; monotonic_now() < until;) { session->receive(100ms); }
     const std::vector<PresentProcess> present = session->present();
     const auto say = [&](const std::string& name, std::optional<std::size_t> part, bool heard, std::uint64_t hash) {
         doctor::ProcessFacts facts{name, heard, hash, {}, !part};
@@ -153,24 +153,24 @@ proto::DoctorReport report_of(const Findings& findings, bool well) {
     return report;
 }
 
-void say(const Finding& finding, Voice& voice) {
+void say(const Finding& finding, Output& output) {
     constexpr std::size_t kColumn = 16;
     const std::string mark = finding.verdict == Verdict::Good  ? "ok   "
                              : finding.verdict == Verdict::Bad ? "BAD  "
                                                                : "?    ";
     std::string what = finding.what;
     what.resize(std::max(what.size() + 1, kColumn), ' ');
-    voice.say(mark + what + finding.found);
-    if (!finding.remedy.empty()) { voice.say("     " + std::string(kColumn, ' ') + "do: " + finding.remedy); }
+    output.print(mark + what + finding.found);
+    if (!finding.remedy.empty()) { output.print("     " + std::string(kColumn, ' ') + "do: " + finding.remedy); }
 }
 
 ExitCode examine(const DoctorOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     Findings findings;
     examine_network(machine->config, findings);
-    examine_host(machine->config, options.seconds, voice, findings);
+    examine_host(machine->config, options.seconds, output, findings);
     examine_parts_here(machine->config, findings);
     examine_keys(machine->config, findings);
     for (Finding& finding : findings) { finding.host = host_name(); }
@@ -179,8 +179,8 @@ ExitCode examine(const DoctorOptions& options) {
         if (!finding.host.empty()) { finding.found += " (" + finding.host + ")"; }
     }
     const bool well = std::ranges::none_of(findings, [](const Finding& f) { return f.verdict == Verdict::Bad; });
-    for (const Finding& finding : findings) { say(finding, voice); }
-    voice.report(report_of(findings, well));
+    for (const Finding& finding : findings) { say(finding, output); }
+    output.report(report_of(findings, well));
     return well ? kExitDone : kExitFailed;
 }
 

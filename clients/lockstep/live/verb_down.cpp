@@ -10,7 +10,7 @@
 #include "clients/supervisor/other_hosts.hpp"
 #include "clients/supervisor/state_directory.hpp"
 #include "clients/supervisor/take_down.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/documents/placement.hpp"
 #include "services/network/host_name.hpp"
@@ -26,10 +26,10 @@ struct DownOptions : LiveOptions {
 };
 
 constexpr auto kRestPatience = 10s;
-constexpr auto kLastStates = 300ms;  // who waits for the job's end is to hear where its axes came to rest
+constexpr auto kLastStates = 300ms;  // for clients that wait for the final states of the job's axes
 
 /// A machine in motion or homing comes to rest first, on its path. One that does not answer is taken down as it is.
-void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
+void bring_to_rest(const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session || !session->reach(1s)) { return; }
     const auto moves = [&] {
@@ -37,12 +37,12 @@ void bring_to_rest(const ChosenMachine& machine, Voice& voice) {
         return phase == MachinePhase::Homing || phase == MachinePhase::Running || phase == MachinePhase::Stopping;
     };
     if (!moves()) { return; }
-    voice.say("stopping first ...");
+    output.print("stopping first ...");
     if (!session->command({.kind = CommandKind::Stop})) { return; }
     const auto deadline = monotonic_now() + kRestPatience;
-    while (moves() && monotonic_now() < deadline) { session->listen(50ms); }
+    while (moves() && monotonic_now() < deadline) { session->receive(50ms); }
     const auto heard = monotonic_now() + kLastStates;
-    while (monotonic_now() < heard) { session->listen(heard - monotonic_now()); }
+    while (monotonic_now() < heard) { session->receive(heard - monotonic_now()); }
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -51,42 +51,42 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-ExitCode say_done(const std::string& text, Voice& voice) {
+ExitCode say_done(const std::string& text, Output& output) {
     proto::CommandReport report;
     report.set_accepted(true);
     report.set_text(text);
-    voice.report(report);
-    voice.say(text);
+    output.report(report);
+    output.print(text);
     return kExitDone;
 }
 
-ExitCode down_here(const LiveOptions& options, Voice& voice) {
+ExitCode down_here(const LiveOptions& options, Output& output) {
     const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
-    if (!is_named && machines_up().empty()) { return say_done("nothing is up", voice); }
+    if (!is_named && machines_up().empty()) { return say_done("nothing is up", output); }
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
     const auto trouble = state.record_trouble();
-    if (state.running().empty()) { return say_done("nothing of machine '" + machine->config.name + "' is up", voice); }
-    if (trouble) { voice.warn(*trouble + ": ends the processes that the host's process table shows"); }
-    bring_to_rest(*machine, voice);
+    if (state.running().empty()) { return say_done("nothing of machine '" + machine->config.name + "' is up", output); }
+    if (trouble) { output.warn(*trouble + ": ends the processes that the host's process table shows"); }
+    bring_to_rest(*machine, output);
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {
-        return say_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), voice);
+        return say_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), output);
     }
-    return voice.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name +
-                             "'; see " + state.path().string() + "/processes"));
+    return output.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name +
+                              "'; see " + state.path().string() + "/processes"));
 }
 
 ExitCode down(const DownOptions& options) {
-    Voice voice(options.json);
-    if (!options.all.asked) { return down_here(options, voice); }
+    Output output(options.json);
+    if (!options.all.asked) { return down_here(options, output); }
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     OtherHosts others(options.all, machine->config, options.machine_file, {"down"});
     const bool is_here = !placed_on(machine->config, host_name()).empty();
-    const ExitCode here = is_here ? down_here(options, voice) : kExitDone;
-    return others.finish(voice) ? here : std::max(here, kExitFailed);
+    const ExitCode here = is_here ? down_here(options, output) : kExitDone;
+    return others.finish(output) ? here : std::max(here, kExitFailed);
 }
 
 }  // namespace

@@ -7,25 +7,26 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/flight_files.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 namespace lockstep {
 namespace {
 
 ExitCode flight(const LiveOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     const proto::FlightReport report = write_flight_files(machine->config);
     if (report.files().empty() && report.problems().empty()) {
-        return voice.fail(unreachable("no process of machine '" + machine->config.name +
-                                      "' on this host keeps a flight recorder: is it up? record { flight { kept } } in "
-                                      "its file switches it off"));
+        return output.fail(
+            unreachable("no process of machine '" + machine->config.name +
+                        "' on this host keeps a flight recorder: is it up? record { flight { kept } } in "
+                        "its file switches it off"));
     }
-    for (const std::string& problem : report.problems()) { voice.warn(problem); }
-    for (const std::string& file : report.files()) { voice.say(file); }
-    if (!report.files().empty()) { voice.say("\nread them: lockstep analyze --incident " + report.directory()); }
-    voice.report(report);
+    for (const std::string& problem : report.problems()) { output.warn(problem); }
+    for (const std::string& file : report.files()) { output.print(file); }
+    if (!report.files().empty()) { output.print("\nread them: lockstep analyze --incident " + report.directory()); }
+    output.report(report);
     return report.problems().empty() ? kExitDone : kExitFailed;
 }
 

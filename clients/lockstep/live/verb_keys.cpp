@@ -9,7 +9,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "services/security/key_directory.hpp"
 
 namespace lockstep {
@@ -38,58 +38,60 @@ std::expected<Keys, Failure> choose_keys(const KeysOptions& options) {
                                      ": has no security { directory: ... }; write it there, or say --directory DIR"));
 }
 
-void say_member(const proto::MemberKeys& member, bool with_fingerprint, Voice& voice) {
+void say_member(const proto::MemberKeys& member, bool with_fingerprint, Output& output) {
     constexpr std::size_t kColumn = 22;
     const std::string mark = !member.problems().empty() ? "BAD  " : member.here() ? "ok   " : "-    ";
     std::string name = member.name();
     name.resize(std::max(name.size() + 1, kColumn), ' ');
     const std::string until = "until " + member.until() + ", " + std::to_string(member.days_left()) + " days";
-    voice.say(mark + name + (member.here() ? until : "not on this host"));
-    if (with_fingerprint && member.here()) { voice.say("     " + member.subject() + "\n     " + member.fingerprint()); }
-    for (const std::string& problem : member.problems()) { voice.say("     " + problem); }
-    for (const std::string& warning : member.warnings()) { voice.say("     " + warning); }
+    output.print(mark + name + (member.here() ? until : "not on this host"));
+    if (with_fingerprint && member.here()) {
+        output.print("     " + member.subject() + "\n     " + member.fingerprint());
+    }
+    for (const std::string& problem : member.problems()) { output.print("     " + problem); }
+    for (const std::string& warning : member.warnings()) { output.print("     " + warning); }
 }
 
 ExitCode look(const KeysOptions& options, bool with_fingerprint) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto keys = choose_keys(options);
-    if (!keys) { return voice.fail(keys.error()); }
+    if (!keys) { return output.fail(keys.error()); }
     const proto::KeysReport report = keys_report(keys->machine.config, keys->directory);
     const bool any = std::ranges::any_of(report.members(), [](const auto& member) { return member.here(); });
     if (!any) {
-        return voice.fail(failed(keys->directory.string() + ": no member of machine '" + keys->machine.config.name +
-                                 "' has keys here; make them: lockstep keys make --machine " +
-                                 keys->machine.file.string()));
+        return output.fail(failed(keys->directory.string() + ": no member of machine '" + keys->machine.config.name +
+                                  "' has keys here; make them: lockstep keys make --machine " +
+                                  keys->machine.file.string()));
     }
-    voice.report(report);
-    voice.say(keys->directory.string());
-    for (const proto::MemberKeys& member : report.members()) { say_member(member, with_fingerprint, voice); }
+    output.report(report);
+    output.print(keys->directory.string());
+    for (const proto::MemberKeys& member : report.members()) { say_member(member, with_fingerprint, output); }
     const bool well =
         std::ranges::all_of(report.members(), [](const auto& member) { return member.problems().empty(); });
     return well ? kExitDone : kExitFailed;
 }
 
 ExitCode make(const KeysOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto keys = choose_keys(options);
-    if (!keys) { return voice.fail(keys.error()); }
+    if (!keys) { return output.fail(keys.error()); }
     const MachineConfig& machine = keys->machine.config;
     const auto made = make_keys(machine, keys->directory, std::chrono::days(options.days), options.force);
-    if (!made) { return voice.fail(failed(made.error())); }
+    if (!made) { return output.fail(failed(made.error())); }
     proto::KeysReport report = keys_report(machine, keys->directory);
     if (!made->replaced.empty()) { report.set_replaced(made->replaced); }
-    voice.report(report);
-    voice.say("made keys for " + std::to_string(report.members_size()) + " members of machine '" + machine.name +
-              "' in " + keys->directory.string());
+    output.report(report);
+    output.print("made keys for " + std::to_string(report.members_size()) + " members of machine '" + machine.name +
+                 "' in " + keys->directory.string());
     if (!made->replaced.empty()) {
-        voice.say("the ones before are in " + made->replaced + "; delete them when all is well");
+        output.print("the ones before are in " + made->replaced + "; delete them when all is well");
     }
-    voice.say(
+    output.print(
         "each host needs identity-ca.pem, permissions-ca.pem, governance.p7s, and .pem, .key and .p7s of what runs\n"
         "there; keep ca/ off the machine: who has it can make members");
     if (!machine.security.enabled()) {
-        voice.say("the machine's file does not ask for security yet; add to it:\n    security { directory: \"" +
-                  keys->directory.string() + "\" }");
+        output.print("the machine's file does not ask for security yet; add to it:\n    security { directory: \"" +
+                     keys->directory.string() + "\" }");
     }
     return kExitDone;
 }

@@ -10,7 +10,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 namespace lockstep {
 namespace {
@@ -25,13 +25,13 @@ Failure become(std::vector<std::string> words) {
 }
 
 ExitCode spy(const LiveOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto command = spy_command(look_at_host(), machine->config.network.lcm_url);
-    if (!command) { return voice.fail(command.error()); }
-    voice.say("lcm-spy: double-click a channel for its fields, click a field's curve for its chart");
-    return voice.fail(become(std::move(*command)));
+    if (!command) { return output.fail(command.error()); }
+    output.print("lcm-spy: double-click a channel for its fields, click a field's curve for its chart");
+    return output.fail(become(std::move(*command)));
 }
 
 }  // namespace

@@ -38,74 +38,74 @@ std::string names_here(const MachineConfig& machine, const Placement& placed) {
     return names;
 }
 
-ExitCode say_up(const Session& session, const StateDirectory& state, Voice& voice) {
+ExitCode say_up(const Session& session, const StateDirectory& state, Output& output) {
     const proto::StatusReport report = status_report(session);
-    voice.report(report);
+    output.report(report);
     const bool is_spread = hosts_of(session.config()).size() > 1;
-    voice.say("machine '" + report.machine() + "' is up; logs in " + state.path().string() +
-              (is_spread ? ", on each host" : ""));
-    voice.say(status_text(report) + (report.has_fault() ? "" : "next: lockstep home"));
+    output.print("machine '" + report.machine() + "' is up; logs in " + state.path().string() +
+                 (is_spread ? ", on each host" : ""));
+    output.print(status_text(report) + (report.has_fault() ? "" : "next: lockstep home"));
     return report.has_fault() ? kExitFailed : kExitDone;
 }
 
 /// This host's parts run; what the others are to run may come later.
-ExitCode say_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Voice& voice) {
+ExitCode say_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Output& output) {
     proto::StatusReport report = status_report(session);
     add_awaited(session, report);
-    voice.report(report);
+    output.report(report);
     if (!placed.empty()) {
-        voice.say("machine '" + report.machine() + "': " + names_here(session.config(), placed) + " up on this host, " +
-                  host_name() + "; logs in " + state.path().string());
+        output.print("machine '" + report.machine() + "': " + names_here(session.config(), placed) +
+                     " up on this host, " + host_name() + "; logs in " + state.path().string());
     }
-    voice.say(awaited_text(report).empty() ? status_text(report) : awaited_text(report) + "see: lockstep status");
+    output.print(awaited_text(report).empty() ? status_text(report) : awaited_text(report) + "see: lockstep status");
     return kExitDone;
 }
 
 /// Of a machine on several hosts.
 ExitCode await_and_say(Session& session, const UpOptions& options, const Placement& placed, const StateDirectory& state,
-                       Voice& voice) {
+                       Output& output) {
     const double asked_s = options.wait_s.value_or(options.all.asked ? kWaitForAll_s : 0);
     const bool whole =
         await_others(session, std::chrono::milliseconds(std::llround(std::max(asked_s, kGlance_s) * 1e3)));
-    if (whole && asked_s > 0) { return say_up(session, state, voice); }
-    const ExitCode said = say_part_up(session, placed, state, voice);
+    if (whole && asked_s > 0) { return say_up(session, state, output); }
+    const ExitCode said = say_part_up(session, placed, state, output);
     return whole || asked_s == 0 ? said : kExitUnreachable;
 }
 
 ExitCode give_up(const ChosenMachine& machine, const StateDirectory& state, const ProcessRecord& supervisor,
-                 Failure failure, Voice& voice) {
+                 Failure failure, Output& output) {
     (void)take_down(state, supervisor);
     std::string& message = failure.errors.front().message;
     message += std::string(message.ends_with('\n') ? "" : "\n") + "machine '" + machine.config.name +
                "' is not up; what was started is ended again";
-    return voice.fail(failure);
+    return output.fail(failure);
 }
 
-ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Voice& voice) {
+ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Output& output) {
     const StateDirectory state(machine.config.name);
     const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
     const auto kind = kinds.find(options.fpga);
     const Layout layout{kind == kinds.end() ? FpgaKind::AsConfigured : kind->second, options.standby,
                         options.on_takeover == "continue"};
-    const auto parts = prepare(machine, layout, state, voice);
-    if (!parts) { return voice.fail(parts.error()); }
+    const auto parts = prepare(machine, layout, state, output);
+    if (!parts) { return output.fail(parts.error()); }
     if (options.foreground) {
         supervise(state, parts->lines);
         return kExitDone;
     }
     const auto supervisor = supervise_in_background(state, parts->lines);
-    if (!supervisor) { return voice.fail(supervisor.error()); }
+    if (!supervisor) { return output.fail(supervisor.error()); }
     auto session = wait_until_up(machine, *parts, state, *supervisor);
-    if (!session) { return give_up(machine, state, *supervisor, session.error(), voice); }
-    return is_alone(machine.config, parts->placed) ? say_up(*session, state, voice)
-                                                   : await_and_say(*session, options, parts->placed, state, voice);
+    if (!session) { return give_up(machine, state, *supervisor, session.error(), output); }
+    return is_alone(machine.config, parts->placed) ? say_up(*session, state, output)
+                                                   : await_and_say(*session, options, parts->placed, state, output);
 }
 
 /// Where every part belongs on another host.
-ExitCode up_elsewhere(const UpOptions& options, const ChosenMachine& machine, Voice& voice) {
+ExitCode up_elsewhere(const UpOptions& options, const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Look);
-    if (!session) { return voice.fail(session.error()); }
-    return await_and_say(*session, options, {}, StateDirectory(machine.config.name), voice);
+    if (!session) { return output.fail(session.error()); }
+    return await_and_say(*session, options, {}, StateDirectory(machine.config.name), output);
 }
 
 /// What the other hosts are to be told.
@@ -117,14 +117,14 @@ std::vector<std::string> words_of(const UpOptions& options) {
 }
 
 ExitCode up(const UpOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     OtherHosts others(options.all, machine->config, options.machine_file, words_of(options));
     const bool is_here = !options.all.asked || !placed_on(machine->config, host_name()).empty();
-    const ExitCode here = is_here ? up_here(options, *machine, voice) : up_elsewhere(options, *machine, voice);
+    const ExitCode here = is_here ? up_here(options, *machine, output) : up_elsewhere(options, *machine, output);
     constexpr std::size_t kBrief = 1;  // what is up there; what it waits for is up by now
-    return others.finish(voice, kBrief) ? here : std::max(here, kExitFailed);
+    return others.finish(output, kBrief) ? here : std::max(here, kExitFailed);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "clients/report_page/incident_page.hpp"
 #include "clients/report_page/report_page.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 namespace lockstep {
 namespace {
@@ -38,7 +38,7 @@ fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& 
 
 /// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
 std::expected<fs::path, std::string> write_page(const IncidentOptions& options, const proto::IncidentReport& report,
-                                                Voice& voice) {
+                                                Output& output) {
     std::optional<analysis::Analysis> log;
     if (options.log) {
         auto found = analysis::analyze_log(*options.log, {.machine = report.machine()});
@@ -51,7 +51,7 @@ std::expected<fs::path, std::string> write_page(const IncidentOptions& options, 
                                                      : std::unexpected(analysis::in_the_way(path));
     if (written) { return path; }
     if (options.html) { return std::unexpected(written.error()); }
-    voice.warn("no report page: " + written.error());
+    output.warn("no report page: " + written.error());
     return fs::path();
 }
 
@@ -77,18 +77,18 @@ IncidentOptions split_paths(const std::vector<std::string>& paths) {
 }
 
 ExitCode analyze_incident(const IncidentOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     if (options.html && !analysis::may_replace(*options.html)) {
-        return voice.fail(bad_input(analysis::in_the_way(*options.html)));
+        return output.fail(bad_input(analysis::in_the_way(*options.html)));
     }
     auto input = read_incidents(options.incidents);
-    if (!input) { return voice.fail(bad_input(input.error())); }
-    for (const std::string& left_out : input->left_out) { voice.warn(left_out); }
+    if (!input) { return output.fail(bad_input(input.error())); }
+    for (const std::string& left_out : input->left_out) { output.warn(left_out); }
     const std::size_t count = input->incidents.size();
     if (options.back < 0 || static_cast<std::size_t>(options.back) >= count) {
-        return voice.fail(bad_input("--back " + std::to_string(options.back) + ": the files hold " +
-                                    std::to_string(count) + " incidents, so it goes from 0 to " +
-                                    std::to_string(count - 1)));
+        return output.fail(bad_input("--back " + std::to_string(options.back) + ": the files hold " +
+                                     std::to_string(count) + " incidents, so it goes from 0 to " +
+                                     std::to_string(count - 1)));
     }
     const std::size_t earlier = count - 1 - static_cast<std::size_t>(options.back);
     const incident::Incident& incident = input->incidents[earlier];
@@ -99,13 +99,13 @@ ExitCode analyze_incident(const IncidentOptions& options) {
         incident, verdict, {.least = options.all ? incident::Weight::Routine : incident::Weight::Notable});
     if (wants_colour() && !options.no_colour) { text = coloured(text); }
     if (earlier > 0) { text += earlier_text(options.back, earlier) + "\n"; }
-    const auto page = write_page(options, report, voice);
-    if (!page) { return voice.fail(bad_input(page.error())); }
+    const auto page = write_page(options, report, output);
+    if (!page) { return output.fail(bad_input(page.error())); }
     report.set_page(page->string());
     if (text.ends_with('\n')) { text.pop_back(); }
-    voice.say(text);
-    if (!page->empty()) { voice.say("\nreport: " + page->string()); }
-    voice.report(report);
+    output.print(text);
+    if (!page->empty()) { output.print("\nreport: " + page->string()); }
+    output.report(report);
     return kExitDone;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "clients/incident/notes.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep::incident {
 namespace {

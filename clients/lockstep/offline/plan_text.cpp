@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "core/axis_unit.hpp"
 
 namespace lockstep {

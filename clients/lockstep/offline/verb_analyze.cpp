@@ -7,15 +7,15 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/analysis/analysis.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/words.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/analyze_incident.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/report_page/report_page.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 
 namespace lockstep {
 namespace {
@@ -58,7 +58,7 @@ std::filesystem::path page_path(const AnalyzeOptions& options) {
 
 /// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
 std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
-                                                             const analysis::Analysis& found, Voice& voice) {
+                                                             const analysis::Analysis& found, Output& output) {
     const bool asked = !options.html.empty();
     if (!asked && (options.no_html || options.json)) { return std::filesystem::path(); }
     const auto path = page_path(options);
@@ -71,31 +71,31 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
         return path;
     }
     if (asked) { return std::unexpected(problem); }
-    voice.warn("no report page: " + problem);
+    output.warn("no report page: " + problem);
     return std::filesystem::path();
 }
 
 ExitCode analyze_log(const AnalyzeOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     if (!options.html.empty() && !analysis::may_replace(options.html)) {
-        return voice.fail(bad_input(analysis::in_the_way(options.html)));  // before a long log is read
+        return output.fail(bad_input(analysis::in_the_way(options.html)));  // before a long log is read
     }
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
     if (!options.csv_dir.empty()) { what.csv_dir = options.csv_dir; }
-    if (voice.is_terminal()) {
-        what.progress = [&](double done) { voice.progress("reading " + fixed(done * 100, 0) + " %"); };
+    if (output.is_terminal()) {
+        what.progress = [&](double done) { output.progress("reading " + fixed(done * 100, 0) + " %"); };
     }
     const auto found = analysis::analyze_log(options.log, what);
-    if (!found) { return voice.fail(bad_input(found.error())); }
+    if (!found) { return output.fail(bad_input(found.error())); }
     std::string text = analysis::summary(*found);
-    const auto page = write_page(options, *found, voice);
-    if (!page) { return voice.fail(bad_input(page.error())); }
+    const auto page = write_page(options, *found, output);
+    if (!page) { return output.fail(bad_input(page.error())); }
     if (wants_colour() && !options.no_colour) { text = coloured(text); }
     if (text.ends_with('\n')) { text.pop_back(); }
-    voice.say(text);
-    if (!page->empty()) { voice.say("\nreport: " + page->string()); }
-    voice.report(analysis::to_report(*found));
+    output.print(text);
+    if (!page->empty()) { output.print("\nreport: " + page->string()); }
+    output.report(analysis::to_report(*found));
     return kExitDone;
 }
 
@@ -111,7 +111,7 @@ ExitCode analyze(AnalyzeOptions options) {
         return analyze_incident(incident);
     }
     if (options.paths.size() > 1) {
-        return Voice(options.json)
+        return Output(options.json)
             .fail(bad_input(options.paths[1] + ": one log at a time; lockstep log merge makes one of several, and "
                                                "--incident takes several incident files"));
     }

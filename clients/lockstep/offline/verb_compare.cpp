@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/comparison/comparison.hpp"
+#include "clients/comparison/comparison_text.hpp"
 #include "clients/comparison/figures.hpp"
 #include "clients/comparison/move_text.hpp"
 #include "clients/comparison/report.hpp"
-#include "clients/comparison/words.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {
@@ -60,21 +60,21 @@ std::expected<void, std::string> write_files(const CompareOptions& options, cons
 }
 
 ExitCode compare_verb(const CompareOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto move = comparison::parse_move(options.move);
-    if (!move) { return voice.fail(bad_input("--move " + move.error())); }
+    if (!move) { return output.fail(bad_input("--move " + move.error())); }
     const auto methods = chosen(options.methods);
-    if (!methods) { return voice.fail(bad_input(methods.error())); }
+    if (!methods) { return output.fail(bad_input(methods.error())); }
     const auto result = comparison::compare(*move, *methods);
-    if (auto written = write_files(options, result); !written) { return voice.fail(bad_input(written.error())); }
+    if (auto written = write_files(options, result); !written) { return output.fail(bad_input(written.error())); }
     if (options.csv) {
         std::cout << to_csv(result);
         return kExitDone;
     }
     std::string text = to_text(result);
     text.pop_back();
-    voice.say(text);
-    voice.report(to_report(result));
+    output.print(text);
+    output.report(to_report(result));
     return kExitDone;
 }
 

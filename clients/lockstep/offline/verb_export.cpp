@@ -7,8 +7,8 @@
 #include "clients/export/export.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {
@@ -43,37 +43,37 @@ proto::ExportReport to_report(const Exported& exported, const ExportOptions& opt
     return report;
 }
 
-void warn_of_losses(const Exported& exported, Voice& voice) {
+void warn_of_losses(const Exported& exported, Output& output) {
     if (exported.left_out > 0) {
-        voice.warn(std::to_string(exported.left_out) +
-                   " samples are left out: they came more than 2 s after others of their time, or of too many axes");
+        output.warn(std::to_string(exported.left_out) +
+                    " samples are left out: they came more than 2 s after others of their time, or of too many axes");
     }
     if (exported.damages > 0) {
-        voice.warn(std::to_string(exported.damages) + " places in the log cannot be read; see: lockstep analyze");
+        output.warn(std::to_string(exported.damages) + " places in the log cannot be read; see: lockstep analyze");
     }
 }
 
 ExitCode export_verb(const ExportOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const std::filesystem::path to = place_of(options);
     std::error_code ignored;
     if (std::filesystem::exists(to, ignored) && !options.force) {
-        return voice.fail(bad_input(to.string() + ": is there already; name another with --out, or say --force"));
+        return output.fail(bad_input(to.string() + ": is there already; name another with --out, or say --force"));
     }
     if (std::filesystem::equivalent(options.log, to, ignored)) {
-        return voice.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
+        return output.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
     }
     std::function<void(double)> progress;
-    if (voice.is_terminal()) {
-        progress = [&](double done) { voice.progress("exporting " + fixed(done * 100, 0) + " %"); };
+    if (output.is_terminal()) {
+        progress = [&](double done) { output.progress("exporting " + fixed(done * 100, 0) + " %"); };
     }
     const auto exported =
         exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap, progress);
-    if (!exported) { return voice.fail(bad_input(exported.error())); }
-    voice.say(to.string() + ": " + std::to_string(exported->samples) + " samples; the record is " +
+    if (!exported) { return output.fail(bad_input(exported.error())); }
+    output.print(to.string() + ": " + std::to_string(exported->samples) + " samples; the record is " +
               analysis::to_text(exported->record));
-    warn_of_losses(*exported, voice);
-    voice.report(to_report(*exported, options));
+    warn_of_losses(*exported, output);
+    output.report(to_report(*exported, options));
     return kExitDone;
 }
 

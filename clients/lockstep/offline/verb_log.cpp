@@ -13,8 +13,8 @@
 #include "clients/merge/named_logs.hpp"
 #include "clients/merge/report.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "services/record/new_log_file.hpp"
 
 namespace lockstep {
@@ -65,41 +65,41 @@ std::expected<merge::TimeSpan, std::string> span_of(const LogMergeOptions& optio
 }
 
 ExitCode merge_into(const LogMergeOptions& options, const merge::MergeOptions& what, merge::ChosenLogs chosen,
-                    Voice& voice) {
+                    Output& output) {
     auto out = NewLogFile::begin(options.out, options.force);
-    if (!out) { return voice.fail(bad_input(out.error())); }
+    if (!out) { return output.fail(bad_input(out.error())); }
     auto merged = merge::merge_logs(what, out->sink());
-    if (!merged) { return voice.fail(bad_input(merged.error())); }
+    if (!merged) { return output.fail(bad_input(merged.error())); }
     merged->chosen = std::move(chosen);
-    if (const auto kept = out->keep(); !kept) { return voice.fail(bad_input(kept.error())); }
+    if (const auto kept = out->keep(); !kept) { return output.fail(bad_input(kept.error())); }
     std::string text = merge::to_text(*merged, options.out);
     text.pop_back();
     if (wants_colour()) {
         const std::size_t verdict = text.rfind('\n') + 1;
         text = text.substr(0, verdict) + painted(text.substr(verdict), merged->is_complete() ? kGood : kBad);
     }
-    voice.say(text);
-    voice.report(merge::to_report(*merged, options.out));
+    output.print(text);
+    output.report(merge::to_report(*merged, options.out));
     return merged->is_complete() ? kExitDone : kExitFailed;
 }
 
 ExitCode log_merge(const LogMergeOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto logs = merge::named_logs({options.in.begin(), options.in.end()});
-    if (!logs) { return voice.fail(bad_input(logs.error())); }
+    if (!logs) { return output.fail(bad_input(logs.error())); }
     if (const std::string why_not = obstacle(options, *logs); !why_not.empty()) {
-        return voice.fail(bad_input(why_not));
+        return output.fail(bad_input(why_not));
     }
     auto chosen = merge::choose_logs(*logs, options.all);
-    if (!chosen) { return voice.fail(bad_input(chosen.error())); }
+    if (!chosen) { return output.fail(bad_input(chosen.error())); }
     const auto span = span_of(options, *chosen);
-    if (!span) { return voice.fail(bad_input(span.error())); }
+    if (!span) { return output.fail(bad_input(span.error())); }
     merge::MergeOptions what{.logs = chosen->logs,
                              .span = *span,
                              .window_us = static_cast<std::int64_t>(options.window_s * 1e6),
                              .progress = {}};
-    what.progress = [&](double done) { voice.progress("merging " + fixed(done * 100, 0) + " %"); };
-    return merge_into(options, what, std::move(*chosen), voice);
+    what.progress = [&](double done) { output.progress("merging " + fixed(done * 100, 0) + " %"); };
+    return merge_into(options, what, std::move(*chosen), output);
 }
 
 void add_merge(CLI::App& log, Action& action) {

@@ -6,8 +6,8 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "core/axis_unit.hpp"
 #include "services/documents/machine_proto.hpp"
 
@@ -27,14 +27,14 @@ std::string axis_line(const AxisConfig& axis) {
 }
 
 ExitCode check(const CheckOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     const MachineConfig& config = machine->config;
-    voice.say(machine->file.string() + ": ok: machine '" + config.name +
-              "', axes: " + std::to_string(config.axes.size()));
-    for (const AxisConfig& axis : config.axes) { voice.say(axis_line(axis)); }
-    voice.report(machine_to_proto(config));
+    output.print(machine->file.string() + ": ok: machine '" + config.name +
+                 "', axes: " + std::to_string(config.axes.size()));
+    for (const AxisConfig& axis : config.axes) { output.print(axis_line(axis)); }
+    output.report(machine_to_proto(config));
     return kExitDone;
 }
 

@@ -8,7 +8,7 @@
 #include "clients/lockstep/offline/plan_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/planning/plan_figures.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 namespace lockstep {
 namespace {
@@ -22,17 +22,17 @@ struct PlanOptions {
 };
 
 ExitCode plan(const PlanOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto input = read_program(options.file, options.machine_file, options.start);
-    if (!input) { return voice.fail(input.error()); }
+    if (!input) { return output.fail(input.error()); }
     if (!options.svg_dir.empty()) {
         const auto drawn =
             write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input->machine, input->plan)},
                                             {"speed.svg", plan_speed_figure(input->machine, input->plan)}});
-        if (!drawn) { return voice.fail(bad_input(drawn.error())); }
+        if (!drawn) { return output.fail(bad_input(drawn.error())); }
     }
-    voice.say(plan_text(*input));
-    voice.report(to_report(input->plan, input->lines));
+    output.print(plan_text(*input));
+    output.report(to_report(input->plan, input->lines));
     return kExitDone;
 }
 

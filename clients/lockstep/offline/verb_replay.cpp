@@ -9,8 +9,8 @@
 #include "clients/lockstep/offline/verdict_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/replay/replay.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "services/record/new_log_file.hpp"
 
 namespace lockstep {
@@ -24,29 +24,29 @@ struct ReplayOptions {
 };
 
 ExitCode replay_verb(const ReplayOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     std::error_code ignored;
     if (std::filesystem::equivalent(options.log, options.made, ignored)) {
-        return voice.fail(bad_input(options.made + ": is the log that is replayed; name another with --log"));
+        return output.fail(bad_input(options.made + ": is the log that is replayed; name another with --log"));
     }
     std::optional<NewLogFile> made;
     if (!options.made.empty()) {
         auto begun = NewLogFile::begin(options.made, options.force);
-        if (!begun) { return voice.fail(bad_input(begun.error())); }
+        if (!begun) { return output.fail(bad_input(begun.error())); }
         made.emplace(std::move(*begun));
     }
     std::function<void(double)> progress;
-    if (voice.is_terminal()) {
-        progress = [&](double done) { voice.progress("replaying " + fixed(done * 100, 0) + " %"); };
+    if (output.is_terminal()) {
+        progress = [&](double done) { output.progress("replaying " + fixed(done * 100, 0) + " %"); };
     }
     const auto findings = replay::replay_log(options.log, made ? &made->sink() : nullptr, progress);
-    if (!findings) { return voice.fail(bad_input(findings.error())); }
+    if (!findings) { return output.fail(bad_input(findings.error())); }
     if (made) {
-        if (const auto kept = made->keep(); !kept) { return voice.fail(failed(kept.error())); }
+        if (const auto kept = made->keep(); !kept) { return output.fail(failed(kept.error())); }
     }
     const bool exact = !findings->difference;
-    voice.say(verdict_text(replay::to_text(*findings), exact));
-    voice.report(replay::to_report(*findings, options.made));
+    output.print(verdict_text(replay::to_text(*findings), exact));
+    output.report(replay::to_report(*findings, options.made));
     return exact ? kExitDone : kExitFailed;
 }
 

@@ -9,7 +9,7 @@
 #include "clients/scenario/model/scenario_text.hpp"
 #include "clients/scenario/runner/scenario_runner.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "services/files/text_file.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -48,7 +48,7 @@ std::optional<scenario::Asked::Place> place_of(const ScenarioOptions& options) {
 }
 
 /// Nothing where a file has errors: all errors of all files have been printed.
-std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Voice& voice) {
+std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Output& output) {
     std::vector<Scenario> scenarios;
     std::vector<Failure> failures;
     for (const std::string& file : options.files) {
@@ -60,7 +60,7 @@ std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Vo
         }
     }
     if (failures.empty()) { return scenarios; }
-    (void)voice.fail(as_one(failures));
+    (void)output.fail(as_one(failures));
     return std::nullopt;
 }
 
@@ -71,44 +71,44 @@ std::string coloured(const proto::ScenarioReport& report, bool events) {
     return painted(text.substr(0, end), report.held() ? kGood : kBad) + (end == text.npos ? "" : text.substr(end));
 }
 
-ExitCode end(const ScenarioOptions& options, const proto::ScenarioRunReport& report, Voice& voice) {
-    voice.report(report);
-    voice.say(std::to_string(report.held()) + " of " + std::to_string(report.scenarios_size()) + " scenarios hold");
+ExitCode end(const ScenarioOptions& options, const proto::ScenarioRunReport& report, Output& output) {
+    output.report(report);
+    output.print(std::to_string(report.held()) + " of " + std::to_string(report.scenarios_size()) + " scenarios hold");
     const auto written = options.junit.empty() ? std::expected<void, std::string>{}
                                                : write_text_file(options.junit, scenario::junit_xml(report));
-    if (!written) { voice.warn("no JUnit file: " + written.error()); }
+    if (!written) { output.warn("no JUnit file: " + written.error()); }
     return written && report.failed() == 0 ? kExitDone : kExitFailed;
 }
 
 ExitCode run(const ScenarioOptions& options) {
-    Voice voice(options.json);
-    const auto scenarios = read_all(options, voice);
+    Output output(options.json);
+    const auto scenarios = read_all(options, output);
     if (!scenarios) { return kExitBadInput; }
     const StopSignal stop;
     scenario::RunnerOptions runner{.at_a_time = options.at_a_time, .image = options.image};
     if (!options.keep.empty()) { runner.keep = options.keep; }
-    runner.progress = [&](const std::string& line) { voice.progress(line); };
-    runner.finished = [&](const proto::ScenarioReport& report) { voice.say(coloured(report, options.events)); };
+    runner.progress = [&](const std::string& line) { output.progress(line); };
+    runner.finished = [&](const proto::ScenarioReport& report) { output.print(coloured(report, options.events)); };
     runner.interrupted = [&] { return stop.requested(); };
     const auto report = scenario::run_scenarios(*scenarios, runner);
-    if (!report) { return voice.fail(bad_input(report.error())); }
-    if (stop.requested()) { voice.warn("interrupted: the running scenarios are taken down"); }
-    return end(options, *report, voice);
+    if (!report) { return output.fail(bad_input(report.error())); }
+    if (stop.requested()) { output.warn("interrupted: the running scenarios are taken down"); }
+    return end(options, *report, output);
 }
 
 ExitCode check(const ScenarioOptions& options) {
-    Voice voice(options.json);
-    const auto scenarios = read_all(options, voice);
+    Output output(options.json);
+    const auto scenarios = read_all(options, output);
     if (!scenarios) { return kExitBadInput; }
     proto::ScenarioRunReport report;
     for (const Scenario& one : *scenarios) {
         std::string text = scenario::outline(one);
         text.pop_back();
-        voice.say(text);
+        output.print(text);
         report.add_scenarios()->set_file(one.file.string());
         report.mutable_scenarios()->rbegin()->set_shows(one.asked.shows());
     }
-    voice.report(report);
+    output.report(report);
     return kExitDone;
 }
 

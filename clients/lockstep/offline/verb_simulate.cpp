@@ -8,8 +8,8 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/simulation/simulate.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/new_log_file.hpp"
 #include "services/runtime/clock.hpp"
@@ -72,26 +72,26 @@ std::string in_words(const SimulateOptions& options, const ProgramInput& input, 
 }
 
 ExitCode simulate_verb(const SimulateOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto input = read_program(options.file, options.machine_file, "");
-    if (!input) { return voice.fail(input.error()); }
+    if (!input) { return output.fail(input.error()); }
     auto log = NewLogFile::begin(options.log, options.force);
-    if (!log) { return voice.fail(bad_input(log.error())); }
+    if (!log) { return output.fail(bad_input(log.error())); }
     const StopSignal stop;
     const auto result = simulate(input->machine, input->program, log->sink(),
                                  {.progress =
                                       [&](double done) {
-                                          if (voice.is_terminal()) {
-                                              voice.progress("simulating " + fixed(done * 100, 0) + " %");
+                                          if (output.is_terminal()) {
+                                              output.progress("simulating " + fixed(done * 100, 0) + " %");
                                           }
                                           return !stop.requested();
                                       },
                                   .stopwatch = seconds_now});
-    if (!result) { return voice.fail(failed(result.error() + "; no log was written")); }
-    if (auto kept = log->keep(); !kept) { return voice.fail(failed(kept.error())); }
-    voice.say(in_words(options, *input, *result));
-    voice.report(run_report(*input, *result));
-    if (!result->trouble.empty()) { voice.warn(result->trouble); }
+    if (!result) { return output.fail(failed(result.error() + "; no log was written")); }
+    if (auto kept = log->keep(); !kept) { return output.fail(failed(kept.error())); }
+    output.print(in_words(options, *input, *result));
+    output.report(run_report(*input, *result));
+    if (!result->trouble.empty()) { output.warn(result->trouble); }
     return result->job != 0 && result->outcome == JobOutcome::Done ? kExitDone : kExitFailed;
 }
 

@@ -6,8 +6,8 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/verdict_text.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/text/voice.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
+#include "clients/text/output.hpp"
 #include "clients/verification/verification.hpp"
 
 namespace lockstep {
@@ -19,16 +19,16 @@ struct VerifyOptions {
 };
 
 ExitCode verify(const VerifyOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     std::function<void(double)> progress;
-    if (voice.is_terminal()) {
-        progress = [&](double done) { voice.progress("comparing " + fixed(done * 100, 0) + " %"); };
+    if (output.is_terminal()) {
+        progress = [&](double done) { output.progress("comparing " + fixed(done * 100, 0) + " %"); };
     }
     const auto findings = verification::verify_log(options.log, progress);
-    if (!findings) { return voice.fail(bad_input(findings.error())); }
+    if (!findings) { return output.fail(bad_input(findings.error())); }
     const bool exact = findings->is_exact();
-    voice.say(verdict_text(verification::to_text(*findings), exact));
-    voice.report(verification::to_report(*findings));
+    output.print(verdict_text(verification::to_text(*findings), exact));
+    output.report(verification::to_report(*findings));
     return exact ? kExitDone : kExitFailed;
 }
 

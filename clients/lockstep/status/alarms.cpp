@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clients/session/record_loss.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep {
 namespace {

@@ -10,7 +10,7 @@
 #include "clients/session/session.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 namespace lockstep {
 namespace {
@@ -18,19 +18,21 @@ namespace {
 using namespace std::chrono_literals;
 
 ExitCode status(const LiveOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Look);
-    if (!session) { return voice.fail(session.error()); }
+    if (!session) { return output.fail(session.error()); }
     session->await_axes();
     session->await_healths(1s);
-    if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    if (session->config_differs()) {
+        output.warn("the coordinator runs another configuration than this command reads");
+    }
     proto::StatusReport report = status_report(*session);
     add_incidents(session->config(), report);
     add_awaited(*session, report);
-    voice.report(report);
-    if (!voice.json()) { std::cout << status_text(report) << awaited_text(report) << std::flush; }
+    output.report(report);
+    if (!output.json()) { std::cout << status_text(report) << awaited_text(report) << std::flush; }
     return kExitDone;
 }
 

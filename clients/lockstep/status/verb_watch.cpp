@@ -9,7 +9,7 @@
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -36,37 +36,39 @@ void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
     while (!stop.requested() && !screen.pressed('q')) {
         screen.draw(watch_text(watched(session), scale, ink) + "\nq or Ctrl-C leaves; the machine goes on\n");
         const nanoseconds next = monotonic_now() + kRedrawPeriod;
-        while (!stop.requested() && monotonic_now() < next) { session.listen(next - monotonic_now()); }
+        while (!stop.requested() && monotonic_now() < next) { session.receive(next - monotonic_now()); }
     }
 }
 
-void watch_in_lines(Session& session, const StopSignal& stop, Voice& voice) {
+void watch_in_lines(Session& session, const StopSignal& stop, Output& output) {
     const SlackScale scale = slack_scale(session.config().timing);
     while (!stop.requested()) {
         const proto::StatusReport report = watched(session);
-        voice.report(report);
-        voice.say(watch_line(report, scale));
+        output.report(report);
+        output.print(watch_line(report, scale));
         const nanoseconds next = monotonic_now() + kLinePeriod;
         while (!stop.requested() && monotonic_now() < next) {
-            session.listen(std::min(kRedrawPeriod, next - monotonic_now()));
+            session.receive(std::min(kRedrawPeriod, next - monotonic_now()));
         }
     }
 }
 
 ExitCode watch(const LiveOptions& options) {
-    Voice voice(options.json);
+    Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return voice.fail(machine.error()); }
+    if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Look);
-    if (!session) { return voice.fail(session.error()); }
-    if (session->config_differs()) { voice.warn("the coordinator runs another configuration than this command reads"); }
+    if (!session) { return output.fail(session.error()); }
+    if (session->config_differs()) {
+        output.warn("the coordinator runs another configuration than this command reads");
+    }
     session->await_axes();
     session->await_healths(300ms);
     const StopSignal stop;
-    if (voice.is_terminal() && !voice.json()) {
+    if (output.is_terminal() && !output.json()) {
         watch_on_screen(*session, stop, wants_colour() ? Ink::Colour : Ink::Plain);
     } else {
-        watch_in_lines(*session, stop, voice);
+        watch_in_lines(*session, stop, output);
     }
     return kExitDone;
 }

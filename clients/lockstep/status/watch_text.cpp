@@ -8,7 +8,7 @@
 #include "clients/lockstep/status/alarms.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "core/axis_unit.hpp"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 
 #include "clients/scenario/model/problems.hpp"
 #include "clients/scenario/model/scenario_text.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep::scenario {
 namespace {

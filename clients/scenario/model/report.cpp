@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep::scenario {
 namespace {

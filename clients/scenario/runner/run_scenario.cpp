@@ -16,7 +16,7 @@
 #include "clients/scenario/runner/scenario_executor.hpp"
 #include "clients/supervisor/flight_files.hpp"
 #include "clients/supervisor/program_folder.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "core/number_text.hpp"
 #include "services/axis/device_window.hpp"
 #include "services/documents/machine_file.hpp"
@@ -111,7 +111,7 @@ std::expected<void, std::string> bring_up(const Scenario& scenario, ProcessSet& 
     const auto deadline = monotonic_now() + kStartPatience;
     while (!session.has_standby()) {
         if (monotonic_now() > deadline) { return std::unexpected("no state of the standby coordinator is received"); }
-        session.listen(50ms);
+        session.receive(50ms);
     }
     return {};
 }

@@ -4,7 +4,7 @@
 #include "clients/session/job_plan.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/session/reports.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -235,7 +235,7 @@ void ScenarioExecutor::inject_due(EventSchedule& schedule, nanoseconds begun) {
 
 void ScenarioExecutor::poll_session() {
     undo_due();
-    session_.listen(kPollInterval);
+    session_.receive(kPollInterval);
 }
 
 void ScenarioExecutor::undo_due() {

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "clients/comparison/comparison.hpp"
+#include "clients/comparison/comparison_text.hpp"
 #include "clients/comparison/figures.hpp"
 #include "clients/comparison/move_text.hpp"
 #include "clients/comparison/report.hpp"
-#include "clients/comparison/words.hpp"
 
 namespace lockstep::comparison {
 namespace {

@@ -6,8 +6,8 @@
 #include <random>
 #include <sstream>
 
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/words.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 #include "tests/unit/drawing/xml_check.hpp"
 

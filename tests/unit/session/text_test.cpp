@@ -5,7 +5,7 @@
 
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 #include "tests/unit/session/two_axes.hpp"
 
 namespace lockstep {

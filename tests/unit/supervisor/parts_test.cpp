@@ -26,26 +26,26 @@ MachineConfig on_three_hosts() {
     return machine;
 }
 
-std::string said_of(const PartsSeen& seen) {
+std::string text_of(const KnownParts& seen) {
     proto::StatusReport report;
     for (const auto& part : awaited_parts(on_three_hosts(), seen)) { *report.add_waits_for() = part; }
     return awaited_text(report);
 }
 
 TEST(AwaitedParts, AreThoseOfOtherHostsWithTheirState) {
-    const PartsSeen seen{.present = {{0, "board-b", 7}}};
-    EXPECT_EQ(said_of(seen),
+    const KnownParts seen{.present = {{0, "board-b", 7}}};
+    EXPECT_EQ(text_of(seen),
               "waits for coordinator on board-a: not there; on board-a: lockstep up\n"
               "waits for axis X on board-b: started, waits for the coordinator's clock\n"
               "waits for axis Y on board-c: not there; on board-c: lockstep up\n");
 }
 
 TEST(AwaitedParts, AreNoneWhereAllHearEachOther) {
-    EXPECT_EQ(said_of({.coordinator_heard = true, .axes_heard = 3, .axes_heard_by_coordinator = 3}), "");
+    EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 3}), "");
 }
 
 TEST(AwaitedParts, AreThoseTooThatTheCoordinatorAloneDoesNotHear) {
-    EXPECT_EQ(said_of({.coordinator_heard = true, .axes_heard = 3, .axes_heard_by_coordinator = 1}),
+    EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 1}),
               "waits for axis Y on board-c: started, not heard by the coordinator\n");
 }
 

@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "clients/analysis/analysis.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/log/log_read.hpp"
 #include "clients/analysis/log/log_step.hpp"
-#include "clients/analysis/words.hpp"
 #include "clients/verification/verification.hpp"
 #include "tests/unit/verification/altered_log.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"

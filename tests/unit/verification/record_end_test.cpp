@@ -5,8 +5,8 @@
 
 #include <map>
 
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/verdict.hpp"
-#include "clients/analysis/words.hpp"
 #include "clients/merge/log_merge.hpp"
 #include "clients/merge/report.hpp"
 #include "clients/verification/verification.hpp"

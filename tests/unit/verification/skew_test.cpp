@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "clients/analysis/analysis.hpp"
+#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/words.hpp"
 #include "tests/unit/verification/altered_log.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 

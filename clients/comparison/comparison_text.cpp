@@ -1,4 +1,4 @@
-#include "clients/comparison/words.hpp"
+#include "clients/comparison/comparison_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// An analysis in words, for a terminal and for the figures' headings.
+// The text of an analysis, for a terminal and for the headings of figures.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace lockstep::analysis {
 
-/// What to do where a log lacks messages: who heard them may have stood still, not who sent them.
+/// The remedy where a log lacks messages: its writer may have missed them, while their sender has them.
 inline constexpr const char* kWhereTheRestIs =
     "what was not heard is in the processes' own logs: lockstep log merge puts them together";
 
 /// "3 axes · 128 450 steps · 12.4 s · nothing missing"
 std::string in_a_line(const Analysis& analysis);
 
-/// A sentence for everything that is worth knowing besides the tables: what is missing, set anew, damaged, foreign.
+/// A sentence for each remark besides the tables: missing, reset, damaged or foreign messages.
 std::vector<std::string> notes(const Analysis& analysis);
 
 /// A table of the axes, one of the jobs, one of the step skew between axes, and the notes.

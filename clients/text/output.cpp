@@ -1,4 +1,4 @@
-#include "clients/text/voice.hpp"
+#include "clients/text/output.hpp"
 
 #include <unistd.h>
 
@@ -30,14 +30,14 @@ proto::ErrorReport error_report(const Failure& failure) {
 
 }  // namespace
 
-Voice::Voice(bool json) : json_(json), is_terminal_(isatty(STDOUT_FILENO) == 1), progress_time_s_(now_s()) {}
+Output::Output(bool json) : json_(json), is_terminal_(isatty(STDOUT_FILENO) == 1), progress_time_s_(now_s()) {}
 
-void Voice::clear_progress() {
+void Output::clear_progress() {
     if (progress_shown_) { std::cout << "\r\x1b[K"; }
     progress_shown_ = false;
 }
 
-void Voice::progress(const std::string& line) {
+void Output::progress(const std::string& line) {
     if (json_ || now_s() - progress_time_s_ < (is_terminal_ ? kRedrawPeriod_s : kProgressPeriod_s)) { return; }
     progress_time_s_ = now_s();
     clear_progress();
@@ -46,23 +46,23 @@ void Voice::progress(const std::string& line) {
     is_terminal_ ? std::cout << std::flush : std::cout << std::endl;
 }
 
-void Voice::say(const std::string& line) {
+void Output::print(const std::string& line) {
     if (json_) { return; }
     clear_progress();
     std::cout << line << std::endl;
 }
 
-void Voice::warn(const std::string& line) {
+void Output::warn(const std::string& line) {
     clear_progress();
     std::cout << std::flush;
     std::cerr << "lockstep: " << line << std::endl;
 }
 
-void Voice::report(const google::protobuf::Message& message) {
+void Output::report(const google::protobuf::Message& message) {
     if (json_) { std::cout << report_json(message) << std::flush; }
 }
 
-ExitCode Voice::fail(const Failure& failure) {
+ExitCode Output::fail(const Failure& failure) {
     clear_progress();
     if (json_) {
         report(error_report(failure));

@@ -1,5 +1,5 @@
-// How a verb speaks: text for a person, or one JSON report on standard output for a script. Warnings go to standard
-// error either way, so that standard output holds the report alone.
+// The output of a verb: text for a person, or one JSON report on standard output for a script. Warnings always go to
+// standard error, so that standard output holds only the report.
 #pragma once
 
 #include <google/protobuf/message.h>
@@ -10,20 +10,20 @@
 
 namespace lockstep {
 
-class Voice {
+class Output {
 public:
-    explicit Voice(bool json);
+    explicit Output(bool json);
 
     bool json() const { return json_; }
     bool is_terminal() const { return is_terminal_; }
-    /// A line that passes: redrawn in place on a terminal, printed once every few seconds elsewhere. Not with JSON.
+    /// A progress line: redrawn in place on a terminal, printed once every few seconds elsewhere. Not with JSON.
     void progress(const std::string& line);
-    /// A line that stays. Not with JSON.
-    void say(const std::string& line);
+    /// A permanent line. Not with JSON.
+    void print(const std::string& line);
     void warn(const std::string& line);
-    /// The JSON report; nothing in text, where the verb says its own.
+    /// The JSON report; nothing in text mode, where the verb prints its own text.
     void report(const google::protobuf::Message& message);
-    /// Says it in either form; returns its exit code.
+    /// Reports the failure in either form; returns its exit code.
     ExitCode fail(const Failure& failure);
 
 private:

@@ -1,4 +1,4 @@
-// A comparison in words and numbers: for a terminal, for a spreadsheet, for a browser.
+// A comparison as text, CSV or HTML.
 #pragma once
 
 #include <string>

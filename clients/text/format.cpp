@@ -1,4 +1,4 @@
-#include "clients/text/words.hpp"
+#include "clients/text/format.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "clients/analysis/words.hpp"
+#include "clients/analysis/analysis_text.hpp"
 
 #include <fmt/format.h>
 

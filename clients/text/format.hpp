@@ -1,4 +1,4 @@
-// Names of states as they are shown, and the ways numbers and long lines are written for a person.
+// Formats numbers, durations, axis names and long lines for a person.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace lockstep {
 
-/// With so many digits after the point.
+/// With `digits` digits after the point.
 std::string fixed(double value, int digits);
-/// An axis's name, and its unit where that is not the mm of the column: "X", "C (deg)".
+/// The name of an axis, with its unit unless that is the mm of the column: "X", "C (deg)".
 std::string axis_label(const std::string& name);
 /// "8.2 s", "3 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);
