@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "clients/analysis/record_state.hpp"
 #include "clients/analysis/analysis_text.hpp"
+#include "clients/analysis/record_state.hpp"
 #include "clients/analysis/report.hpp"
 #include "clients/analysis/verdict.hpp"
 #include "clients/drawing/svg.hpp"

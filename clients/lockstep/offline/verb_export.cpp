@@ -71,7 +71,7 @@ ExitCode export_verb(const ExportOptions& options) {
         exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap, progress);
     if (!exported) { return output.fail(bad_input(exported.error())); }
     output.print(to.string() + ": " + std::to_string(exported->samples) + " samples; the record is " +
-              analysis::to_text(exported->record));
+                 analysis::to_text(exported->record));
     warn_of_losses(*exported, output);
     output.report(to_report(*exported, options));
     return kExitDone;
