@@ -63,6 +63,15 @@ void ask_in_fault(Bench& bench) {
     if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
 }
 
+/// The park position. An axis that lost its coordinator on the way there, with its zero set, rests where it reports;
+/// check_slides() compares that with the true place of the slide.
+std::int64_t place_after_homing(const Bench& bench, std::size_t axis, JobOutcome outcome) {
+    const AxisState& state = bench.watch().axes()[axis];
+    if (outcome != JobOutcome::Done && state.homed && state.at_rest) { return state.position.count(); }
+    const AxisConfig& config = bench.machine().axes[axis];
+    return nearest_step(config, config.homing.park_mm);
+}
+
 }  // namespace
 
 void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
@@ -116,8 +125,7 @@ void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
     for (std::size_t i = 0; i < at.size(); ++i) {
         if (job.end_step[i] == job.first_step[i]) { continue; }  // its turn never came
-        const AxisConfig& axis = bench.machine().axes[i];
-        at[i] = nearest_step(axis, axis.homing.park_mm);
+        at[i] = place_after_homing(bench, i, job.outcome);
     }
     end_record(bench, job);
 }
