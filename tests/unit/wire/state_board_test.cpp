@@ -105,8 +105,8 @@ TEST_F(StateBoard, IsHeardWholeAndInOrderWhileItIsWritten) {
         }
     });
     Slot latest = 0;
-    for (int i = 0; i < 20'000; ++i) {
-        listener.take([&](AxisState&& state) {
+    for (std::size_t taken = 0; taken < 20'000;) {
+        taken += listener.take([&](AxisState&& state) {
             EXPECT_GT(state.stamp, latest);
             latest = state.stamp;
             EXPECT_EQ(state.identity, static_cast<Identity>(latest));
@@ -114,7 +114,6 @@ TEST_F(StateBoard, IsHeardWholeAndInOrderWhileItIsWritten) {
             EXPECT_EQ(state.refused_frames, static_cast<std::uint64_t>(latest));
         });
     }
-    EXPECT_GT(latest, 0);
     EXPECT_EQ(listener.refusals().count, 0U);
 }
 
