@@ -97,12 +97,16 @@ void AxisController::watch_owner(Slot now, AxisOutputs& out) {
     if (fault_ == FaultCode::None && !hears_owner(now)) { fail(FaultCode::CoordinatorSilent, out); }
 }
 
-/// Frames are loaded until the device has enough ahead, or no room.
+/// Frames are loaded until the device has enough ahead, or no room. The first is loaded at once, however late it
+/// starts: without a frame the device can neither begin its run nor end it.
 void AxisController::feed_local(AxisOutputs& out) {
     LocalRun& run = *local_;
     if (fault_ != FaultCode::None && !run.halted) { halt_local(out); }
     const Tick ahead = now_ + frame_span(machine_) * kSpansAhead;
-    while (!run.halted && (run.waiting || (!run.frames.all_made() && run.frames.end() < ahead))) {
+    const auto wants_more = [&run, ahead] {
+        return run.frames.none_made() || (!run.frames.all_made() && run.frames.end() < ahead);
+    };
+    while (!run.halted && (run.waiting || wants_more())) {
         if (!run.waiting) { run.waiting = run.frames.next(); }
         const std::size_t pieces = run.waiting->track.body.size() + run.waiting->track.tail.size();
         if (pieces > ring_room_) { return; }

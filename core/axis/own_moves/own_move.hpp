@@ -22,6 +22,7 @@ public:
 
     /// The next frame, numbered from 1. Not to be called when all are made.
     HeldFrame next();
+    bool none_made() const { return made_ == 0; }
     bool all_made() const { return pieces_.done() || pieces_.broken(); }
     bool broken() const { return pieces_.broken(); }
     /// Of the frames made.
