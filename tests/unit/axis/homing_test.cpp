@@ -101,5 +101,18 @@ TEST_F(HomingSequence, ALimitSwitchOnTheWayToTheSwitchEndsIt) {
     EXPECT_EQ(homing.next({.by_limit = true, .count = -800}).fault, FaultCode::HomeSwitchNotFound);
 }
 
+TEST_F(HomingSequence, ASwitchThatClosesAgainAfterEachOfSixteenPullOffsIsStuck) {
+    ASSERT_EQ(homing.begin(true).move->trigger, Trigger::HomeOpens);
+    const LocalEnd opens{.by_trigger = true};
+    const LocalEnd closed_again{.home_closed = true};
+    for (int pull_off = 1; pull_off <= 16; ++pull_off) {
+        ASSERT_EQ(homing.next(opens).fault, FaultCode::None) << pull_off;
+        ASSERT_EQ(homing.stage(), HomingStage::PullOff);
+        ASSERT_EQ(homing.next(closed_again).move->trigger, Trigger::HomeOpens);
+    }
+    EXPECT_EQ(homing.next(opens).fault, FaultCode::HomeSwitchStuck);
+    EXPECT_EQ(homing.stage(), HomingStage::Idle);
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -1,0 +1,156 @@
+// The axis controller by itself: what it believes of others, and what it does without them.
+#include <gtest/gtest.h>
+
+#include "tests/unit/axis/controller_rig.hpp"
+
+namespace lockstep {
+namespace {
+
+const Slot kSilence = rules::silence_slots({.freshness_slots = 2});
+
+class Owner : public ControllerRig {};
+
+TEST_F(Owner, IsAdoptedWhenTwoSlotsCarryItsTerm) {
+    owner_reports(10);
+    loop(10);
+    EXPECT_EQ(state.term, Term{}) << "one message may be damaged";
+    owner_reports(11);
+    EXPECT_TRUE(has_notice(loop(11), AxisNotice::Kind::OwnerAdopted));
+    EXPECT_EQ(state.term, kTerm);
+    EXPECT_TRUE(state.hears_owner);
+}
+
+TEST_F(Owner, CountsAsSilentAfterTheSilentSlotsAndNotBefore) {
+    owned(10, 20);
+    for (Slot at = 21; at <= 20 + kSilence; ++at) { loop(at); }
+    EXPECT_TRUE(state.hears_owner);
+    loop(21 + kSilence);
+    EXPECT_FALSE(state.hears_owner);
+}
+
+TEST_F(Owner, IsNotSilentInSlotsThatTheAxisMissedByItsOwnStall) {
+    owned(10, 20);
+    loop(21);
+    loop(21 + 50 * kSilence);
+    EXPECT_TRUE(state.hears_owner) << "one slot without the owner, and a long stall of the axis";
+    for (Slot n = 1; n < kSilence; ++n) { loop(slot + 1); }
+    EXPECT_FALSE(state.hears_owner) << "but the slots in which the axis ran count, those before the stall too";
+}
+
+TEST_F(Owner, OfAHigherTermIsFollowedOnlyWhenTheLastOneIsSilent) {
+    owned(10, 20);
+    const MachineState younger{.term = {2, 2}, .stamp = 21, .phase = MachinePhase::Idle};
+    for (Slot at = 21; at < 25; ++at) {
+        coordinator = {younger};
+        coordinator.back().stamp = at;
+        loop(at);
+    }
+    EXPECT_EQ(state.term, kTerm);
+    for (Slot at = 25; at <= 25 + kSilence; ++at) {
+        coordinator = {younger};
+        coordinator.back().stamp = at;
+        loop(at);
+    }
+    EXPECT_EQ(state.term, younger.term);
+}
+
+TEST_F(Owner, OnStandbyIsNoOwner) {
+    for (Slot at = 10; at < 15; ++at) {
+        coordinator = {{.term = kTerm, .stamp = at, .phase = MachinePhase::Standby}};
+        loop(at);
+    }
+    EXPECT_EQ(state.term, Term{});
+}
+
+/// A frame for both axes at a speed below the start velocity.
+class Peers : public ControllerRig {
+protected:
+    static constexpr Slot kStart = 100;
+    static constexpr Slot kCheck = 95;  // V = 5
+
+    Peers() {
+        owned(60, 79, kEpoch);
+        Frame frame{.term = kTerm,
+                    .epoch = kEpoch,
+                    .number = 1,
+                    .start = {kStart * kSlot},
+                    .ticks = {5 * kSlot},
+                    .axes = std::vector<AxisTrack>(2)};
+        for (AxisTrack& track : frame.axes) {
+            (void)track.body.push_back({frame.ticks, {static_cast<std::int64_t>(0x1p64 * 500e-6)}, {0}});
+        }
+        frames = {frame};
+        loop(80);
+    }
+    void peer_reports(Slot stamp) {
+        peers.push_back({.identity = 2, .axis = 1, .stamp = stamp, .epoch = kEpoch, .held = 1});
+    }
+};
+
+TEST_F(Peers, WhoHoldTheFrameLetItBeArmed) {
+    EXPECT_EQ(state.held, 1u);
+    peer_reports(94);
+    loop(94);
+    EXPECT_EQ(orders_of<device::Arm>(loop(kCheck)).size(), 1u);
+}
+
+TEST_F(Peers, AreNotBelievedInTheFuture) {
+    peer_reports(94);
+    loop(91);  // three slots before the stamp: no clock is so far off
+    EXPECT_TRUE(orders_of<device::Arm>(loop(kCheck)).empty());
+    EXPECT_EQ(state.veto, 1u);
+}
+
+TEST_F(Peers, AreBelievedUpToAHopAhead) {
+    peer_reports(94);
+    loop(92);
+    EXPECT_EQ(orders_of<device::Arm>(loop(kCheck)).size(), 1u);
+    EXPECT_FALSE(state.veto.has_value());
+}
+
+TEST_F(Peers, AreNotNeededForAnEmergencyStop) {
+    requests.push_back({.client = 4, .sequence = 1, .kind = CommandKind::EmergencyStop});
+    const AxisOutputs out = loop(81);
+    EXPECT_EQ(orders_of<device::StopNow>(out).size(), 1u);
+    EXPECT_TRUE(has_notice(out, AxisNotice::Kind::Vetoed));
+    requests.push_back({.client = 4, .sequence = 1, .kind = CommandKind::EmergencyStop});
+    EXPECT_TRUE(orders_of<device::StopNow>(loop(82)).empty()) << "the same command, repeated";
+    requests.push_back({.client = 4, .sequence = 2, .kind = CommandKind::EmergencyStop});
+    EXPECT_EQ(orders_of<device::StopNow>(loop(83)).size(), 1u);
+}
+
+class OwnMoves : public ControllerRig {};
+
+TEST_F(OwnMoves, HaltWhenTheOwnerIsSilentButNotByTheAxissOwnStall) {
+    owned(10, 20);
+    command(AxisCommandKind::MoveOwn, 5000);
+    owner_reports(21);
+    ASSERT_EQ(orders_of<device::BeginRun>(loop(21)).size(), 1u);
+    device.run = device.run_asked = 4;
+    device.finished = false;
+    device.moving = true;
+    EXPECT_FALSE(has_notice(loop(22 + 10 * kSilence), AxisNotice::Kind::Fault, FaultCode::CoordinatorSilent));
+    AxisOutputs out;
+    for (Slot n = 0; n < kSilence; ++n) {
+        EXPECT_FALSE(has_notice(out, AxisNotice::Kind::Fault, FaultCode::CoordinatorSilent)) << n;
+        out = loop(slot + 1);
+    }
+    EXPECT_TRUE(has_notice(out, AxisNotice::Kind::Fault, FaultCode::CoordinatorSilent));
+    EXPECT_EQ(orders_of<device::Veto>(out).size(), 1u);
+}
+
+TEST_F(OwnMoves, GoUpToBothEndsOfTravelAndNoFurther) {
+    owned(10, 20);
+    for (const std::int64_t target : {10'001, -10'001}) {
+        command(AxisCommandKind::MoveOwn, target);
+        EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::OutsideTravel)) << target;
+    }
+    command(AxisCommandKind::MoveOwn, 0);
+    EXPECT_TRUE(loop(slot + 1).orders.empty()) << "the axis is there";
+    EXPECT_EQ(state.command_done, 3u);
+    command(AxisCommandKind::MoveOwn, -10'000);
+    EXPECT_EQ(orders_of<device::BeginRun>(loop(slot + 1)).size(), 1u);
+}
+
+}  // namespace
+}  // namespace lockstep

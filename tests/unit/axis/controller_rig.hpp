@@ -1,0 +1,108 @@
+// An axis controller of two, its device and its peers written by hand: one loop for each slot.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "core/axis/axis_controller.hpp"
+#include "core/methods/paper_steps.hpp"
+
+namespace lockstep {
+
+class ControllerRig : public testing::Test {
+protected:
+    static constexpr std::int64_t kSlot = 1000;  // ticks
+    static constexpr Term kTerm{1, 1};
+    static constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
+
+    static MachineConfig machine() {
+        AxisConfig axis{.name = "X",
+                        .steps_per_mm = 100,
+                        .start_velocity_mm_s = 10,
+                        .max_velocity_mm_s = 100,
+                        .max_accel_mm_s2 = 1000,
+                        .max_decel_mm_s2 = 1000,
+                        .position_min_mm = -100,
+                        .position_max_mm = 100};
+        axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
+        MachineConfig m{
+            .name = "pair",
+            .timing = {
+                .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5}};
+        m.axes = {axis, axis};
+        m.axes[1].name = "Y";
+        return m;
+    }
+    static DeviceStatus resting_device() {
+        return {.power_up = 9, .run = 3, .run_asked = 3, .finished = true, .free_segments = 1000};
+    }
+    /// Axis 0, homed by the position that the process before it has kept.
+    static KeptPosition kept() { return {scale_of(machine(), 0), 9, 3, {}, 0, 0}; }
+
+    /// One loop at the beginning of a slot, with the messages that were given since the last.
+    AxisOutputs loop(Slot at) {
+        slot = at;
+        device.now = {at * kSlot};
+        AxisOutputs out = axis.step({.now = {at * kSlot},
+                                     .device = device,
+                                     .frames = frames,
+                                     .peers = peers,
+                                     .coordinator = coordinator,
+                                     .commands = commands,
+                                     .requests = requests,
+                                     .clock_error = {}});
+        frames.clear();
+        peers.clear();
+        coordinator.clear();
+        commands.clear();
+        requests.clear();
+        if (out.state) { state = *out.state; }
+        return out;
+    }
+    /// The owner's state of this slot.
+    void owner_reports(Slot at, Epoch epoch = 0) {
+        coordinator.push_back({.term = kTerm, .stamp = at, .phase = MachinePhase::Idle, .epoch = epoch});
+    }
+    /// Loops from one slot to another, both included, in which the owner reports.
+    void owned(Slot from, Slot to, Epoch epoch = 0) {
+        for (Slot at = from; at <= to; ++at) {
+            owner_reports(at, epoch);
+            loop(at);
+        }
+    }
+    void command(AxisCommandKind kind, std::int64_t target_steps = 0) {
+        commands.push_back(
+            {.term = kTerm, .sequence = ++sequence_, .axis = 0, .kind = kind, .target_steps = target_steps});
+    }
+    template <typename Order>
+    static std::vector<Order> orders_of(const AxisOutputs& out) {
+        std::vector<Order> found;
+        for (const DeviceOrder& order : out.orders) {
+            if (const auto* one = std::get_if<Order>(&order)) { found.push_back(*one); }
+        }
+        return found;
+    }
+    static bool has_notice(const AxisOutputs& out, AxisNotice::Kind kind, FaultCode fault = FaultCode::None) {
+        for (const AxisNotice& notice : out.notices) {
+            if (notice.kind == kind && notice.fault == fault) { return true; }
+        }
+        return false;
+    }
+
+    AxisController axis{0, machine(), 77, 5, methods::begin_steps, kept()};
+    DeviceStatus device = resting_device();
+    std::vector<Frame> frames;
+    std::vector<AxisState> peers;
+    std::vector<MachineState> coordinator;
+    std::vector<AxisCommand> commands;
+    std::vector<Command> requests;
+    AxisState state;
+    Slot slot = 0;
+
+private:
+    std::uint64_t sequence_ = 0;
+};
+
+}  // namespace lockstep
