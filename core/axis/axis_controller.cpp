@@ -1,280 +1,221 @@
 #include "core/axis/axis_controller.hpp"
 
-#include "core/check.hpp"
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
                                std::uint64_t config_hash, BeginSteps begin_steps, KeptOrNot kept)
     : axis_(axis),
-      machine_(machine),
-      limits_(limits_of(machine.axes[axis], machine.tick_ns)),
       identity_(identity),
       config_hash_(config_hash),
-      begin_steps_(begin_steps),
       slot_(machine.slot_ticks()),
-      follower_(axis, machine),
-      homing_(machine.axes[axis]),
-      kept_(std::move(kept)) {}
+      condition_{.phases = {}, .position = {scale_of(machine, axis), std::move(kept)}, .orders = {}},
+      owner_(machine.timing),
+      following_(axis, machine),
+      own_(axis, machine, begin_steps) {}
 
 AxisOutputs AxisController::step(const AxisInputs& inputs) {
     AxisOutputs out;
-    now_ = inputs.now;
-    clock_error_ = inputs.clock_error;
-    const Slot slot = rules::slot_of(now_, slot_);
-    // An owner that it has not heard because it did not run is not silent.
-    if (state_slot_) { owner_heard_ += std::max<Slot>(0, slot - *state_slot_ - 1); }
-    look(inputs, out);
-    hear(inputs, out);
-    take_frames(inputs, out);
-    if (mode_ == Mode::Local) {
-        watch_owner(slot, out);
-        feed_local(out);
-    }
-    if (mode_ == Mode::Following) {
-        const auto veto_before = follower_.veto();
-        for (DeviceOrder& order : follower_.decide(slot)) { out.orders.push_back(std::move(order)); }
-        if (follower_.veto() != veto_before) {
-            out.notices.push_back(
-                {AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
-        }
-    }
-    out.rests = position_to_keep();
-    if (!state_slot_ || slot > *state_slot_) {
-        state_slot_ = slot;
-        out.state = state(slot);
-    }
+    AxisLoop loop{inputs.now, rules::slot_of(inputs.now, slot_), condition_, device_, out};
+    if (state_slot_) { owner_.forgive(std::max<Slot>(0, loop.slot - *state_slot_ - 1)); }
+    look(inputs, loop);
+    receive(inputs, loop);
+    move_on(loop);
+    publish(inputs, loop);
     return out;
 }
 
-void AxisController::look(const AxisInputs& inputs, AxisOutputs& out) {
+void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
     if (!inputs.has_device) {
-        if (has_device_) { lose_device(out); }
+        if (device_.is_present()) { lose_device(loop); }
         return;
     }
-    if (!std::exchange(has_device_, true)) {
-        out.device_changed = true;
-        claim_position(inputs, out);
-    }
-    observe(inputs.device, out);
-    if (inputs.device_failed && fault_ != FaultCode::DeviceFault) {
-        homed_ = false;
-        veto_for_own_reasons(out);
-        fail(FaultCode::DeviceFault, out);
+    if (device_.appear()) { find_device(inputs, loop); }
+    device_.see(inputs.device, is_resting());
+    if (!is_resting() && device_.is_in_newest_run()) { observe_run(loop); }
+    if (phase() == AxisPhase::Stop && is_resting()) { condition_.phases.happen(AxisEvent::Released); }
+    check_encoder(loop);
+    if (inputs.device_failed && condition_.phases.fault() != FaultCode::DeviceFault) {
+        condition_.position.lose();
+        following_.veto(loop);
+        loop.fail(FaultCode::DeviceFault);
     }
 }
 
-/// Once for each device found, before anything else: what it has done since is not this process's doing.
-void AxisController::claim_position(const AxisInputs& inputs, AxisOutputs& out) {
-    unproved_ = !kept_                 ? kept_.error()
-                : inputs.device_failed ? FaultCode::DeviceFault
-                                       : doubt_of(*kept_, scale_of(machine_, axis_), inputs.device);
-    if (unproved_ != FaultCode::None) {
-        out.notices.push_back({AxisNotice::Kind::PositionUnproved, unproved_, 0});
-        return;
-    }
-    zero_count_ = kept_->zero_count;
-    encoder_zero_ = kept_->encoder_zero;
-    kept_run_ = kept_->run;
-    homed_ = true;
-    happen(AxisEvent::PositionKept);
-    out.notices.push_back({AxisNotice::Kind::PositionProved, FaultCode::None, 0});
+/// What the device has done before is not this process's doing.
+void AxisController::find_device(const AxisInputs& inputs, AxisLoop& loop) {
+    loop.out.device_changed = true;
+    const FaultCode unproved = condition_.position.claim(inputs.device, inputs.device_failed);
+    if (unproved != FaultCode::None) { return loop.notice({AxisNotice::Kind::PositionUnproved, unproved, 0}); }
+    condition_.phases.happen(AxisEvent::PositionKept);
+    loop.notice({AxisNotice::Kind::PositionProved, FaultCode::None, 0});
 }
 
-/// After each run that leaves it homed, once.
-std::optional<KeptPosition> AxisController::position_to_keep() {
-    const bool rests = mode_ == Mode::Rest && device_.finished && device_.run == run_ && device_.run_asked == run_;
-    if (!homed_ || fault_ != FaultCode::None || !rests || kept_run_ == run_) { return std::nullopt; }
-    kept_run_ = run_;
-    kept_ =
-        KeptPosition{scale_of(machine_, axis_), device_.power_up, run_, device_.position, zero_count_, encoder_zero_};
-    return *kept_;
+/// It makes no pulses, as far as is known, from where it was last seen: its run is at an end there. Where the slide is,
+/// only the device can prove, if it comes back.
+void AxisController::lose_device(AxisLoop& loop) {
+    DeviceStatus end = device_.status();
+    end.finished = end.stopped_by_host = true;
+    const bool was_in_run = device_.is_in_newest_run();
+    if (following_.is_open()) {
+        following_.veto(loop);
+        if (was_in_run) { following_.record(end, loop); }
+        following_.end(loop);
+    } else if (own_.is_running() && was_in_run) {
+        own_.record(end, loop);
+    }
+    own_.abandon();
+    device_.lose();
+    trend_.rest();
+    condition_.position.lose_device();
+    loop.fail(FaultCode::DeviceLost);
 }
 
-void AxisController::hear(const AxisInputs& inputs, AxisOutputs& out) {
-    const Slot now = rules::slot_of(now_, slot_);
-    for (const AxisState& peer : inputs.peers) {
-        if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
+void AxisController::observe_run(AxisLoop& loop) {
+    following_.is_open() ? following_.observe(loop) : own_.record(device_.status(), loop);
+    follow_speed();
+    if (device_.status().finished) { end_run(loop); }
+}
+
+/// The three moving states follow the speed of the pulses themselves; an axis that others move without stands by.
+void AxisController::follow_speed() {
+    const AxisEvent event = trend_.take(device_.status().velocity);
+    if (phase() == AxisPhase::Initialize || device_.status().finished) { return; }
+    if (event != AxisEvent::MotionEnds || following_.is_open()) { condition_.phases.happen(event); }
+}
+
+void AxisController::end_run(AxisLoop& loop) {
+    const DeviceStatus& device = device_.status();
+    const bool is_own = own_.is_running();
+    trend_.rest();
+    if (!is_own && !device.stopped_by_limit && !device.stopped_by_host) {
+        condition_.phases.happen(AxisEvent::MotionEnds);
     }
-    for (const MachineState& state : inputs.coordinator) {
-        if (!follows(state, now, out)) { continue; }
-        owner_heard_ = now;
-        follower_.hear(state);
+    if (device.stopped_by_host) {
+        condition_.position.lose();
+        own_.abandon();
+        condition_.phases.happen(AxisEvent::HostStops);
+        loop.fail(FaultCode::EmergencyStopped);
+    } else if (device.capture_overflow || (device.bad_segment && !(is_own && device.frame == 0))) {
+        own_.abandon();
+        loop.fail(FaultCode::DeviceFault);
+    } else if (is_own) {
+        own_.end(loop);
+    } else if (device.stopped_by_limit) {
+        condition_.position.lose();
+        following_.veto(loop);
+        condition_.phases.happen(AxisEvent::LimitStops);
+        loop.fail(FaultCode::LimitHit);
     }
-    for (const AxisCommand& command : inputs.commands) {
-        const bool mine = command.axis == axis_ && command.sequence > command_taken_;
-        if (mine && is_from_owner(command.term)) { carry_out(command, inputs.device, out); }
+    if (!is_own) { following_.end(loop); }
+}
+
+void AxisController::check_encoder(AxisLoop& loop) {
+    const std::int64_t error = condition_.position.following_error(device_.status());
+    if (std::abs(error) <= kMaxFollowingError || !homed() || condition_.phases.has_fault()) { return; }
+    condition_.position.lose();
+    loop.fail(FaultCode::FollowingError);
+}
+
+void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
+    for (const AxisState& peer : inputs.peers) { following_.take(peer, loop.slot); }
+    for (const MachineState& state : inputs.coordinator) { receive(state, loop); }
+    for (const AxisCommand& order : inputs.commands) {
+        const bool is_new = order.axis == axis_ && condition_.orders.is_new(order.sequence);
+        if (is_new && owner_.is_from_owner(order.term)) { carry_out(order, loop); }
     }
     for (const Command& request : inputs.requests) {
-        if (request.kind == CommandKind::EmergencyStop && is_news(request)) { stop_now(out); }
+        if (stops_.take(request)) { stop_now(loop); }
     }
-}
-
-/// A client repeats its command until it is answered: only once does it stop anything.
-bool AxisController::is_news(const Command& request) {
-    const std::uint64_t* const last = stops_taken_.find(request.client);
-    if (last != nullptr && request.sequence <= *last) { return false; }
-    stops_taken_.note(request.client, request.sequence);
-    return true;
-}
-
-void AxisController::stop_now(AxisOutputs& out) {
-    if (mode_ == Mode::Rest) { return; }
-    out.orders.emplace_back(device::StopNow{});
-    veto_for_own_reasons(out);
-}
-
-void AxisController::veto_for_own_reasons(AxisOutputs& out) {
-    const auto before = follower_.veto();
-    follower_.veto_for_own_reasons(rules::slot_of(now_, slot_));
-    if (follower_.veto() != before) {
-        out.notices.push_back({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
-    }
-}
-
-/// One owner at a time, and never a lower term than before: another is followed only when the last one has been silent
-/// for long, at rest.
-bool AxisController::follows(const MachineState& state, Slot now, AxisOutputs& out) {
-    if (state.phase == MachinePhase::Standby) { return false; }
-    if (is_from_owner(state.term)) { return true; }
-    const bool believed = claimants_.again(state.term, state.stamp);
-    if (!believed || !rules::may_follow(state.term, owner_, hears_owner(now), at_rest())) { return false; }
-    adopt(state.term, now, out);
-    return true;
-}
-
-/// Commands are counted anew: what the last owner asked for is over.
-void AxisController::adopt(const Term& term, Slot now, AxisOutputs& out) {
-    owner_ = term;
-    owner_heard_ = now;
-    command_taken_ = command_done_ = 0;
-    command_fault_ = FaultCode::None;
-    command_open_ = false;
-    out.notices.push_back({AxisNotice::Kind::OwnerAdopted, FaultCode::None, term.number});
-}
-
-bool AxisController::hears_owner(Slot now) const {
-    return owner_ != Term{} && now - owner_heard_ <= rules::silence_slots(machine_.timing);
-}
-
-void AxisController::carry_out(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
-    command_taken_ = command.sequence;
-    command_fault_ = FaultCode::None;
-    command_open_ = true;
-    switch (command.kind) {
-        case AxisCommandKind::Home: return begin_homing(command, device, out);
-        case AxisCommandKind::Reset:
-            if (mode_ != Mode::Rest) { return refuse(command, FaultCode::Busy, out); }
-            reset(out);
-            return done(FaultCode::None);
-        case AxisCommandKind::StopNow: stop_now(out); return done(FaultCode::None);
-        case AxisCommandKind::MoveOwn: return begin_own_move(command, device, out);
-        case AxisCommandKind::Halt: return halt_local(out);
-    }
-}
-
-void AxisController::begin_homing(const AxisCommand& command, const DeviceStatus& device, AxisOutputs& out) {
-    if (mode_ != Mode::Rest || device.moving) { return refuse(command, FaultCode::Busy, out); }
-    if (phase_ == AxisPhase::Fault) { return refuse(command, FaultCode::InFault, out); }
-    if (!has_device_) { return refuse(command, FaultCode::DeviceMissing, out); }
-    fault_ = unproved_ = FaultCode::None;
-    homed_ = false;
-    happen(AxisEvent::HomingBegins);
-    take_homing_step(homing_.begin(device.home), out);
-}
-
-void AxisController::reset(AxisOutputs& out) {
-    fault_ = FaultCode::None;
-    happen(homed_ ? AxisEvent::ResetHomed : AxisEvent::ResetUnhomed);
-    out.notices.push_back({AxisNotice::Kind::Reset, FaultCode::None, 0});
-}
-
-void AxisController::refuse(const AxisCommand& command, FaultCode why, AxisOutputs& out) {
-    out.notices.push_back({AxisNotice::Kind::CommandRefused, why, command.sequence});
-    done(why);
-}
-
-void AxisController::done(FaultCode fault) {
-    if (!command_open_) { return; }
-    command_open_ = false;
-    command_done_ = command_taken_;
-    command_fault_ = fault;
-}
-
-void AxisController::take_frames(const AxisInputs& inputs, AxisOutputs& out) {
     for (const Frame& frame : inputs.frames) {
-        if (!is_from_owner(frame.term)) { continue; }
-        const bool was_open = follower_.open();
-        const FrameNumber held = was_open ? follower_.held() : 0;
-        const std::optional<Position> rest =
-            may_follow() ? std::optional(machine_position(device_.position)) : std::nullopt;
-        const FaultCode fault = follower_.offer(frame, rest);
-        if (!was_open && follower_.open()) { begin_following(frame.epoch, out); }
-        if (fault != FaultCode::None) {
-            ++refused_frames_;
-            if (fault != last_refusal_) {
-                out.notices.push_back({AxisNotice::Kind::FrameRefused, fault, frame.number});
-            }
-            last_refusal_ = fault;
-        } else if (follower_.open() && follower_.held() != held) {
-            last_refusal_ = FaultCode::None;
-            if (held == 0) { out.orders.emplace_back(device::BeginRun{++run_, Trigger::None}); }
-            load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"), out);
-        }
+        if (!owner_.is_from_owner(frame.term)) { continue; }
+        const bool may_begin = is_resting() && condition_.is_ready();
+        const Position here = condition_.position.in_machine(device_.status().position);
+        following_.take(frame, may_begin ? std::optional(here) : std::nullopt, loop);
     }
 }
 
-void AxisController::begin_following(Epoch epoch, AxisOutputs& out) {
-    mode_ = Mode::Following;
-    recorded_ = ran_ = 0;
-    out.notices.push_back({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
+/// What the last owner ordered is over.
+void AxisController::receive(const MachineState& state, AxisLoop& loop) {
+    const OwnerLink::Sender sender = owner_.take(state, loop.slot, at_rest());
+    if (sender == OwnerLink::Sender::Other) { return; }
+    if (sender == OwnerLink::Sender::NewOwner) {
+        condition_.orders.restart();
+        loop.notice({AxisNotice::Kind::OwnerAdopted, FaultCode::None, state.term.number});
+    }
+    following_.take(state);
 }
 
-void AxisController::load(const HeldFrame& frame, AxisOutputs& out) const {
-    AxisTrack track = frame.track;
-    track.from = track.from + Displacement::steps(zero_count_);
-    out.orders.emplace_back(device::LoadFrame{frame.number, frame.start, frame.last, track});
+void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
+    condition_.orders.begin(order.sequence);
+    switch (order.kind) {
+        case AxisCommandKind::Home: return own_.home(order, is_resting(), loop);
+        case AxisCommandKind::Reset: return reset(order, loop);
+        case AxisCommandKind::StopNow: stop_now(loop); return condition_.orders.end(FaultCode::None);
+        case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);
+        case AxisCommandKind::Halt: return own_.halt(loop);
+    }
 }
 
-void AxisController::happen(AxisEvent event) {
-    const auto row = find_transition(phase_, event);
-    if (!row) { return; }
-    ++transitions_[*row];
-    phase_ = kAxisTransitions[*row].to;
+void AxisController::stop_now(AxisLoop& loop) {
+    if (is_resting()) { return; }
+    loop.out.orders.emplace_back(device::StopNow{});
+    following_.veto(loop);
 }
 
-void AxisController::fail(FaultCode fault, AxisOutputs& out) {
-    const bool stops_only = fault == FaultCode::LimitHit || fault == FaultCode::EmergencyStopped;
-    if (fault_ == FaultCode::None) { fault_ = fault; }
-    if (!stops_only) { happen(AxisEvent::Fails); }
-    done(fault);
-    out.notices.push_back({AxisNotice::Kind::Fault, fault, 0});
+void AxisController::reset(const AxisCommand& order, AxisLoop& loop) {
+    if (!is_resting()) { return loop.refuse(order, FaultCode::Busy); }
+    condition_.phases.reset(homed());
+    loop.notice({AxisNotice::Kind::Reset, FaultCode::None, 0});
+    condition_.orders.end(FaultCode::None);
 }
 
-AxisState AxisController::state(Slot slot) const {
+/// Without its owner nobody can stop an axis in a move of its own: it stops itself. The fault halts the move.
+void AxisController::move_on(AxisLoop& loop) {
+    following_.check(loop);
+    if (!own_.is_running()) { return; }
+    if (!condition_.phases.has_fault() && !owner_.receives_owner(loop.slot)) {
+        loop.fail(FaultCode::CoordinatorSilent);
+    }
+    own_.feed(loop);
+}
+
+void AxisController::publish(const AxisInputs& inputs, AxisLoop& loop) {
+    if (is_resting() && !condition_.phases.has_fault()) { loop.out.rests = condition_.position.keep(device_); }
+    if (state_slot_ && loop.slot <= *state_slot_) { return; }
+    state_slot_ = loop.slot;
+    loop.out.state = state(loop, inputs.clock_error);
+}
+
+AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
+    const SetpointFollower& follower = following_.follower();
+    const DeviceStatus& device = device_.status();
     return {.identity = identity_,
             .axis = static_cast<std::uint32_t>(axis_),
-            .stamp = slot,
-            .epoch = follower_.epoch(),
-            .held = follower_.held(),
-            .veto = follower_.veto(),
-            .ran = ran_,
+            .stamp = loop.slot,
+            .epoch = follower.epoch(),
+            .held = follower.held(),
+            .veto = follower.veto(),
+            .ran = following_.ran(),
             .at_rest = at_rest(),  // it may run out what another process began
-            .homed = homed_,
-            .phase = phase_,
-            .fault = static_cast<std::uint16_t>(fault_),
-            .position = machine_position(device_.position),
-            .velocity = device_.velocity,
-            .tick = device_.now,
-            .following_error_steps = following_error(),
-            .command_done = command_done_,
-            .command_fault = static_cast<std::uint16_t>(command_fault_),
+            .homed = homed(),
+            .phase = phase(),
+            .fault = static_cast<std::uint16_t>(condition_.phases.fault()),
+            .position = condition_.position.in_machine(device.position),
+            .velocity = device.velocity,
+            .tick = device.now,
+            .following_error_steps = condition_.position.following_error(device),
+            .command_done = condition_.orders.done(),
+            .command_fault = static_cast<std::uint16_t>(condition_.orders.fault()),
             .config_hash = config_hash_,
-            .refused_frames = refused_frames_,
-            .clock_error = clock_error_,
-            .term = owner_,
-            .hears_owner = hears_owner(slot),
-            .unproved = static_cast<std::uint16_t>(unproved_)};
+            .refused_frames = following_.refused_frames(),
+            .clock_error = clock_error,
+            .term = owner_.term(),
+            .hears_owner = owner_.receives_owner(loop.slot),
+            .unproved = static_cast<std::uint16_t>(condition_.position.unproved())};
 }
 
 }  // namespace lockstep

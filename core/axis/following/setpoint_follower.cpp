@@ -121,15 +121,4 @@ void SetpointFollower::veto_for_own_reasons(Slot now) {
     add_veto(k);
 }
 
-void SetpointFollower::forget_before(FrameNumber number) {
-    while (!frames_.empty() && frames_.front().number < number) { frames_.pop_front(); }
-}
-
-const HeldFrame* SetpointFollower::find(FrameNumber number) const {
-    for (const HeldFrame& frame : frames_) {
-        if (frame.number == number) { return &frame; }
-    }
-    return nullptr;
-}
-
 }  // namespace lockstep

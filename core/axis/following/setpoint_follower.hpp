@@ -1,39 +1,18 @@
 // An axis's side of hold, arm, veto: which frames it holds, what it has heard, what it decides.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <vector>
 
 #include "core/axis/device/device.hpp"
+#include "core/axis/device/held_frames.hpp"
 #include "core/axis/following/frame_check.hpp"
+#include "core/axis/state/axis_io.hpp"
 #include "core/machine.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {
-
-/// A frame as this axis keeps it: its own track only, in machine coordinates.
-struct HeldFrame {
-    FrameNumber number = 0;
-    Tick start;
-    Ticks ticks;
-    bool last = false;
-    AxisTrack track;
-    Tick end() const { return start + ticks; }
-    Position body_end() const {
-        Position at = track.from;
-        for (const Piece& piece : track.body) { at = at + piece.covered(); }
-        return at;
-    }
-};
-
-/// Why a frame was not armed.
-struct FailedCheck {
-    bool too_late = false;  // the check was
-    bool held = false;      // by this axis
-    AxisSet lacking = 0;    // nothing fresh of these says that they hold the frame
-};
 
 class SetpointFollower {
 public:
@@ -63,15 +42,14 @@ public:
     /// Whether an epoch is at its very end when its frames up to `ran` have been run.
     bool is_complete(FrameNumber ran) const { return last_held_ && ran == held_; }
 
-    /// Frames the device has done with are forgotten.
-    void forget_before(FrameNumber number);
-
     Epoch epoch() const { return epoch_; }
     FrameNumber held() const { return held_; }
     std::optional<FrameNumber> veto() const { return veto_; }
     /// The check that has lowered the veto last.
     const FailedCheck& failed_check() const { return failed_check_; }
-    const HeldFrame* find(FrameNumber number) const;
+    /// Those held. Frames that the device has run are to be forgotten.
+    HeldFrames& frames() { return frames_; }
+    const HeldFrame* find(FrameNumber number) const { return frames_.find(number); }
 
 private:
     void begin(Epoch epoch);
@@ -100,7 +78,7 @@ private:
     MotionPoint end_;                         // of the last body held
     Tick end_tick_;
     bool last_held_ = false;
-    std::deque<HeldFrame> frames_;
+    HeldFrames frames_;
 };
 
 }  // namespace lockstep

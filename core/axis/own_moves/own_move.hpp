@@ -4,7 +4,7 @@
 // step, not beyond the move's end. So an axis's process may stall, and a move may be halted at any frame.
 #pragma once
 
-#include "core/axis/following/setpoint_follower.hpp"
+#include "core/axis/device/held_frames.hpp"
 #include "core/axis/own_moves/own_pieces.hpp"
 
 namespace lockstep {

@@ -1,6 +1,6 @@
 #include "services/wire/lcm/translate_lcm.hpp"
 
-#include "core/axis/fsm.hpp"
+#include "core/axis/state/fsm.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,5 @@
 // The table of the six states and Fault, walked completely: every state with every event.
-#include "core/axis/fsm.hpp"
+#include "core/axis/state/fsm.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,75 @@
+#include "core/axis/following/epoch_following.hpp"
+
+#include <utility>
+
+#include "core/check.hpp"
+
+namespace lockstep {
+
+void EpochFollowing::take(const AxisState& peer, Slot now) {
+    if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
+}
+
+void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop) {
+    const bool was_open = is_open();
+    const FrameNumber held = was_open ? follower_.held() : 0;
+    const FaultCode fault = follower_.offer(frame, rest);
+    if (!was_open && is_open()) { begin(frame.epoch, loop); }
+    if (fault != FaultCode::None) { return refuse(frame, fault, loop); }
+    if (!is_open() || follower_.held() == held) { return; }
+    last_refusal_ = FaultCode::None;
+    if (held == 0) { loop.begin_run(Trigger::None, false); }
+    loop.load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"));
+}
+
+void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
+    recorder_.begin();
+    ran_ = 0;
+    loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
+}
+
+/// Frames are repeated: the same refusal is reported once.
+void EpochFollowing::refuse(const Frame& frame, FaultCode why, AxisLoop& loop) {
+    ++refused_frames_;
+    if (std::exchange(last_refusal_, why) != why) { loop.notice({AxisNotice::Kind::FrameRefused, why, frame.number}); }
+}
+
+void EpochFollowing::check(AxisLoop& loop) {
+    if (!is_open()) { return; }
+    const auto veto_before = follower_.veto();
+    for (DeviceOrder& order : follower_.decide(loop.slot)) { loop.out.orders.push_back(std::move(order)); }
+    if (follower_.veto() == veto_before) { return; }
+    loop.notice({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
+}
+
+void EpochFollowing::veto(AxisLoop& loop) {
+    const auto veto_before = follower_.veto();
+    follower_.veto_for_own_reasons(loop.slot);
+    if (follower_.veto() == veto_before) { return; }
+    loop.notice({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
+}
+
+void EpochFollowing::observe(AxisLoop& loop) {
+    const DeviceStatus& device = loop.device.status();
+    if (is_left_behind(device)) { veto(loop); }
+    record(device, loop);
+}
+
+/// The device has fallen to a tail, perhaps while this process stalled with a frame decided on: others may be running
+/// it. What this axis holds from here on must be no evidence to them.
+bool EpochFollowing::is_left_behind(const DeviceStatus& device) const {
+    return device.in_tail || (device.finished && !follower_.is_complete(device.frame));
+}
+
+void EpochFollowing::record(const DeviceStatus& device, AxisLoop& loop) {
+    ran_ = device.frame;
+    recorder_.take(device, {follower_.epoch(), loop.condition.position.zero_count()}, follower_.frames(),
+                   loop.out.tracks);
+}
+
+void EpochFollowing::end(AxisLoop& loop) {
+    follower_.close();
+    loop.notice({AxisNotice::Kind::EpochEnded, FaultCode::None, follower_.epoch()});
+}
+
+}  // namespace lockstep

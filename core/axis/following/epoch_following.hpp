@@ -1,0 +1,54 @@
+// The frames of the coordinator: held, armed or vetoed by the rules of the protocol, loaded into the device, and
+// recorded when the device has run them.
+#pragma once
+
+#include <optional>
+
+#include "core/axis/following/setpoint_follower.hpp"
+#include "core/axis/state/axis_loop.hpp"
+#include "core/axis/state/run_recorder.hpp"
+
+namespace lockstep {
+
+class EpochFollowing {
+public:
+    /// `axis`: its place in the configuration.
+    EpochFollowing(std::size_t axis, const MachineConfig& machine) : follower_(axis, machine) {}
+
+    /// An epoch is in progress on this axis.
+    bool is_open() const { return follower_.open(); }
+    const SetpointFollower& follower() const { return follower_; }
+    /// The highest frame of the epoch that the device has begun.
+    FrameNumber ran() const { return ran_; }
+    /// Since the start of the process.
+    std::uint64_t refused_frames() const { return refused_frames_; }
+
+    // Messages. A peer's state stamped later than any clock error explains is ignored.
+    void take(const AxisState& peer, Slot now);
+    void take(const MachineState& owner) { follower_.hear(owner); }
+    /// From the owner. `rest`: where the axis rests, if it may begin an epoch.
+    void take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop);
+
+    /// Makes the checks that are due.
+    void check(AxisLoop& loop);
+    /// This axis cannot go on: the lowest frame that a veto can still stop is vetoed.
+    void veto(AxisLoop& loop);
+    /// What the device has run since the last loop.
+    void observe(AxisLoop& loop);
+    void record(const DeviceStatus& device, AxisLoop& loop);
+    /// The device has ended the run.
+    void end(AxisLoop& loop);
+
+private:
+    bool is_left_behind(const DeviceStatus& device) const;
+    void begin(Epoch epoch, AxisLoop& loop);
+    void refuse(const Frame& frame, FaultCode why, AxisLoop& loop);
+
+    SetpointFollower follower_;
+    RunRecorder recorder_;
+    FrameNumber ran_ = 0;
+    std::uint64_t refused_frames_ = 0;
+    FaultCode last_refusal_ = FaultCode::None;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,37 @@
+// Which coordinator the axis follows, and whether it receives that coordinator's messages.
+//
+// One owner at a time, and never a lower term than before: the axis changes to another owner only at rest, and only
+// when the last one has been silent for long.
+#pragma once
+
+#include "core/protocol/rules.hpp"
+#include "core/protocol/second_hearing.hpp"
+
+namespace lockstep {
+
+class OwnerLink {
+public:
+    explicit OwnerLink(const ProtocolTiming& timing) : timing_(timing) {}
+
+    /// How the sender of a state stands to this axis: NewOwner has just become its owner.
+    enum class Sender : std::uint8_t { Other, Owner, NewOwner };
+    Sender take(const MachineState& state, Slot now, bool at_rest);
+
+    /// Slots missed in the axis's own stall do not count as the owner's silence.
+    void forgive(Slot missed) { received_ += missed; }
+
+    bool is_from_owner(const Term& term) const { return term_ != Term{} && rules::is_from_owner(term, term_); }
+    bool receives_owner(Slot now) const { return term_ != Term{} && now - received_ <= rules::silence_slots(timing_); }
+    /// The highest ever followed.
+    const Term& term() const { return term_; }
+
+private:
+    Sender sender_of(const MachineState& state, Slot now, bool at_rest);
+
+    ProtocolTiming timing_;
+    Term term_;
+    Slot received_ = 0;  // the slot of the owner's newest message
+    TermHearing claims_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,152 @@
+#include "core/axis/own_moves/own_moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "core/axis/own_moves/own_pieces.hpp"
+
+namespace lockstep {
+
+OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps begin_steps)
+    : axis_(machine.axes[axis]),
+      limits_(limits_of(axis_, machine.tick_ns)),
+      tick_ns_(machine.tick_ns),
+      slot_(machine.slot_ticks()),
+      span_(slot_ * (machine.timing.stall_slots + 2)),
+      begin_steps_(begin_steps),
+      homing_(axis_) {}
+
+void OwnMoves::home(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
+    AxisCondition& axis = loop.condition;
+    if (!is_resting || loop.device.status().moving) { return loop.refuse(order, FaultCode::Busy); }
+    if (axis.phases.phase() == AxisPhase::Fault) { return loop.refuse(order, FaultCode::InFault); }
+    if (!loop.device.is_present()) { return loop.refuse(order, FaultCode::DeviceMissing); }
+    axis.phases.clear_fault();
+    axis.position.begin_homing();
+    axis.phases.happen(AxisEvent::HomingBegins);
+    take_homing_step(homing_.begin(loop.device.status().home), loop);
+}
+
+void OwnMoves::move(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
+    const Position here = loop.condition.position.in_machine(loop.device.status().position);
+    const std::int64_t steps = order.target_steps - here.count();
+    const FaultCode why = refusal_of(order, steps, is_resting, loop);
+    if (why != FaultCode::None) { return loop.refuse(order, why); }
+    if (steps == 0) { return loop.condition.orders.end(FaultCode::None); }
+    start({.steps = steps, .speed_mm_s = axis_.max_velocity_mm_s, .ticks = order.ticks}, 0, loop);
+}
+
+FaultCode OwnMoves::refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting,
+                               const AxisLoop& loop) const {
+    if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }
+    if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
+    if (!loop.condition.is_ready()) { return FaultCode::NotHomed; }
+    if (order.target_steps < limits_.min_steps || order.target_steps > limits_.max_steps) {
+        return FaultCode::OutsideTravel;
+    }
+    const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), axis_.max_velocity_mm_s, order.ticks};
+    const bool possible = OwnPieces::plan(axis_, tick_ns_, axis_.method, request, begin_steps_).has_value();
+    return possible ? FaultCode::None : FaultCode::BadProgram;
+}
+
+/// By the axis's method; or by Ranade's, where homing is slower or longer than the method allows.
+OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) const {
+    const OwnMoveRequest request{std::abs(move.steps), move.speed_mm_s, move.ticks};
+    auto pieces = OwnPieces::plan(axis_, tick_ns_, axis_.method, request, begin_steps_);
+    if (!pieces) {
+        pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
+    }
+    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, span_);
+}
+
+/// A run that a switch cut short ended on a pulse, and the next sets out from the whole step: half a step's time is
+/// owed.
+void OwnMoves::start(const LocalMove& move, int tries, AxisLoop& loop) {
+    const Ticks half_step{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))};
+    const Tick start = loop.now + slot_ * (2 + tries) + half_step;
+    const std::int64_t count = loop.device.status().position.count();
+    const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
+    run_.emplace(move, frames_of(move, from, start), count + move.steps, tries, span_);
+    loop.begin_run(move.trigger, true);
+    feed(loop);
+}
+
+void OwnMoves::feed(AxisLoop& loop) {
+    if (loop.condition.phases.has_fault() && !run_->is_halted()) { halt(loop); }
+    run_->feed(loop);
+}
+
+void OwnMoves::halt(AxisLoop& loop) {
+    if (!run_) { return loop.condition.orders.end(FaultCode::None); }
+    run_->halt(loop);
+}
+
+/// Homing that is halted is over: the axis is homed only if its zero was set already.
+void OwnMoves::end(AxisLoop& loop) {
+    const OwnRun ended = *std::exchange(run_, std::nullopt);
+    const DeviceStatus& device = loop.device.status();
+    PhaseMachine& phases = loop.condition.phases;
+    const bool parks = homing_.stage() == HomingStage::Park;
+    if (ended.is_halted()) { homing_.abandon(); }
+    if (device.stopped_by_trigger) { phases.happen(AxisEvent::SwitchStops); }
+    if (device.stopped_by_limit) { phases.happen(AxisEvent::LimitStops); }
+    if (ended.is_broken()) {
+        homing_.abandon();
+        return loop.fail(FaultCode::FrameBeyondLimits);
+    }
+    if (const auto rest = ended.rest(device)) { return go_on(*rest, ended.tries_of_rest(device), loop); }
+    if (parks || !is_homing()) { phases.happen(AxisEvent::MotionEnds); }
+    if (!is_homing()) { return end_order(loop); }
+    take_homing_step(homing_.next({.by_trigger = device.stopped_by_trigger,
+                                   .by_limit = device.stopped_by_limit,
+                                   .home_closed = device.home,
+                                   .count = device.position.count(),
+                                   .trigger_count = device.trigger_count,
+                                   .encoder_ahead = device.encoder_count - device.position.count()}),
+                     loop);
+}
+
+void OwnMoves::go_on(const LocalMove& rest, int tries, AxisLoop& loop) {
+    tries > kMaxTries ? loop.fail(FaultCode::DeviceFault) : start(rest, tries, loop);
+}
+
+void OwnMoves::end_order(AxisLoop& loop) {
+    if (!loop.device.status().stopped_by_limit) { return loop.condition.orders.end(FaultCode::None); }
+    loop.condition.position.lose();
+    loop.fail(FaultCode::LimitHit);
+}
+
+void OwnMoves::abandon() {
+    homing_.abandon();
+    run_.reset();
+}
+
+void OwnMoves::take_homing_step(const HomingStep& step, AxisLoop& loop) {
+    loop.notice({AxisNotice::Kind::HomingStage, step.fault, static_cast<std::uint64_t>(homing_.stage())});
+    take_zero(step, loop);
+    if (step.fault != FaultCode::None) {
+        loop.condition.position.lose();
+        return loop.fail(step.fault);
+    }
+    if (step.move && step.move->steps != 0) { return start(*step.move, 0, loop); }
+    if (step.move) { return take_homing_step(homing_.next({.count = loop.device.status().position.count()}), loop); }
+    if (step.done) {
+        loop.notice({AxisNotice::Kind::Homed, FaultCode::None, 0});
+        loop.condition.orders.end(FaultCode::None);
+    }
+}
+
+/// Behind a stop at the switch the zero is set, or the search goes on.
+void OwnMoves::take_zero(const HomingStep& step, AxisLoop& loop) {
+    PhaseMachine& phases = loop.condition.phases;
+    if (step.zeroed) {
+        loop.condition.position.set_zero(step.zero_count, loop.device.status());
+        phases.happen(AxisEvent::Zeroed);
+    } else if (phases.phase() == AxisPhase::Stop && step.fault == FaultCode::None) {
+        phases.happen(AxisEvent::HomingBegins);
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,57 @@
+// The moves an axis makes by itself: homing, and from point to point. Each move is one run of the device, or several
+// where this process came too late with a frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/axis/own_moves/homing.hpp"
+#include "core/axis/own_moves/own_run.hpp"
+#include "core/axis/state/axis_loop.hpp"
+
+namespace lockstep {
+
+class OwnMoves {
+public:
+    /// `axis`: its place in the configuration. `begin_steps`: its step methods.
+    OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps begin_steps);
+
+    bool is_running() const { return run_.has_value(); }
+
+    // Orders of the owner. `is_resting`: the axis runs nothing, neither its own nor the owner's frames.
+    void home(const AxisCommand& order, bool is_resting, AxisLoop& loop);
+    void move(const AxisCommand& order, bool is_resting, AxisLoop& loop);
+    void halt(AxisLoop& loop);
+
+    // While a move is in progress.
+    /// Gives the device what it needs next. A fault halts the move.
+    void feed(AxisLoop& loop);
+    void record(const DeviceStatus& device, AxisLoop& loop) { run_->record(device, loop); }
+    /// The device has ended the run: ends the order, or goes on with it.
+    void end(AxisLoop& loop);
+    /// At any time: nothing more comes of the order in progress.
+    void abandon();
+
+private:
+    FaultCode refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting, const AxisLoop& loop) const;
+    OwnMove frames_of(const LocalMove& move, Position from, Tick start) const;
+    void start(const LocalMove& move, int tries, AxisLoop& loop);
+    void go_on(const LocalMove& rest, int tries, AxisLoop& loop);
+    void end_order(AxisLoop& loop);
+    bool is_homing() const { return homing_.stage() != HomingStage::Idle; }
+    void take_homing_step(const HomingStep& step, AxisLoop& loop);
+    void take_zero(const HomingStep& step, AxisLoop& loop);
+
+    static constexpr int kMaxTries = 10;
+
+    AxisConfig axis_;
+    AxisLimits limits_;
+    std::int64_t tick_ns_;
+    Ticks slot_;
+    Ticks span_;  // of a frame, about: longer than a process may stall
+    BeginSteps begin_steps_;
+    Homing homing_;
+    std::optional<OwnRun> run_;
+};
+
+}  // namespace lockstep

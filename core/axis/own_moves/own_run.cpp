@@ -1,0 +1,46 @@
+#include "core/axis/own_moves/own_run.hpp"
+
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kSpansAhead = 2;
+
+}  // namespace
+
+/// The first frame is loaded at once, however late it starts: without one the device can neither begin its run nor end
+/// it.
+void OwnRun::feed(AxisLoop& loop) {
+    const Tick ahead = loop.now + span_ * kSpansAhead;
+    const auto wants_more = [&] { return frames_.none_made() || (!frames_.all_made() && frames_.end() < ahead); };
+    while (!is_halted_ && (waiting_ || wants_more())) {
+        if (!waiting_) { waiting_ = frames_.next(); }
+        if (!loop.device.reserve(waiting_->track.body.size() + waiting_->track.tail.size())) { return; }
+        held_.push_back(*std::exchange(waiting_, std::nullopt));
+        loop.load(held_.back());
+        loop.out.orders.emplace_back(device::Arm{held_.back().number});
+    }
+}
+
+void OwnRun::halt(AxisLoop& loop) {
+    is_halted_ = true;
+    const FrameNumber begun = loop.device.is_in_newest_run() ? loop.device.status().frame : 0;
+    loop.out.orders.emplace_back(device::Veto{begun + 1});
+}
+
+void OwnRun::record(const DeviceStatus& device, AxisLoop& loop) {
+    recorder_.take(device, {.zero_count = loop.condition.position.zero_count()}, held_, loop.out.tracks);
+}
+
+/// Where the start was missed nothing has moved; where the frames ran out the axis rests on a whole step.
+std::optional<LocalMove> OwnRun::rest(const DeviceStatus& device) const {
+    LocalMove rest = move_;
+    rest.steps = target_ - device.position.count();
+    const bool stopped = device.stopped_by_trigger || device.stopped_by_limit;
+    if (stopped || is_halted_ || rest.steps == 0) { return std::nullopt; }
+    if (device.frame > 0) { rest.ticks = {}; }
+    return rest;
+}
+
+}  // namespace lockstep

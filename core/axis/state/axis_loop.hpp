@@ -1,0 +1,54 @@
+// What the parts of an axis share in one loop: the time, the axis's condition, its device, and what the loop gives
+// back.
+#pragma once
+
+#include "core/axis/device/device_view.hpp"
+#include "core/axis/device/held_frames.hpp"
+#include "core/axis/state/axis_io.hpp"
+#include "core/axis/state/axis_position.hpp"
+#include "core/axis/state/order_log.hpp"
+#include "core/axis/state/phase_machine.hpp"
+
+namespace lockstep {
+
+/// What the axis reports of itself, apart from its frames.
+struct AxisCondition {
+    PhaseMachine phases;
+    AxisPosition position;
+    OrderLog orders;
+
+    /// It stands in a known place without a fault.
+    bool is_ready() const { return position.homed() && phases.phase() == AxisPhase::Standby && !phases.has_fault(); }
+};
+
+struct AxisLoop {
+    Tick now;
+    Slot slot;
+    AxisCondition& condition;
+    DeviceView& device;
+    AxisOutputs& out;
+
+    void notice(const AxisNotice& notice) { out.notices.push_back(notice); }
+
+    /// The open order fails too.
+    void fail(FaultCode fault) {
+        condition.phases.fail(fault);
+        condition.orders.end(fault);
+        notice({AxisNotice::Kind::Fault, fault, 0});
+    }
+    void refuse(const AxisCommand& order, FaultCode why) {
+        notice({AxisNotice::Kind::CommandRefused, why, order.sequence});
+        condition.orders.end(why);
+    }
+
+    void begin_run(Trigger trigger, bool own) {
+        out.orders.emplace_back(device::BeginRun{device.begin_run(), trigger, own});
+    }
+    void load(const HeldFrame& frame) {
+        AxisTrack track = frame.track;
+        track.from = condition.position.in_device(track.from);
+        out.orders.emplace_back(device::LoadFrame{frame.number, frame.start, frame.last, track});
+    }
+};
+
+}  // namespace lockstep

@@ -1,0 +1,40 @@
+#include "core/axis/state/axis_position.hpp"
+
+namespace lockstep {
+
+FaultCode AxisPosition::claim(const DeviceStatus& device, bool device_failed) {
+    unproved_ = !kept_ ? kept_.error() : device_failed ? FaultCode::DeviceFault : doubt_of(*kept_, scale_, device);
+    if (unproved_ != FaultCode::None) { return unproved_; }
+    zero_count_ = kept_->zero_count;
+    encoder_zero_ = kept_->encoder_zero;
+    kept_run_ = kept_->run;
+    homed_ = true;
+    return FaultCode::None;
+}
+
+void AxisPosition::begin_homing() {
+    unproved_ = FaultCode::None;
+    homed_ = false;
+}
+
+/// Steps that the motor lost before the homing no longer count.
+void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device) {
+    zero_count_ = zero_count;
+    encoder_zero_ = device.encoder_count - device.position.count();
+    homed_ = true;
+}
+
+void AxisPosition::lose_device() {
+    homed_ = false;
+    unproved_ = FaultCode::DeviceMissing;
+}
+
+std::optional<KeptPosition> AxisPosition::keep(const DeviceView& device) {
+    if (!homed_ || !device.has_ended() || kept_run_ == device.newest_run()) { return std::nullopt; }
+    kept_run_ = device.newest_run();
+    const DeviceStatus& status = device.status();
+    kept_ = KeptPosition{scale_, status.power_up, kept_run_, status.position, zero_count_, encoder_zero_};
+    return *kept_;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,52 @@
+// Where the axis stands: the zero of its machine coordinates, whether that is known, and what is kept of it for the
+// process after this one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/axis/device/device_view.hpp"
+#include "core/axis/device/position_claim.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+class AxisPosition {
+public:
+    /// `kept`: what the process before this one has left of the position.
+    AxisPosition(PositionScale scale, KeptOrNot kept) : scale_(std::move(scale)), kept_(std::move(kept)) {}
+
+    bool homed() const { return homed_; }
+    /// Why it is not homed by the position kept; None once it was homed.
+    FaultCode unproved() const { return unproved_; }
+    /// Machine coordinates are the device's counts minus this.
+    std::int64_t zero_count() const { return zero_count_; }
+
+    /// For each device found, before anything is ordered of it. None: homed by the position kept. Else why not.
+    FaultCode claim(const DeviceStatus& device, bool device_failed);
+    void begin_homing();
+    void set_zero(std::int64_t zero_count, const DeviceStatus& device);
+    void lose() { homed_ = false; }
+    void lose_device();
+
+    Position in_machine(Position device) const { return device - Displacement::steps(zero_count_); }
+    Position in_device(Position machine) const { return machine + Displacement::steps(zero_count_); }
+    /// Encoder minus count since the homing, in steps.
+    std::int64_t following_error(const DeviceStatus& device) const {
+        return device.encoder_count - device.position.count() - encoder_zero_;
+    }
+
+    /// At rest without a fault: the position to keep, once after each run that leaves the axis homed.
+    std::optional<KeptPosition> keep(const DeviceView& device);
+
+private:
+    PositionScale scale_;
+    KeptOrNot kept_;  // the newest, for when a device is found
+    bool homed_ = false;
+    FaultCode unproved_ = FaultCode::DeviceMissing;
+    std::int64_t zero_count_ = 0;
+    std::int64_t encoder_zero_ = 0;  // of the encoder minus the count, at the homing
+    std::uint64_t kept_run_ = 0;     // the run after which the position was kept last
+};
+
+}  // namespace lockstep

@@ -1,0 +1,29 @@
+// Records what the device has run, frame by frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/axis/device/held_frames.hpp"
+#include "core/axis/state/axis_io.hpp"
+
+namespace lockstep {
+
+/// Of one run after the other.
+class RunRecorder {
+public:
+    void begin() { recorded_ = 0; }
+
+    struct Run {
+        Epoch epoch = 0;  // 0: the axis's own
+        std::int64_t zero_count = 0;
+    };
+    /// Each loop of a run. Records each body when the next has begun, and the last with its tail when the run has
+    /// ended; frames that are recorded are no longer held.
+    void take(const DeviceStatus& device, const Run& run, HeldFrames& frames, std::vector<ExecutedTrack>& tracks);
+
+private:
+    FrameNumber recorded_ = 0;  // bodies of the run so far
+};
+
+}  // namespace lockstep

@@ -1,0 +1,64 @@
+// An axis's condition and device, by hand: for tests of its parts.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/axis/state/axis_loop.hpp"
+
+namespace lockstep {
+
+class AxisParts : public testing::Test {
+protected:
+    static MachineConfig machine() {
+        MachineConfig m{.name = "pair"};
+        m.timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+        const AxisConfig axis{.name = "X",
+                              .steps_per_mm = 100,
+                              .start_velocity_mm_s = 10,
+                              .max_velocity_mm_s = 100,
+                              .max_accel_mm_s2 = 1000,
+                              .max_decel_mm_s2 = 1000,
+                              .position_min_mm = -100,
+                              .position_max_mm = 100};
+        m.axes = {axis, axis};
+        m.axes[1].name = "Y";
+        return m;
+    }
+
+    /// A device at rest that has ended its newest run and has room for everything.
+    DeviceStatus at_rest() const {
+        DeviceStatus status{.now = now, .position = rest_position(0, false)};
+        status.power_up = 5;
+        status.run = status.run_asked = device.newest_run();
+        status.finished = true;
+        status.free_segments = 1000;
+        return status;
+    }
+    void show(const DeviceStatus& status, bool is_resting = false) {
+        (void)device.appear();
+        device.see(status, is_resting);
+    }
+    void make_ready() {
+        condition.position.set_zero(0, device.status());
+        condition.phases.happen(AxisEvent::PositionKept);
+    }
+    AxisLoop loop() {
+        out = {};
+        return {now, now.value / 1000, condition, device, out};
+    }
+    template <typename Order>
+    std::ptrdiff_t ordered() const {
+        return std::ranges::count_if(out.orders, [](const auto& o) { return std::holds_alternative<Order>(o); });
+    }
+    bool noticed(AxisNotice::Kind kind) const { return std::ranges::count(out.notices, kind, &AxisNotice::kind) != 0; }
+
+    Tick now{100'000};
+    AxisCondition condition{
+        .phases = {}, .position = {scale_of(machine(), 0), std::unexpected(FaultCode::PositionNotKept)}, .orders = {}};
+    DeviceView device;
+    AxisOutputs out;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,67 @@
+// Where an axis stands: known after a homing or by the position kept, and kept once after each run.
+#include "core/axis/state/axis_position.hpp"
+
+#include "axis_parts.hpp"
+
+namespace lockstep {
+namespace {
+
+class StandingAxis : public AxisParts {
+protected:
+    AxisPosition& position = condition.position;
+};
+
+TEST_F(StandingAxis, IsUnknownUntilTheZeroIsSet) {
+    EXPECT_EQ(position.claim(at_rest(), false), FaultCode::PositionNotKept);
+    EXPECT_FALSE(position.homed());
+    position.set_zero(40, at_rest());
+    EXPECT_TRUE(position.homed());
+    EXPECT_EQ(position.in_machine(Position::steps(100)), Position::steps(60));
+    EXPECT_EQ(position.in_device(Position::steps(60)), Position::steps(100));
+}
+
+TEST_F(StandingAxis, CountsLostStepsFromTheHomingOn) {
+    DeviceStatus status = at_rest();
+    status.encoder_count = 7;
+    position.set_zero(0, status);
+    EXPECT_EQ(position.following_error(status), 0);
+    status.encoder_count = 5;
+    EXPECT_EQ(position.following_error(status), -2);
+}
+
+TEST_F(StandingAxis, IsKeptOnceAfterEachRun) {
+    (void)device.begin_run();
+    show(at_rest());
+    EXPECT_FALSE(position.keep(device)) << "not homed";
+    position.set_zero(40, at_rest());
+    const auto kept = position.keep(device);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->zero_count, 40);
+    EXPECT_FALSE(position.keep(device)) << "the same run";
+    (void)device.begin_run();
+    EXPECT_FALSE(position.keep(device)) << "the new run has not ended";
+    show(at_rest());
+    EXPECT_TRUE(position.keep(device));
+}
+
+TEST_F(StandingAxis, KeptByTheProcessBeforeHomesTheAxis) {
+    (void)device.begin_run();
+    show(at_rest());
+    position.set_zero(40, at_rest());
+    AxisPosition next(scale_of(machine(), 0), *position.keep(device));
+    EXPECT_EQ(next.claim(at_rest(), true), FaultCode::DeviceFault);
+    EXPECT_EQ(next.claim(at_rest(), false), FaultCode::None);
+    EXPECT_TRUE(next.homed());
+    EXPECT_EQ(next.zero_count(), 40);
+    EXPECT_FALSE(next.keep(device)) << "nothing has moved since";
+}
+
+TEST_F(StandingAxis, IsLostWithTheDevice) {
+    position.set_zero(40, at_rest());
+    position.lose_device();
+    EXPECT_FALSE(position.homed());
+    EXPECT_EQ(position.unproved(), FaultCode::DeviceMissing);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,101 @@
+// An axis with the coordinator's frames: run, refused, vetoed and recorded.
+#include "core/axis/following/epoch_following.hpp"
+
+#include "axis_parts.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr Term kTerm{1, 1};
+constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
+
+class Following : public AxisParts {
+protected:
+    Following() {
+        show(at_rest(), true);
+        make_ready();
+        following.take(MachineState{.epoch = kEpoch});
+    }
+    static Frame frame(FrameNumber k) {
+        Frame f{.term = kTerm,
+                .epoch = kEpoch,
+                .number = k,
+                .start = {115'000 + 5000 * static_cast<std::int64_t>(k)},
+                .ticks = {5000}};
+        f.axes.resize(2);
+        for (AxisTrack& track : f.axes) {
+            track.from = rest_position(0, false);
+            track.body.append({f.ticks, {0}, {0}});
+        }
+        return f;
+    }
+    void receive(const Frame& frame) {
+        AxisLoop l = loop();
+        following.take(frame, rest_position(0, false), l);
+    }
+    EpochFollowing following{0, machine()};
+};
+
+TEST_F(Following, BeginsARunWithTheFirstFrameAndLoadsEachFrameOnce) {
+    receive(frame(1));
+    EXPECT_TRUE(following.is_open());
+    EXPECT_TRUE(noticed(AxisNotice::Kind::EpochBegun));
+    EXPECT_EQ(ordered<device::BeginRun>(), 1);
+    EXPECT_EQ(ordered<device::LoadFrame>(), 1);
+    receive(frame(1));
+    EXPECT_TRUE(out.orders.empty());
+    receive(frame(2));
+    EXPECT_EQ(ordered<device::BeginRun>(), 0);
+    EXPECT_EQ(ordered<device::LoadFrame>(), 1);
+}
+
+TEST_F(Following, ReportsARepeatedRefusalOnceAndCountsEach) {
+    receive(frame(1));
+    Frame jump = frame(2);
+    jump.axes[0].from = Position::steps(50);
+    receive(jump);
+    EXPECT_TRUE(noticed(AxisNotice::Kind::FrameRefused));
+    receive(jump);
+    EXPECT_FALSE(noticed(AxisNotice::Kind::FrameRefused));
+    EXPECT_EQ(following.refused_frames(), 2u);
+}
+
+TEST_F(Following, VetoesAFrameThatAPeerDoesNotReport) {
+    receive(frame(1));
+    now = {115'000};  // the check instant
+    AxisLoop l = loop();
+    following.check(l);
+    EXPECT_TRUE(noticed(AxisNotice::Kind::Vetoed));
+    EXPECT_EQ(ordered<device::Veto>(), 1);
+    EXPECT_EQ(out.notices.front().check.value().lacking, axis_bit(1));
+}
+
+TEST_F(Following, IgnoresAStateStampedInTheFuture) {
+    receive(frame(1));
+    following.take({.identity = 2, .axis = 1, .stamp = 130, .epoch = kEpoch, .veto = 1}, 100);
+    EXPECT_FALSE(following.follower().veto());
+}
+
+TEST_F(Following, VetoesWhenTheDeviceHasFallenToATail) {
+    receive(frame(1));
+    DeviceStatus tail = at_rest();
+    tail.finished = false;
+    tail.frame = 1;
+    tail.in_tail = true;
+    show(tail);
+    AxisLoop l = loop();
+    following.observe(l);
+    EXPECT_TRUE(following.follower().veto());
+    EXPECT_EQ(following.ran(), 1u);
+}
+
+TEST_F(Following, EndsTheEpochWithItsRun) {
+    receive(frame(1));
+    AxisLoop l = loop();
+    following.end(l);
+    EXPECT_FALSE(following.is_open());
+    EXPECT_TRUE(noticed(AxisNotice::Kind::EpochEnded));
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,114 @@
+// Moves that an axis makes by itself: begun, refused, fed, halted, ended, and gone on with after a missed start.
+#include "core/axis/own_moves/own_moves.hpp"
+
+#include "axis_parts.hpp"
+#include "core/methods/paper_steps.hpp"
+
+namespace lockstep {
+namespace {
+
+class OwnMoving : public AxisParts {
+protected:
+    OwnMoving() {
+        show(at_rest(), true);
+        make_ready();
+    }
+    void order_move(std::int64_t target) {
+        AxisLoop l = loop();
+        condition.orders.begin(++sequence);
+        own.move({.sequence = sequence, .kind = AxisCommandKind::MoveOwn, .target_steps = target}, !own.is_running(),
+                 l);
+    }
+    void end_run(DeviceStatus status) {
+        show(status);
+        AxisLoop l = loop();
+        own.record(status, l);
+        own.end(l);
+    }
+    OwnMoves own{0, machine(), methods::begin_steps};
+    std::uint64_t sequence = 0;
+};
+
+TEST_F(OwnMoving, LoadsAndArmsFramesOfAMove) {
+    order_move(3000);
+    EXPECT_TRUE(own.is_running());
+    EXPECT_EQ(ordered<device::BeginRun>(), 1);
+    EXPECT_GE(ordered<device::LoadFrame>(), 1);
+    EXPECT_EQ(ordered<device::LoadFrame>(), ordered<device::Arm>());
+}
+
+TEST_F(OwnMoving, LoadsNoFrameThatTheRingHasNoRoomFor) {
+    DeviceStatus full = at_rest();
+    full.free_segments = 1;
+    show(full);
+    order_move(3000);
+    EXPECT_EQ(ordered<device::LoadFrame>(), 0);
+    show(at_rest());
+    AxisLoop l = loop();
+    own.feed(l);
+    EXPECT_GE(ordered<device::LoadFrame>(), 1);
+}
+
+TEST_F(OwnMoving, EndsTheOrderOfAMoveToWhereItStands) {
+    order_move(0);
+    EXPECT_FALSE(own.is_running());
+    EXPECT_EQ(condition.orders.done(), 1u);
+    EXPECT_EQ(condition.orders.fault(), FaultCode::None);
+}
+
+TEST_F(OwnMoving, RefusesATargetOutsideTheTravelAndASecondMove) {
+    order_move(20'000);
+    EXPECT_EQ(condition.orders.fault(), FaultCode::OutsideTravel);
+    order_move(3000);
+    order_move(2000);
+    EXPECT_EQ(condition.orders.fault(), FaultCode::Busy);
+    EXPECT_TRUE(noticed(AxisNotice::Kind::CommandRefused));
+}
+
+TEST_F(OwnMoving, GoesOnWithAMoveWhoseStartWasMissed) {
+    order_move(3000);
+    DeviceStatus missed = at_rest();
+    missed.bad_segment = true;
+    end_run(missed);
+    EXPECT_TRUE(own.is_running());
+    EXPECT_EQ(ordered<device::BeginRun>(), 1);
+    EXPECT_EQ(condition.orders.done(), 0u);
+}
+
+TEST_F(OwnMoving, GivesUpAMoveWhoseStartIsMissedAgainAndAgain) {
+    order_move(3000);
+    for (int i = 0; i < 20 && own.is_running(); ++i) { end_run(at_rest()); }
+    EXPECT_FALSE(own.is_running());
+    EXPECT_EQ(condition.phases.fault(), FaultCode::DeviceFault);
+}
+
+TEST_F(OwnMoving, AFaultHaltsTheMoveAtItsNextFrame) {
+    order_move(3000);
+    condition.phases.fail(FaultCode::CoordinatorSilent);
+    AxisLoop l = loop();
+    own.feed(l);
+    EXPECT_EQ(ordered<device::Veto>(), 1);
+    own.feed(l);
+    EXPECT_EQ(ordered<device::Veto>(), 1) << "halted once";
+}
+
+TEST_F(OwnMoving, HomingSearchesTheSwitch) {
+    AxisLoop l = loop();
+    condition.orders.begin(1);
+    own.home({.sequence = 1, .kind = AxisCommandKind::Home}, true, l);
+    EXPECT_FALSE(condition.position.homed());
+    EXPECT_EQ(condition.phases.phase(), AxisPhase::Initialize);
+    ASSERT_EQ(ordered<device::BeginRun>(), 1);
+    EXPECT_EQ(std::get<device::BeginRun>(out.orders.front()).trigger, Trigger::HomeCloses);
+}
+
+TEST_F(OwnMoving, HomingWithoutADeviceIsRefused) {
+    device.lose();
+    AxisLoop l = loop();
+    condition.orders.begin(1);
+    own.home({.sequence = 1, .kind = AxisCommandKind::Home}, true, l);
+    EXPECT_EQ(condition.orders.fault(), FaultCode::DeviceMissing);
+}
+
+}  // namespace
+}  // namespace lockstep
