@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/coordinator/program_plan.hpp"
+#include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
 #include "core/motion/path.hpp"
 #include "core/program.hpp"

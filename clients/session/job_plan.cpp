@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/coordinator/program_plan.hpp"
+#include "core/coordinator/path/program_plan.hpp"
 
 namespace lockstep {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/coordinator/epoch_runner.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
 
 namespace lockstep::verification {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/coordinator/epoch_runner.hpp"
-#include "core/coordinator/program_plan.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 

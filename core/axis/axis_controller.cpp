@@ -1,6 +1,5 @@
 #include "core/axis/axis_controller.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -20,7 +19,7 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
 AxisOutputs AxisController::step(const AxisInputs& inputs) {
     AxisOutputs out;
     AxisLoop loop{inputs.now, rules::slot_of(inputs.now, slot_), condition_, device_, out};
-    if (state_slot_) { owner_.forgive(std::max<Slot>(0, loop.slot - *state_slot_ - 1)); }
+    owner_.forgive(gate_.missed(loop.slot));
     look(inputs, loop);
     receive(inputs, loop);
     move_on(loop);
@@ -185,9 +184,7 @@ void AxisController::move_on(AxisLoop& loop) {
 
 void AxisController::publish(const AxisInputs& inputs, AxisLoop& loop) {
     if (is_resting() && !condition_.phases.has_fault()) { loop.out.rests = condition_.position.keep(device_); }
-    if (state_slot_ && loop.slot <= *state_slot_) { return; }
-    state_slot_ = loop.slot;
-    loop.out.state = state(loop, inputs.clock_error);
+    if (gate_.enter(loop.slot)) { loop.out.state = state(loop, inputs.clock_error); }
 }
 
 AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {

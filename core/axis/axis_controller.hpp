@@ -4,8 +4,6 @@
 // device, its state once a slot, and a record of what was run. It does no I/O and reads no clock.
 #pragma once
 
-#include <optional>
-
 #include "core/axis/following/epoch_following.hpp"
 #include "core/axis/following/owner_link.hpp"
 #include "core/axis/own_moves/own_moves.hpp"
@@ -13,6 +11,7 @@
 #include "core/axis/state/axis_loop.hpp"
 #include "core/axis/state/client_stops.hpp"
 #include "core/axis/state/speed_trend.hpp"
+#include "core/protocol/slot_gate.hpp"
 
 namespace lockstep {
 
@@ -67,7 +66,7 @@ private:
     EpochFollowing following_;
     OwnMoves own_;
     SpeedTrend trend_;
-    std::optional<Slot> state_slot_;  // of the newest state published
+    SlotGate gate_;
 };
 
 }  // namespace lockstep

@@ -1,10 +1,6 @@
 #include "core/coordinator/coordinator.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
-
-#include "core/motion/interpolate.hpp"
+#include "core/coordinator/reply.hpp"
 
 namespace lockstep {
 
@@ -12,237 +8,197 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
                          BeginSteps begin_steps, std::optional<OnTakeover> standby)
     : machine_(machine),
       config_hash_(config_hash),
-      begin_steps_(begin_steps),
-      standby_(standby),
+      stands_by_(standby.has_value()),
       slot_(machine.slot_ticks()),
       ownership_(identity, machine.timing),
-      planner_(machine),
-      runner_(machine),
-      views_(machine.axes.size()),
-      orders_(machine.axes.size()) {}
-
-void Coordinator::accept_program(std::uint64_t id, Program program) {
-    if (!programs_.contains(id)) { program_order_.push_back(id); }
-    programs_[id] = std::make_shared<const Program>(std::move(program));
-    if (program_order_.size() > kProgramsKept) {
-        programs_.erase(program_order_.front());
-        program_order_.erase(program_order_.begin());
-    }
-}
+      axes_(machine),
+      orders_(machine.axes.size()),
+      jobs_(machine, config_hash, begin_steps, standby) {}
 
 CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     CoordinatorOutputs out;
-    now_ = inputs.now;
-    now_slot_ = rules::slot_of(now_, slot_);
-    forgive_own_stall();
-    hear(inputs, out);
-    change_owner(out);
-    if (!ownership_.owns()) {
-        stand_by(out);
-        return out;
-    }
-    if (must_listen()) { return out; }
-    watch_axes(out);
-    for (const Command& command : std::exchange(commands_, {})) { take_command(command, out); }
-    if (!begins_slot()) { return out; }
-    advance(out);
-    for (Frame& frame : out.frames) { frame.term = ownership_.term(); }
-    for (std::size_t i = 0; i < orders_.size(); ++i) {
-        if (orders_[i] && !order_done(i)) { out.axis_commands.push_back(*orders_[i]); }
-    }
-    if (moving_ && job_) { note_progress(); }
-    out.state = state();
+    const Slot slot = rules::slot_of(inputs.now, slot_);
+    CoordinatorLoop loop{machine_, axes_, orders_, programs_, condition_, out, inputs.now, slot, ownership_.term()};
+    axes_.forgive(gate_.missed(slot), slot);
+    receive(inputs, loop);
+    change_owner(loop);
+    ownership_.owns() ? own(loop) : stand_by(loop);
     return out;
 }
 
-bool Coordinator::begins_slot() {
-    if (state_slot_ && now_slot_ <= *state_slot_) { return false; }
-    state_slot_ = now_slot_;
-    return true;
+void Coordinator::receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop) {
+    for (const AxisState& state : inputs.axes) { receive(state, loop); }
+    for (const MachineState& other : inputs.others) { ownership_.hear(other, loop.slot); }
+    inbox_.receive(inputs.commands);
 }
 
-/// Whom it has not heard because it did not run is not silent.
-void Coordinator::forgive_own_stall() {
-    const Slot missed = state_slot_ ? std::max<Slot>(0, now_slot_ - *state_slot_ - 1) : 0;
-    for (AxisView& view : views_) { view.heard += missed; }
-    if (missed > rules::silence_slots(machine_.timing)) { woken_ = now_slot_; }
+/// Another process of an axis knows nothing of what this one has asked of the axis: no job goes on with it.
+void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
+    const AxisRoster::Arrival arrival = axes_.arrival_of(state, loop.slot);
+    if (arrival == AxisRoster::Arrival::Ignored) { return; }
+    ownership_.hear(state);
+    if (!axes_.is_present(state.axis, loop.slot)) { loop.notice({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
+    const bool is_replaced = arrival == AxisRoster::Arrival::Replaced;
+    if (is_replaced && jobs_.exists()) { jobs_.fail(FaultCode::AxisLost, state.axis, loop); }
+    if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.axis); }
+    if (is_replaced) { jobs_.doubt_inherited(loop); }
+    const bool has_open_order = !loop.is_order_done(state.axis);
+    axes_.take(state, loop.slot);
+    if (state.term == ownership_.term()) { orders_.catch_up(state, has_open_order); }
 }
 
-void Coordinator::hear(const CoordinatorInputs& inputs, CoordinatorOutputs& out) {
-    for (const AxisState& state : inputs.axes) {
-        if (state.axis >= views_.size()) { continue; }
-        AxisView& view = views_[state.axis];
-        const bool same = view.state && view.state->identity == state.identity;
-        if (state.stamp > now_slot_ + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { continue; }
-        const bool is_older = view.state && state.stamp <= view.state->stamp;
-        if (is_older && !same && present(state.axis)) { continue; }  // of a process before, sent again
-        if (view.state && !same && !view.stranger.again(state.identity, state.stamp)) { continue; }
-        ownership_.hear(state);
-        if (!present(state.axis)) { out.notices.push_back({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
-        if (view.state && !same && job_) { fail(FaultCode::AxisLost, state.axis, out); }  // held or not
-        if (!same) { orders_[state.axis].reset(); }
-        if (view.state && !same) { cut_inherited(TakeoverDoubt::AxisInDoubt, out); }
-        const bool is_repeat = same && state.stamp == view.state->stamp;
-        const Slot last_stamp = view.state ? view.state->stamp : 0;
-        const bool has_order_open = !order_done(state.axis);
-        view = {state, now_slot_, is_repeat ? view.stamp_before : last_stamp, {}};
-        if (state.term != ownership_.term() || state.command_done <= order_sequence_) { continue; }
-        // It has carried out an order that nobody here has given, and takes none with a lower number any more.
-        order_sequence_ = state.command_done;
-        if (has_order_open) { orders_[state.axis]->sequence = ++order_sequence_; }
-    }
-    for (const MachineState& other : inputs.others) { ownership_.hear(other, now_slot_); }
-    commands_.insert(commands_.end(), inputs.commands.begin(), inputs.commands.end());
-}
-
-std::optional<std::size_t> Coordinator::missing_axis() const {
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-        if (!present(i)) { return i; }
-    }
-    return std::nullopt;
-}
-
-std::optional<std::size_t> Coordinator::axis_without_device() const {
-    constexpr auto kMissing = static_cast<std::uint16_t>(FaultCode::DeviceMissing);
-    const auto lacks = [](const AxisView& view) { return view.state && view.state->unproved == kMissing; };
-    const auto found = std::ranges::find_if(views_, lacks);
-    return found == views_.end() ? std::nullopt : std::optional<std::size_t>(found - views_.begin());
-}
-
-/// Whether an axis's clock may be further off than this.
-bool Coordinator::is_uncertain(std::size_t axis, Ticks limit) const {
-    return views_[axis].state && views_[axis].state->clock_error > limit;
-}
-
-/// Who is there, who is not, and who is in trouble.
-void Coordinator::watch_axes(CoordinatorOutputs& out) {
-    if (phase_ == MachinePhase::Idle && axis_without_device()) { enter(MachinePhase::Waiting, out); }
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-        const AxisView& view = views_[i];
-        if (view.state && !present(i)) {
-            out.notices.push_back({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, i});
-            views_[i].state.reset();
-            orders_[i].reset();  // what comes back may be another process: it must not do what this one has done
-            cut_inherited(TakeoverDoubt::AxisInDoubt, out);
-            if (phase_ == MachinePhase::Idle) { enter(MachinePhase::Waiting, out); }
-            if (phase_ != MachinePhase::Waiting) { fail(FaultCode::AxisLost, i, out); }
-        } else if (view.state && view.state->config_hash != config_hash_) {
-            fail(FaultCode::ConfigMismatch, i, out);
-        } else if (view.state && view.state->fault != 0) {
-            const bool being_homed = phase_ == MachinePhase::Homing && !order_done(i);
-            const bool being_reset = orders_[i] && orders_[i]->kind == AxisCommandKind::Reset && !order_done(i);
-            if (!being_homed && !being_reset) { fail(static_cast<FaultCode>(view.state->fault), i, out); }
-        } else if (moving_ && is_uncertain(i, machine_.clock_error_limit())) {
-            fail(FaultCode::ClockUncertain, i, out);
-        }
+void Coordinator::change_owner(CoordinatorLoop& loop) {
+    const Ownership::Change change = ownership_.judge(loop.now, loop.slot, axes_.views());
+    loop.term = ownership_.term();
+    switch (change) {
+        case Ownership::Change::None: return;
+        case Ownership::Change::Claimed: return take_over(loop);
+        case Ownership::Change::StoodDown: return stand_down(loop);
     }
 }
 
-void Coordinator::order(std::size_t axis, AxisCommandKind kind) {
-    orders_[axis] = AxisCommand{ownership_.term(), ++order_sequence_, static_cast<std::uint32_t>(axis), kind};
+/// Overrides remain. The job that the last owner had begun is gone on with, or ended, wherever the axes came to rest.
+void Coordinator::take_over(CoordinatorLoop& loop) {
+    loop.notice({CoordinatorNotice::Kind::Claimed, FaultCode::None, loop.term.number});
+    orders_.restart();
+    loop.enter(MachinePhase::Waiting);
+    jobs_.take_over(ownership_.other_owner(), loop);
 }
 
-/// An axis counts the commands of the owner that it follows: what it did for the last one is no answer to this one.
-bool Coordinator::order_done(std::size_t axis) const {
-    if (!orders_[axis]) { return true; }
-    const auto& state = views_[axis].state;
-    return state && state->term == orders_[axis]->term && state->command_done >= orders_[axis]->sequence;
+void Coordinator::stand_down(CoordinatorLoop& loop) {
+    loop.notice({CoordinatorNotice::Kind::StoodDown, FaultCode::None, loop.term.number});
+    jobs_.stand_down();
+    condition_.clear_fault();
+    orders_.withdraw_all();
+    loop.enter(MachinePhase::Standby);
 }
 
-/// A fault during motion stops it on the path first; Fault is entered at rest.
-void Coordinator::fail(FaultCode fault, std::size_t axis, CoordinatorOutputs& out) {
-    if (fault_ != FaultCode::None) { return; }
-    fault_ = fault;
-    fault_axis_ = axis;
-    out.notices.push_back({CoordinatorNotice::Kind::Fault, fault, axis});
-    if (in_motion()) {
-        intent_ = Intent::Abort;
-        moving_ ? runner_.stop(now_slot_) : halt_own();
-        return enter(MachinePhase::Stopping, out);
+/// It publishes nothing that moves an axis.
+void Coordinator::stand_by(CoordinatorLoop& loop) {
+    for (const Command& command : inbox_.take()) { refuse_as_standby(command, loop.slot); }
+    axes_.forget_missing(loop.slot);
+    loop.out.must_quit = !stands_by_ && ownership_.has_second_owner(loop.slot);
+    if (gate_.enter(loop.slot)) { loop.out.state = state(loop); }
+}
+
+/// The command was for another owner. If it is repeated after a takeover nobody knows whether it was begun, so it is
+/// refused then; an emergency stop may be done twice.
+void Coordinator::refuse_as_standby(const Command& command, Slot now) {
+    if (is_interrupt(command.kind)) { jobs_.note_interrupt(now); }
+    if (inbox_.answer_to(command) != nullptr || command.kind == CommandKind::EmergencyStop) { return; }
+    inbox_.note(reply_of_new_owner(command));
+}
+
+void Coordinator::own(CoordinatorLoop& loop) {
+    // After a long stall it publishes nothing before every axis has reported again which owner it follows.
+    if (axes_.is_unsettled(loop.slot)) {
+        (void)gate_.enter(loop.slot);
+        return;
     }
-    cut_inherited(TakeoverDoubt::AxisInDoubt, out);
-    end_job(JobOutcome::Failed, out);
-    enter(MachinePhase::Fault, out);
+    if (condition_.phase() == MachinePhase::Idle && axes_.without_device()) { loop.enter(MachinePhase::Waiting); }
+    for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
+    for (const Command& command : inbox_.take()) { answer(command, loop); }
+    if (!gate_.enter(loop.slot)) { return; }
+    advance(loop);
+    orders_.repeat(axes_, loop.out.axis_commands);
+    jobs_.note_progress(loop.now);
+    loop.out.state = state(loop);
 }
 
-void Coordinator::enter(MachinePhase phase, CoordinatorOutputs& out) {
-    if (phase == phase_) { return; }
-    phase_ = phase;
-    out.notices.push_back({CoordinatorNotice::Kind::Phase, FaultCode::None, static_cast<std::uint64_t>(phase)});
-}
-
-AxisCounts Coordinator::counts() const {
-    AxisCounts counts;
-    for (const AxisView& view : views_) { counts.append(view.state ? view.state->position.count() : 0); }
-    return counts;
-}
-
-MachineState Coordinator::state() const {
-    MachineState s{.term = ownership_.term(),
-                   .stamp = now_slot_,
-                   .tick = now_,
-                   .phase = phase_,
-                   .fault = static_cast<std::uint16_t>(fault_),
-                   .fault_axis = static_cast<std::uint32_t>(fault_axis_),
-                   .epoch = runner_.epoch(),
-                   .sent = runner_.sent(),
-                   .veto = runner_.veto(),
-                   .job = jobs_,
-                   .outcome = job_ || inherited_ ? std::nullopt : outcome_,
-                   .job_begun = job_begun_,
-                   .line = jobs_ == cut_job_ ? cut_line_ : 0,
-                   .overrides = overrides_,
-                   .config_hash = config_hash_};
-    for (std::size_t i = 0; i < views_.size(); ++i) { s.axes_present |= present(i) ? axis_bit(i) : 0; }
-    if (in_own_move()) { say_progress_of_own(s); }
-    if (inherited_) {
-        s.line = inherited_->line;
-        s.progress = inherited_->progress;
+void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
+    const auto& state = axes_.state(axis);
+    if (!state) { return; }
+    if (!axes_.is_present(axis, loop.slot)) { return lose_axis(axis, loop); }
+    if (state->config_hash != config_hash_) { return jobs_.fail(FaultCode::ConfigMismatch, axis, loop); }
+    if (state->fault != 0) {
+        const bool is_being_homed = condition_.phase() == MachinePhase::Homing && !loop.is_order_done(axis);
+        if (is_being_homed || orders_.is_open(axis, AxisCommandKind::Reset, axes_)) { return; }
+        return jobs_.fail(static_cast<FaultCode>(state->fault), axis, loop);
     }
-    if (moving_ && job_) { say_progress(s); }
-    if (moving_ && job_ && intent_ == Intent::GoOn) { say_rests(s); }
-    return s;
-}
-
-/// For a standby. By the LAI method a block is planned in parts, which no place on the program tells apart.
-void Coordinator::say_rests(MachineState& state) const {
-    if (machine_.coordination == StepMethod::Lai) { return; }
-    FrameNumber oldest = runner_.sent();
-    for (const AxisView& view : views_) {
-        const bool follows = view.state && view.state->epoch == runner_.epoch();
-        oldest = std::min(oldest, follows ? view.state->ran : 0);
+    if (jobs_.is_on_path() && axes_.is_uncertain(axis, machine_.clock_error_limit())) {
+        jobs_.fail(FaultCode::ClockUncertain, axis, loop);
     }
-    state.job_kind = job_->kind;
-    state.program = job_->program_id;
-    state.rests = runner_.rests_from(oldest);
 }
 
-Subticks Coordinator::into_path() const {
-    return std::clamp(subticks(now_ - runner_.start()), Subticks{}, runner_.path().duration());
+/// The next process of this axis must not carry out the orders of this one.
+void Coordinator::lose_axis(std::size_t axis, CoordinatorLoop& loop) {
+    loop.notice({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, axis});
+    axes_.forget(axis);
+    orders_.withdraw(axis);
+    jobs_.doubt_inherited(loop);
+    if (condition_.phase() == MachinePhase::Idle) { loop.enter(MachinePhase::Waiting); }
+    if (condition_.phase() != MachinePhase::Waiting) { jobs_.fail(FaultCode::AxisLost, axis, loop); }
 }
 
-/// By what is planned of it now.
-Subticks Coordinator::left_of_job() const {
-    Subticks left = runner_.path().duration() - into_path();
-    for (std::size_t i = job_->leg + 1; i < job_->legs.size(); ++i) { left = left + job_->legs[i].duration; }
-    return left;
+void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
+    if (const Reply* last = inbox_.answer_to(command)) {
+        if (command.sequence == last->sequence) { loop.out.replies.push_back(*last); }
+        return;
+    }
+    const CommandResult result = carry_out(command, loop);
+    loop.out.replies.push_back(reply_to(command, result, jobs_.number()));
+    inbox_.note(loop.out.replies.back());
 }
 
-/// Of what was left a slot ago, the share that has been done since: as long as the plan stays, that adds up to the
-/// share of its time; where what is left is planned anew, it goes on from there.
-void Coordinator::note_progress() {
-    const Subticks done = job_->run + into_path();
-    if (done <= job_->counted) { return; }
-    const auto since = static_cast<double>((done - job_->counted).value);
-    const auto left = static_cast<double>(left_of_job().value);
-    job_->progress = std::min(1.0, job_->progress + (1 - job_->progress) * since / (since + left));
-    job_->counted = done;
+CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& loop) {
+    switch (command.kind) {
+        case CommandKind::Home: return jobs_.home(command, loop);
+        case CommandKind::Move:
+        case CommandKind::Run: return jobs_.run(command, loop);
+        case CommandKind::Hold: return jobs_.interrupt(Intent::Hold, loop);
+        case CommandKind::Stop: return jobs_.interrupt(Intent::Stop, loop);
+        case CommandKind::Resume: return jobs_.resume(loop);
+        case CommandKind::Reset: return reset(loop);
+        case CommandKind::EmergencyStop: return stop_at_once(loop);
+        case CommandKind::MoveOwn: return jobs_.move_own(command, loop);
+        case CommandKind::Override: return jobs_.turn(command, loop);
+    }
+    return refuse(FaultCode::NothingToDo, "unknown command");
 }
 
-void Coordinator::say_progress(MachineState& state) const {
-    state.line = runner_.path().moves[runner_.path().move_at(into_path())].line;
-    state.remaining_s = static_cast<double>(left_of_job().value) / kSubticksPerTick / machine_.ticks_per_second();
-    state.progress = job_->progress;
+CommandResult Coordinator::reset(CoordinatorLoop& loop) {
+    if (jobs_.in_motion()) { return refuse(FaultCode::Busy, "the machine is in motion"); }
+    jobs_.drop(loop);
+    for (std::size_t i = 0; i < axes_.size(); ++i) { (void)loop.order(i, AxisCommandKind::Reset); }
+    condition_.clear_fault();
+    loop.enter(MachinePhase::Waiting);
+    return {};
+}
+
+CommandResult Coordinator::stop_at_once(CoordinatorLoop& loop) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) { (void)loop.order(i, AxisCommandKind::StopNow); }
+    jobs_.fail(FaultCode::EmergencyStopped, 0, loop);
+    return {};
+}
+
+void Coordinator::advance(CoordinatorLoop& loop) {
+    if (jobs_.in_motion()) { return jobs_.advance(loop); }
+    if (condition_.phase() == MachinePhase::Idle && ownership_.lacks_axes(loop.slot)) {
+        loop.enter(MachinePhase::Waiting);
+    }
+    if (condition_.phase() == MachinePhase::Waiting) { leave_waiting(loop); }
+}
+
+/// When every axis is present with its device, follows this coordinator, has done its orders and rests.
+void Coordinator::leave_waiting(CoordinatorLoop& loop) {
+    const bool all_here = !axes_.missing(loop.slot) && !axes_.without_device();
+    const bool all_follow = ownership_.acknowledged(axes_.views());
+    if (!all_here || !all_follow || !orders_.all_done(axes_) || !axes_.all_rest()) { return; }
+    jobs_.go_on_with_inherited(loop);
+    if (!jobs_.exists()) { loop.enter(MachinePhase::Idle); }
+}
+
+MachineState Coordinator::state(const CoordinatorLoop& loop) const {
+    MachineState state{.term = loop.term,
+                       .stamp = loop.slot,
+                       .tick = loop.now,
+                       .phase = condition_.phase(),
+                       .fault = static_cast<std::uint16_t>(condition_.fault()),
+                       .fault_axis = static_cast<std::uint32_t>(condition_.fault_axis()),
+                       .axes_present = axes_.present(loop.slot),
+                       .config_hash = config_hash_};
+    jobs_.report(state, loop);
+    return state;
 }
 
 }  // namespace lockstep

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "core/coordinator/axis_view.hpp"
+#include "core/coordinator/axes/axis_view.hpp"
 #include "core/protocol/second_hearing.hpp"
 #include "core/protocol/second_process.hpp"
 

@@ -2,7 +2,7 @@
 //
 // Each method is as its authors published it, with their numbers as defaults. They are compared with each other and
 // with the continuous ideal, and an axis may make its own moves by any of them (paper_steps.hpp). Programs run by
-// core/motion, or by Lai's planner (core/coordinator/lai_path.hpp).
+// core/motion, or by Lai's planner (core/coordinator/path/lai_path.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // lockstep-coordinator: the machine's planner as a process, between DDS and the record.
 #pragma once
 
-#include "core/coordinator/takeover.hpp"
+#include "core/coordinator/state/coordinator_io.hpp"
 #include "services/runtime/service_options.hpp"
 
 namespace lockstep {

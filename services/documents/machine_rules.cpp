@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/coordinator/lai_path.hpp"
+#include "core/coordinator/path/lai_path.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "core/protocol/rules.inc"
 #include "services/documents/names.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/coordinator/epoch_runner.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
 

@@ -1,11 +1,11 @@
 // How an epoch comes to its end, as the coordinator sees it.
-#include "core/coordinator/epoch_runner.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/coordinator/program_plan.hpp"
+#include "core/coordinator/path/program_plan.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,5 @@
 // Coordinated moves by Lai's velocity planner: whole pulses in every period, exactly at the end, never past a limit.
-#include "core/coordinator/lai_path.hpp"
+#include "core/coordinator/path/lai_path.hpp"
 
 #include <gtest/gtest.h>
 

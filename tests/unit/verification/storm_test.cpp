@@ -5,7 +5,7 @@
 #include <random>
 
 #include "clients/verification/verification.hpp"
-#include "core/coordinator/lai_path.hpp"
+#include "core/coordinator/path/lai_path.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
 namespace lockstep::verification {

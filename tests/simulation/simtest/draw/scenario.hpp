@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/coordinator/takeover.hpp"
+#include "core/coordinator/state/coordinator_io.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"

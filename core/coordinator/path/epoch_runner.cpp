@@ -1,4 +1,4 @@
-#include "core/coordinator/epoch_runner.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
 
 #include <algorithm>
 

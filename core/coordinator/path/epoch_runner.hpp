@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/coordinator/axis_view.hpp"
+#include "core/coordinator/axes/axis_view.hpp"
 #include "core/machine.hpp"
 #include "core/motion/lookahead.hpp"
 #include "core/protocol/messages.hpp"

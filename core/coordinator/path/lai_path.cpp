@@ -1,4 +1,4 @@
-#include "core/coordinator/lai_path.hpp"
+#include "core/coordinator/path/lai_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/coordinator/takeover.hpp"
+#include "core/coordinator/jobs/takeover.hpp"
 
 #include <algorithm>
 #include <array>

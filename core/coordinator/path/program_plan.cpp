@@ -1,11 +1,11 @@
-#include "core/coordinator/program_plan.hpp"
+#include "core/coordinator/path/program_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "core/axis_unit.hpp"
-#include "core/coordinator/lai_path.hpp"
+#include "core/coordinator/path/lai_path.hpp"
 #include "core/motion/frame_limits.hpp"
 
 namespace lockstep {

@@ -1,0 +1,40 @@
+// The coordinator's orders to single axes, each repeated until its axis reports it as done.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/coordinator/axes/axis_roster.hpp"
+
+namespace lockstep {
+
+class AxisOrders {
+public:
+    explicit AxisOrders(std::size_t axes) : orders_(axes) {}
+
+    /// Replaces the order before, which may be open. Returns it, for its parameters.
+    AxisCommand& give(std::size_t axis, AxisCommandKind kind, const Term& term);
+    void withdraw(std::size_t axis) { orders_[axis].reset(); }
+    void withdraw_all();
+    /// A new owner counts from the beginning.
+    void restart() { sequence_ = 0; }
+
+    /// True as well where none was given. An axis counts the orders of the owner that it follows: what it did for the
+    /// last one is no answer to this one.
+    bool is_done(std::size_t axis, const AxisRoster& axes) const;
+    bool all_done(const AxisRoster& axes) const;
+    /// An order of this kind is open.
+    bool is_open(std::size_t axis, AxisCommandKind kind, const AxisRoster& axes) const;
+    /// The newest order to the axis, done or not.
+    const std::optional<AxisCommand>& newest(std::size_t axis) const { return orders_[axis]; }
+    void repeat(const AxisRoster& axes, std::vector<AxisCommand>& out) const;
+
+    /// The axis has carried out an order that was not given here, and takes none with a lower number any more.
+    void catch_up(const AxisState& state, bool has_open_order);
+
+private:
+    std::vector<std::optional<AxisCommand>> orders_;  // the newest to each axis
+    std::uint64_t sequence_ = 0;                      // within a term
+};
+
+}  // namespace lockstep

@@ -1,0 +1,97 @@
+#include "core/coordinator/axes/axis_roster.hpp"
+
+#include <algorithm>
+
+#include "core/faults.hpp"
+
+namespace lockstep {
+namespace {
+
+template <typename Predicate>
+std::optional<std::size_t> first_axis(std::span<const AxisView> views, Predicate&& holds) {
+    const auto found = std::ranges::find_if(views, holds);
+    return found == views.end() ? std::nullopt : std::optional<std::size_t>(found - views.begin());
+}
+
+}  // namespace
+
+AxisRoster::Arrival AxisRoster::arrival_of(const AxisState& state, Slot now) {
+    if (state.axis >= views_.size()) { return Arrival::Ignored; }
+    AxisView& view = views_[state.axis];
+    const bool same = view.state && view.state->identity == state.identity;
+    if (state.stamp > now + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { return Arrival::Ignored; }
+    if (same) { return Arrival::SameAxis; }
+    if (!view.state) { return Arrival::FirstSeen; }
+    const bool is_older = state.stamp <= view.state->stamp;
+    if (is_older && is_present(state.axis, now)) { return Arrival::Ignored; }  // of a process before, sent again
+    return view.stranger.again(state.identity, state.stamp) ? Arrival::Replaced : Arrival::Ignored;
+}
+
+void AxisRoster::take(const AxisState& state, Slot now) {
+    AxisView& view = views_[state.axis];
+    const bool is_repeat = view.state && view.state->identity == state.identity && state.stamp == view.state->stamp;
+    const Slot last_stamp = view.state ? view.state->stamp : 0;
+    view = {state, now, is_repeat ? view.stamp_before : last_stamp, {}};
+}
+
+void AxisRoster::forgive(Slot missed, Slot now) {
+    for (AxisView& view : views_) { view.heard += missed; }
+    if (missed > rules::silence_slots(timing_)) { woken_ = now; }
+}
+
+bool AxisRoster::is_unsettled(Slot now) {
+    const auto is_settled = [&](const AxisView& view) {
+        return !view.present(now, timing_) || view.stamp_before > *woken_;
+    };
+    if (woken_ && std::ranges::all_of(views_, is_settled)) { woken_.reset(); }
+    return woken_.has_value();
+}
+
+void AxisRoster::forget_missing(Slot now) {
+    for (AxisView& view : views_) {
+        if (!view.present(now, timing_)) { view.state.reset(); }
+    }
+}
+
+std::optional<std::size_t> AxisRoster::missing(Slot now) const {
+    return first_axis(views_, [&](const AxisView& view) { return !view.present(now, timing_); });
+}
+
+std::optional<std::size_t> AxisRoster::without_device() const {
+    constexpr auto kMissing = static_cast<std::uint16_t>(FaultCode::DeviceMissing);
+    return first_axis(views_, [](const AxisView& view) { return view.state && view.state->unproved == kMissing; });
+}
+
+std::optional<std::size_t> AxisRoster::not_homed() const {
+    return first_axis(views_, [](const AxisView& view) { return view.state && !view.state->homed; });
+}
+
+bool AxisRoster::is_uncertain(std::size_t axis, Ticks limit) const {
+    return views_[axis].state && views_[axis].state->clock_error > limit;
+}
+
+std::optional<std::size_t> AxisRoster::uncertain(Ticks limit) const {
+    return first_axis(views_, [&](const AxisView& view) { return view.state && view.state->clock_error > limit; });
+}
+
+std::optional<std::size_t> AxisRoster::moving(Slot now) const {
+    return first_axis(views_, [&](const AxisView& view) { return view.present(now, timing_) && !view.state->at_rest; });
+}
+
+bool AxisRoster::all_rest() const {
+    return std::ranges::all_of(views_, [](const AxisView& view) { return view.state && view.state->at_rest; });
+}
+
+AxisSet AxisRoster::present(Slot now) const {
+    AxisSet present = 0;
+    for (std::size_t i = 0; i < views_.size(); ++i) { present |= is_present(i, now) ? axis_bit(i) : 0; }
+    return present;
+}
+
+AxisCounts AxisRoster::counts() const {
+    AxisCounts counts;
+    for (const AxisView& view : views_) { counts.append(view.state ? view.state->position.count() : 0); }
+    return counts;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,62 @@
+// The axes as the coordinator knows them: which are present, and the newest state of each.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/coordinator/axes/axis_view.hpp"
+#include "core/machine.hpp"
+#include "core/motion/path.hpp"
+
+namespace lockstep {
+
+class AxisRoster {
+public:
+    explicit AxisRoster(const MachineConfig& machine) : timing_(machine.timing), views_(machine.axes.size()) {}
+
+    /// How a state received stands to what is known of its axis.
+    enum class Arrival : std::uint8_t {
+        Ignored,    // old, out of order, not of this machine, or of another process that was not confirmed yet
+        SameAxis,   // from the process known
+        FirstSeen,  // of an axis that was not known
+        Replaced    // from another process than the one known
+    };
+    Arrival arrival_of(const AxisState& state, Slot now);
+    /// Keeps a state that is not to be ignored.
+    void take(const AxisState& state, Slot now);
+
+    /// Slots missed in the coordinator's own stall do not count as an axis's silence. After a long stall another
+    /// coordinator may own the machine.
+    void forgive(Slot missed, Slot now);
+    /// Since a long stall not every axis present was received in two slots: which owner do they follow?
+    bool is_unsettled(Slot now);
+
+    std::size_t size() const { return views_.size(); }
+    std::span<const AxisView> views() const { return views_; }
+    /// Nothing: the axis was never received, or is gone.
+    const std::optional<AxisState>& state(std::size_t axis) const { return views_[axis].state; }
+    bool is_present(std::size_t axis, Slot now) const { return views_[axis].present(now, timing_); }
+    void forget(std::size_t axis) { views_[axis].state.reset(); }
+    void forget_missing(Slot now);
+
+    std::optional<std::size_t> missing(Slot now) const;
+    std::optional<std::size_t> without_device() const;
+    std::optional<std::size_t> not_homed() const;
+    /// The axis's clock may be further off than this.
+    bool is_uncertain(std::size_t axis, Ticks limit) const;
+    std::optional<std::size_t> uncertain(Ticks limit) const;
+    /// Present, and not at rest.
+    std::optional<std::size_t> moving(Slot now) const;
+    bool all_rest() const;
+    AxisSet present(Slot now) const;
+    /// In whole steps; 0 for an axis that is not known.
+    AxisCounts counts() const;
+
+private:
+    ProtocolTiming timing_;
+    std::vector<AxisView> views_;
+    std::optional<Slot> woken_;  // from a stall in which another coordinator may have taken over
+};
+
+}  // namespace lockstep

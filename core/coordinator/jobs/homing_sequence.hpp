@@ -1,0 +1,26 @@
+// Homing axes in groups, by the sequence that the configuration gives them: the axes of a group home together.
+#pragma once
+
+#include <limits>
+
+#include "core/axis_set.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+class HomingSequence {
+public:
+    HomingSequence() = default;
+    explicit HomingSequence(AxisSet axes) : axes_(axes) {}
+
+    AxisSet axes() const { return axes_; }
+
+    /// The axes to home next; none: all are homed.
+    AxisSet next_group(const MachineConfig& machine);
+
+private:
+    AxisSet axes_ = 0;
+    int sequence_ = std::numeric_limits<int>::min();  // of the group in progress
+};
+
+}  // namespace lockstep

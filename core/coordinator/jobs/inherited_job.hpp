@@ -1,0 +1,42 @@
+// The job of the owner before, from the takeover until this coordinator goes on with it or ends it.
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <optional>
+
+#include "core/coordinator/jobs/takeover.hpp"
+#include "core/coordinator/state/coordinator_loop.hpp"
+
+namespace lockstep {
+
+class InheritedJob {
+public:
+    /// `on_takeover`: nothing where this coordinator does not stand by.
+    InheritedJob(std::optional<OnTakeover> on_takeover, std::uint64_t config_hash)
+        : on_takeover_(on_takeover), config_hash_(config_hash) {}
+
+    /// A client has asked another owner to hold or stop.
+    void note_interrupt(Slot now) { interrupted_ = now; }
+    void begin(const MachineState& last) { last_ = last; }
+    /// It is gone on with, or was ended.
+    void end() { last_.reset(); }
+    void forget() { last_.reset(), interrupted_.reset(); }
+
+    bool exists() const { return last_.has_value(); }
+    /// The newest state of the owner before.
+    const MachineState& last() const { return *last_; }
+
+    /// Before the axes have been asked: why it cannot be gone on with.
+    std::optional<TakeoverDoubt> doubt(const CoordinatorLoop& loop) const;
+    /// When every axis follows this coordinator and rests. The program is known.
+    std::expected<JobRest, TakeoverDoubt> rest(const Program& program, const CoordinatorLoop& loop) const;
+
+private:
+    std::optional<OnTakeover> on_takeover_;
+    std::uint64_t config_hash_;
+    std::optional<MachineState> last_;
+    std::optional<Slot> interrupted_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,59 @@
+// A job, and what is said of the last one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/program.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+struct MachineJob {
+    std::uint64_t number = 0;
+    JobKind kind = JobKind::Run;
+    std::uint64_t program_id = 0;  // Command::program; 0 as well where no other coordinator can go on with the job
+    std::shared_ptr<const Program> program;  // null for homing
+
+    /// Its axes move each by itself, and the coordinator sends no frames.
+    bool is_alone() const { return kind == JobKind::Home || kind == JobKind::MoveOwn; }
+};
+
+/// The jobs of the machine, whichever coordinator began them: their count, and how the last one ended.
+class JobCount {
+public:
+    /// The number of a new job.
+    std::uint64_t begin(const Term& term) {
+        begun_in_ = term;
+        return ++number_;
+    }
+    void end(JobOutcome outcome) { outcome_ = outcome; }
+    /// A takeover has ended the job, which was at this line.
+    void cut(std::int32_t line) {
+        cut_job_ = number_;
+        cut_line_ = line;
+        outcome_ = JobOutcome::Stopped;
+    }
+    /// From the owner before.
+    void inherit(const MachineState& last) {
+        number_ = last.job;
+        begun_in_ = last.job_begun;
+        outcome_ = last.outcome;
+        cut_job_ = 0;
+    }
+
+    std::uint64_t number() const { return number_; }
+    const Term& begun_in() const { return begun_in_; }
+    const std::optional<JobOutcome>& outcome() const { return outcome_; }
+    std::int32_t line() const { return number_ == cut_job_ ? cut_line_ : 0; }
+
+private:
+    std::uint64_t number_ = 0;
+    Term begun_in_;
+    std::optional<JobOutcome> outcome_;  // of the last job that ended
+    std::uint64_t cut_job_ = 0;
+    std::int32_t cut_line_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,141 @@
+// What clients ask of the job: done, or refused with the reason and the remedy.
+#include <algorithm>
+
+#include "core/coordinator/jobs/job_runner.hpp"
+
+namespace lockstep {
+namespace {
+
+std::expected<std::shared_ptr<const Program>, Refusal> program_of(const Command& command, const CoordinatorLoop& loop) {
+    auto program = loop.programs.find(command.program);
+    if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived whole"); }
+    return program;
+}
+
+}  // namespace
+
+void JobRunner::begin(JobKind kind, const Command& command, std::vector<std::int64_t> start_counts,
+                      CoordinatorLoop& loop) {
+    const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
+    job_ = MachineJob{.number = count_.begin(loop.term),
+                      .kind = kind,
+                      .program_id = is_path ? command.program : 0,
+                      .program = kind == JobKind::Home ? nullptr : loop.programs.find(command.program)};
+    loop.out.jobs.push_back({.kind = JobEvent::Kind::Begun,
+                             .job = job_->number,
+                             .job_kind = kind,
+                             .program = job_->program,
+                             .program_id = job_->program_id,
+                             .start_counts = std::move(start_counts)});
+}
+
+CommandResult JobRunner::home(const Command& command, CoordinatorLoop& loop) {
+    if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
+    const AxisSet all = all_axes(loop.axes.size());
+    if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "no such axis"); }
+    homing_ = HomingSequence(command.axes == 0 ? all : command.axes);
+    intent_ = Intent::GoOn;
+    begin(JobKind::Home, command, {}, loop);
+    loop.enter(MachinePhase::Homing);
+    home_next_group(loop);
+    return {};
+}
+
+CommandResult JobRunner::run(const Command& command, CoordinatorLoop& loop) {
+    if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
+    const auto program = program_of(command, loop);
+    if (!program) { return std::unexpected(program.error()); }
+    if (auto homed = check_homed(loop); !homed) { return homed; }
+    if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
+    const AxisCounts start = loop.axes.counts();
+    auto plan = path_.planner().plan(**program, start);
+    if (!plan) {
+        const std::string line = plan.error().line > 0 ? "line " + std::to_string(plan.error().line) + ": " : "";
+        return refuse(plan.error().fault, line + plan.error().text);
+    }
+    begin(command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run, command, {start.begin(), start.end()},
+          loop);
+    path_.load(*job_, std::move(*plan));
+    follow(path_.begin_leg(loop), loop);
+    return {};
+}
+
+CommandResult JobRunner::move_own(const Command& command, CoordinatorLoop& loop) {
+    if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
+    const auto program = program_of(command, loop);
+    if (!program) { return std::unexpected(program.error()); }
+    const auto plan = path_.planner().plan(**program, loop.axes.counts());
+    if (!plan) { return refuse(plan.error().fault, plan.error().text); }
+    auto targets = OwnTargets::plan(*plan, command.ticks, loop, begin_steps_);
+    if (!targets) { return std::unexpected(targets.error()); }
+    own_ = std::move(*targets);
+    intent_ = Intent::GoOn;
+    begin(JobKind::MoveOwn, command, own_.from(), loop);
+    own_.order(loop);
+    loop.enter(MachinePhase::Running);
+    return {};
+}
+
+CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
+    if (axes_move_alone()) { return interrupt_alone(intent, loop); }
+    if (loop.condition.is_held()) {
+        if (intent == Intent::Hold) { return refuse(FaultCode::Held, "it is held or paused already"); }
+        end(JobOutcome::Stopped, loop);
+        return {};
+    }
+    if (inherited_.exists()) {
+        cut_inherited(TakeoverDoubt::Interrupted, loop);
+        return {};
+    }
+    if (!path_.is_moving()) { return refuse(FaultCode::NothingToDo, "nothing is in motion that could be interrupted"); }
+    if (intent == Intent::Hold && intent_ > Intent::Hold) {
+        return refuse(FaultCode::Busy, "the machine is stopping, and drops the job");
+    }
+    intent_ = std::max(intent_, intent);
+    path_.stop(loop.slot);
+    loop.enter(MachinePhase::Stopping);
+    return {};
+}
+
+/// Homing cannot go on from where it was held: a hold ends it as a stop does.
+CommandResult JobRunner::interrupt_alone(Intent intent, CoordinatorLoop& loop) {
+    if (intent == Intent::Hold && job_->kind == JobKind::MoveOwn) {
+        return refuse(FaultCode::Busy,
+                      "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
+    }
+    intent_ = std::max(intent_, Intent::Stop);
+    halt_alone(loop);
+    loop.enter(MachinePhase::Stopping);
+    return {};
+}
+
+CommandResult JobRunner::resume(CoordinatorLoop& loop) {
+    if (loop.condition.phase() == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
+    if (!loop.condition.is_held()) { return refuse(FaultCode::NothingToDo, "nothing is held or paused"); }
+    if (auto present = check_present(loop); !present) { return present; }
+    if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
+    const bool is_paused = loop.condition.phase() == MachinePhase::Paused;
+    follow(is_paused ? path_.begin_leg(loop) : path_.go_on(loop), loop);
+    return {};
+}
+
+CommandResult JobRunner::turn(const Command& command, const CoordinatorLoop& loop) {
+    if (loop.machine.coordination == StepMethod::Lai) {
+        return refuse(FaultCode::NothingToDo,
+                      "coordination LAI gives whole pulses to each period and knows no overrides; set "
+                      "coordination: RANADE for them");
+    }
+    for (const int percent : {command.feed_percent, command.rapid_percent}) {
+        if (percent == 0 || Overrides::allows(percent)) { continue; }
+        return refuse(FaultCode::BadProgram, "an override of " + std::to_string(percent) + " % is not within " +
+                                                 std::to_string(Overrides::kLeast) + " to " +
+                                                 std::to_string(Overrides::kMost) + " %");
+    }
+    Overrides overrides = path_.overrides();
+    if (command.feed_percent != 0) { overrides.feed_percent = command.feed_percent; }
+    if (command.rapid_percent != 0) { overrides.rapid_percent = command.rapid_percent; }
+    path_.turn(overrides, job_ && !job_->is_alone());
+    return {};
+}
+
+}  // namespace lockstep

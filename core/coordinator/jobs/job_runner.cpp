@@ -1,0 +1,197 @@
+#include "core/coordinator/jobs/job_runner.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/check.hpp"
+
+namespace lockstep {
+
+void JobRunner::advance(CoordinatorLoop& loop) {
+    if (path_.is_moving()) { return advance_path(loop); }
+    if (loop.condition.phase() == MachinePhase::Homing) { return advance_homing(loop); }
+    if (axes_move_alone()) { advance_alone(loop); }
+}
+
+void JobRunner::advance_path(CoordinatorLoop& loop) {
+    if (const auto end = path_.advance(loop)) { return settle(*end, loop); }
+    if (path_.is_overdue()) { give_up_epoch(loop); }
+}
+
+void JobRunner::home_next_group(CoordinatorLoop& loop) {
+    const AxisSet group = homing_.next_group(loop.machine);
+    if (group == 0) { return end(JobOutcome::Done, loop); }
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (has_axis(group, i)) { (void)loop.order(i, AxisCommandKind::Home); }
+    }
+}
+
+void JobRunner::advance_homing(CoordinatorLoop& loop) {
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (!loop.is_order_done(i)) { return; }
+        const auto& order = loop.orders.newest(i);
+        const auto& state = loop.axes.state(i);
+        const bool refused = order && state && state->command_fault != 0;
+        if (refused && order->kind == AxisCommandKind::Home) {
+            return fail(static_cast<FaultCode>(state->command_fault), i, loop);
+        }
+    }
+    home_next_group(loop);
+}
+
+void JobRunner::advance_alone(CoordinatorLoop& loop) {
+    const AxisSet axes = job_->kind == JobKind::Home ? homing_.axes() : own_.axes();
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (loop.axes.is_present(i, loop.slot) && !loop.is_order_done(i)) { return; }
+    }
+    if (intent_ == Intent::Abort) { return end_failed(loop); }
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (!has_axis(axes, i) || !loop.axes.state(i)) { continue; }
+        const AxisState& state = *loop.axes.state(i);
+        if (state.command_fault != 0) { return fail(static_cast<FaultCode>(state.command_fault), i, loop); }
+        if (intent_ != Intent::GoOn) { continue; }
+        if (state.position.count() != own_.target(i)) { return fail(FaultCode::PositionMismatch, i, loop); }
+    }
+    end(intent_ == Intent::Stop ? JobOutcome::Stopped : JobOutcome::Done, loop);
+}
+
+/// An emergency stop ordered before stays the newest order.
+void JobRunner::halt_alone(CoordinatorLoop& loop) {
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes);
+        if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
+    }
+}
+
+/// Every axis is at rest.
+void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
+    loop.out.epoch_end = {end_of_epoch.kind, intent_};
+    path_.end_epoch(end_of_epoch, loop.machine);
+    if (intent_ == Intent::Abort) { return end_failed(loop); }
+    switch (end_of_epoch.kind) {
+        case EpochEnd::Kind::FramesDiffer: return fail(FaultCode::FramesDiffer, end_of_epoch.axis, loop);
+        case EpochEnd::Kind::Misplaced: return fail(FaultCode::PositionMismatch, end_of_epoch.axis, loop);
+        case EpochEnd::Kind::Interrupted: return interrupted(end_of_epoch, loop);
+        case EpochEnd::Kind::Complete: break;
+    }
+    if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
+    if (intent_ == Intent::GoOn) { return follow(path_.end_leg(loop), loop); }
+    path_.hold_behind_leg();
+    loop.enter(MachinePhase::Paused);
+}
+
+void JobRunner::interrupted(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
+    const bool may_go_on = path_.interrupt(end_of_epoch);
+    if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
+    if (intent_ == Intent::Hold) { return loop.enter(MachinePhase::Holding); }
+    loop.notice({CoordinatorNotice::Kind::Interrupted, FaultCode::FrameLate, end_of_epoch.ran});
+    if (!may_go_on) { return fail(FaultCode::FrameLate, 0, loop); }
+    follow(path_.go_on(loop), loop);
+}
+
+/// The fault names an axis that does not come to rest.
+void JobRunner::give_up_epoch(CoordinatorLoop& loop) {
+    fail(FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0), loop);
+    path_.give_up_epoch();
+    end_failed(loop);
+}
+
+void JobRunner::follow(PathJob::Next next, CoordinatorLoop& loop) {
+    switch (next) {
+        case PathJob::Next::Moves: intent_ = Intent::GoOn; return;
+        case PathJob::Next::Pauses: return loop.enter(MachinePhase::Paused);
+        case PathJob::Next::IsDone: return end(JobOutcome::Done, loop);
+    }
+}
+
+void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
+    if (!job_) { return; }
+    loop.out.jobs.push_back(
+        {.kind = JobEvent::Kind::Ended, .job = job_->number, .job_kind = job_->kind, .outcome = outcome});
+    job_.reset();
+    count_.end(outcome);
+    loop.enter(MachinePhase::Idle);
+}
+
+void JobRunner::end_failed(CoordinatorLoop& loop) {
+    end(JobOutcome::Failed, loop);
+    loop.enter(MachinePhase::Fault);
+}
+
+void JobRunner::fail(FaultCode fault, std::size_t axis, CoordinatorLoop& loop) {
+    if (!loop.condition.latch(fault, axis, loop.out.notices)) { return; }
+    if (in_motion()) {
+        intent_ = Intent::Abort;
+        path_.is_moving() ? path_.stop(loop.slot) : halt_alone(loop);
+        return loop.enter(MachinePhase::Stopping);
+    }
+    doubt_inherited(loop);
+    end_failed(loop);
+}
+
+void JobRunner::take_over(const std::optional<MachineState>& last, CoordinatorLoop& loop) {
+    if (!last || last->job < count_.number()) { return; }
+    count_.inherit(*last);
+    path_.inherit(last->overrides);
+    if (last->job == 0 || last->outcome) { return; }
+    inherited_.begin(*last);
+    if (const auto doubt = inherited_.doubt(loop)) { cut_inherited(*doubt, loop); }
+}
+
+void JobRunner::go_on_with_inherited(CoordinatorLoop& loop) {
+    if (!inherited_.exists()) { return; }
+    const MachineState& last = inherited_.last();
+    const auto program = loop.programs.find(last.program);
+    check(program != nullptr, "the program of an inherited job is known");
+    auto rest = inherited_.rest(*program, loop);
+    if (!rest) { return cut_inherited(rest.error(), loop); }
+    loop.notice({CoordinatorNotice::Kind::JobContinued, FaultCode::None, static_cast<std::uint64_t>(last.line)});
+    job_ = MachineJob{.number = count_.number(), .kind = last.job_kind, .program_id = last.program, .program = program};
+    path_.load(*job_, std::move(*rest), last.progress);
+    inherited_.end();
+    follow(path_.go_on(loop), loop);
+}
+
+void JobRunner::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
+    if (!inherited_.exists()) { return; }
+    count_.cut(inherited_.last().line);
+    inherited_.end();
+    loop.notice(
+        {CoordinatorNotice::Kind::JobCutShort, FaultCode::None, static_cast<std::uint64_t>(count_.line()), doubt});
+}
+
+void JobRunner::drop(CoordinatorLoop& loop) {
+    end(JobOutcome::Stopped, loop);
+    cut_inherited(TakeoverDoubt::Interrupted, loop);
+}
+
+void JobRunner::stand_down() {
+    if (job_) { count_.end(JobOutcome::Stopped); }
+    job_.reset();
+    inherited_.forget();
+    path_.give_up_epoch();
+    intent_ = Intent::GoOn;
+}
+
+void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
+    const bool is_open = job_ || inherited_.exists();
+    state.job = count_.number();
+    state.outcome = is_open ? std::nullopt : count_.outcome();
+    state.job_begun = count_.begun_in();
+    state.line = count_.line();
+    path_.report_epoch(state);
+    if (job_ && job_->kind == JobKind::MoveOwn) {
+        state.progress = own_.progress(loop.axes);
+        state.remaining_s = own_.remaining_s(loop.now, loop.machine);
+    }
+    if (inherited_.exists()) {
+        state.line = inherited_.last().line;
+        state.progress = inherited_.last().progress;
+    }
+    if (!path_.is_moving()) { return; }
+    path_.report_progress(state, loop.machine);
+    if (intent_ == Intent::GoOn) { path_.report_rests(state, loop.axes); }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,85 @@
+// The job of the machine: begun for a client, inherited at a takeover, interrupted, resumed and ended.
+#pragma once
+
+#include <optional>
+
+#include "core/coordinator/jobs/homing_sequence.hpp"
+#include "core/coordinator/jobs/inherited_job.hpp"
+#include "core/coordinator/jobs/job.hpp"
+#include "core/coordinator/jobs/own_targets.hpp"
+#include "core/coordinator/jobs/path_job.hpp"
+#include "core/coordinator/state/refusal.hpp"
+
+namespace lockstep {
+
+class JobRunner {
+public:
+    JobRunner(const MachineConfig& machine, std::uint64_t config_hash, BeginSteps begin_steps,
+              std::optional<OnTakeover> on_takeover)
+        : begin_steps_(begin_steps), path_(machine), inherited_(on_takeover, config_hash) {}
+
+    // Commands of clients.
+    CommandResult home(const Command& command, CoordinatorLoop& loop);
+    CommandResult run(const Command& command, CoordinatorLoop& loop);
+    CommandResult move_own(const Command& command, CoordinatorLoop& loop);
+    CommandResult interrupt(Intent intent, CoordinatorLoop& loop);
+    CommandResult resume(CoordinatorLoop& loop);
+    /// At any time: overrides hold until they are turned again.
+    CommandResult turn(const Command& command, const CoordinatorLoop& loop);
+
+    /// Each slot.
+    void advance(CoordinatorLoop& loop);
+    /// Every axis follows this coordinator and rests: goes on with an inherited job.
+    void go_on_with_inherited(CoordinatorLoop& loop);
+
+    /// A fault during motion stops it on the path first; Fault is entered at rest.
+    void fail(FaultCode fault, std::size_t axis, CoordinatorLoop& loop);
+    /// A person gives up the job, held or inherited.
+    void drop(CoordinatorLoop& loop);
+    /// An axis of an inherited job cannot be trusted.
+    void doubt_inherited(CoordinatorLoop& loop) { cut_inherited(TakeoverDoubt::AxisInDoubt, loop); }
+
+    /// This coordinator owns the machine now. `last`: the newest state of the owner before.
+    void take_over(const std::optional<MachineState>& last, CoordinatorLoop& loop);
+    /// Another one does: the axes have come to rest without this one.
+    void stand_down();
+    void note_interrupt(Slot now) { inherited_.note_interrupt(now); }
+
+    bool exists() const { return job_.has_value(); }
+    /// An epoch of frames is in progress.
+    bool is_on_path() const { return path_.is_moving(); }
+    bool in_motion() const { return is_on_path() || axes_move_alone(); }
+    std::uint64_t number() const { return count_.number(); }
+    void note_progress(Tick now) {
+        if (path_.is_moving()) { path_.note_progress(now); }
+    }
+    void report(MachineState& state, const CoordinatorLoop& loop) const;
+
+private:
+    bool axes_move_alone() const { return job_ && job_->is_alone(); }
+    void begin(JobKind kind, const Command& command, std::vector<std::int64_t> start_counts, CoordinatorLoop& loop);
+    void home_next_group(CoordinatorLoop& loop);
+    void advance_path(CoordinatorLoop& loop);
+    void advance_homing(CoordinatorLoop& loop);
+    void advance_alone(CoordinatorLoop& loop);
+    CommandResult interrupt_alone(Intent intent, CoordinatorLoop& loop);
+    void halt_alone(CoordinatorLoop& loop);
+    void settle(const EpochEnd& end, CoordinatorLoop& loop);
+    void interrupted(const EpochEnd& end, CoordinatorLoop& loop);
+    void give_up_epoch(CoordinatorLoop& loop);
+    void follow(PathJob::Next next, CoordinatorLoop& loop);
+    void end(JobOutcome outcome, CoordinatorLoop& loop);
+    void end_failed(CoordinatorLoop& loop);
+    void cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop);
+
+    BeginSteps begin_steps_;
+    JobCount count_;
+    std::optional<MachineJob> job_;
+    Intent intent_ = Intent::GoOn;
+    PathJob path_;
+    HomingSequence homing_;
+    OwnTargets own_;
+    InheritedJob inherited_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,89 @@
+// A job whose axes move together on a path: leg by leg, in epochs of frames. Each leg is planned when it begins, and
+// what is left of one after an interruption is run as an epoch of its own.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/coordinator/jobs/job.hpp"
+#include "core/coordinator/jobs/path_progress.hpp"
+#include "core/coordinator/jobs/takeover.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/path/program_plan.hpp"
+#include "core/coordinator/state/coordinator_loop.hpp"
+
+namespace lockstep {
+
+class PathJob {
+public:
+    explicit PathJob(const MachineConfig& machine)
+        : planner_(machine), runner_(machine), knows_places_(machine.coordination != StepMethod::Lai) {}
+
+    const ProgramPlanner& planner() const { return planner_; }
+    /// An epoch is in progress.
+    bool is_moving() const { return is_moving_; }
+    const Overrides& overrides() const { return overrides_; }
+
+    /// What follows when a leg was begun or has ended.
+    enum class Next : std::uint8_t { Moves, Pauses, IsDone };
+
+    /// Replaces the job before.
+    void load(const MachineJob& job, std::vector<Leg> legs);
+    void load(const MachineJob& job, JobRest rest, double progress);
+    Next begin_leg(CoordinatorLoop& loop);
+    /// What is left of the leg in progress; begins the next leg where nothing is left.
+    Next go_on(CoordinatorLoop& loop);
+    Next end_leg(CoordinatorLoop& loop);
+    /// The leg has ended, and the next is not to begin yet.
+    void hold_behind_leg() { ++leg_; }
+
+    /// Each slot of an epoch: sends frames. Returns how the epoch ended, when it has.
+    std::optional<EpochEnd> advance(CoordinatorLoop& loop);
+    /// No stop is waited for without end.
+    bool is_overdue() const { return runner_.is_overdue(); }
+    /// The epoch in progress comes to rest.
+    void stop(Slot slot) { runner_.stop(slot); }
+    void end_epoch(const EpochEnd& end, const MachineConfig& machine);
+    void give_up_epoch() { is_moving_ = false; }
+    /// All axes rest together on the path, proved by their counts. False: too many epochs in a row have run no frame.
+    bool interrupt(const EpochEnd& end);
+
+    /// From the next frame that is not made yet, and in jobs to come. `in_job`: one is in progress or held.
+    void turn(const Overrides& overrides, bool in_job);
+    void inherit(const Overrides& overrides) { overrides_ = overrides; }
+
+    void note_progress(Tick now) { progress_.note(into_path(now), left(now)); }
+    /// Of the epoch in progress, or the last one.
+    void report_epoch(MachineState& state) const;
+    void report_progress(MachineState& state, const MachineConfig& machine) const;
+    /// For another coordinator that may go on with the job.
+    void report_rests(MachineState& state, const AxisRoster& axes) const;
+
+private:
+    void begin_epoch(std::vector<PathMove> moves, PathPlace place, std::vector<Position> at, CoordinatorLoop& loop);
+    Epoch next_epoch(const CoordinatorLoop& loop);
+    void time_legs();
+    Subticks into_path(Tick now) const;
+    Subticks left(Tick now) const;
+
+    static constexpr int kMaxFruitless = 3;
+
+    ProgramPlanner planner_;
+    EpochRunner runner_;
+    bool knows_places_;  // a block is planned in one part, so that its place on the program tells where it was left
+    Overrides overrides_;
+    Epoch epoch_ = 0;  // the newest
+    bool is_moving_ = false;
+
+    // Of the job:
+    MachineJob job_;
+    std::vector<Leg> legs_;
+    std::size_t leg_ = 0;
+    PathProgress progress_;
+    PathPlace resume_;  // held or interrupted: where it goes on
+    std::vector<PathMove> remaining_;
+    std::vector<Position> positions_;
+    int fruitless_ = 0;  // epochs in a row that ran no frame
+};
+
+}  // namespace lockstep

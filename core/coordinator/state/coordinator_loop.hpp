@@ -1,0 +1,34 @@
+// What the parts of the coordinator share in one loop: the time, the machine, its axes and condition, and what the loop
+// gives back.
+#pragma once
+
+#include <string>
+
+#include "core/coordinator/axes/axis_orders.hpp"
+#include "core/coordinator/axes/axis_roster.hpp"
+#include "core/coordinator/state/coordinator_io.hpp"
+#include "core/coordinator/state/machine_condition.hpp"
+#include "core/coordinator/state/program_store.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+struct CoordinatorLoop {
+    const MachineConfig& machine;
+    AxisRoster& axes;
+    AxisOrders& orders;
+    const ProgramStore& programs;
+    MachineCondition& condition;
+    CoordinatorOutputs& out;
+    Tick now;
+    Slot slot = 0;
+    Term term;  // the coordinator's own, where it owns the machine
+
+    void notice(const CoordinatorNotice& notice) { out.notices.push_back(notice); }
+    void enter(MachinePhase phase) { condition.enter(phase, out.notices); }
+    AxisCommand& order(std::size_t axis, AxisCommandKind kind) { return orders.give(axis, kind, term); }
+    bool is_order_done(std::size_t axis) const { return orders.is_done(axis, axes); }
+    const std::string& name_of_axis(std::size_t axis) const { return machine.axes[axis].name; }
+};
+
+}  // namespace lockstep

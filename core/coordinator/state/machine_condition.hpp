@@ -1,0 +1,41 @@
+// The machine's phase, and the fault that it reports.
+#pragma once
+
+#include <vector>
+
+#include "core/coordinator/state/coordinator_io.hpp"
+#include "core/faults.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+class MachineCondition {
+public:
+    MachinePhase phase() const { return phase_; }
+    /// The first one since the last reset, and the axis that it names.
+    FaultCode fault() const { return fault_; }
+    std::size_t fault_axis() const { return fault_axis_; }
+    bool is_held() const { return phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused; }
+
+    void enter(MachinePhase phase, std::vector<CoordinatorNotice>& notices) {
+        if (phase == phase_) { return; }
+        phase_ = phase;
+        notices.push_back({CoordinatorNotice::Kind::Phase, FaultCode::None, static_cast<std::uint64_t>(phase)});
+    }
+    /// False: an earlier fault is still reported, and nothing has changed.
+    bool latch(FaultCode fault, std::size_t axis, std::vector<CoordinatorNotice>& notices) {
+        if (fault_ != FaultCode::None) { return false; }
+        fault_ = fault;
+        fault_axis_ = axis;
+        notices.push_back({CoordinatorNotice::Kind::Fault, fault, axis});
+        return true;
+    }
+    void clear_fault() { fault_ = FaultCode::None; }
+
+private:
+    MachinePhase phase_ = MachinePhase::Standby;
+    FaultCode fault_ = FaultCode::None;
+    std::size_t fault_axis_ = 0;
+};
+
+}  // namespace lockstep

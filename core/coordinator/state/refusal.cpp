@@ -1,0 +1,55 @@
+#include "core/coordinator/state/refusal.hpp"
+
+#include "core/protocol/names.hpp"
+
+namespace lockstep {
+
+CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion) {
+    const MachinePhase phase = loop.condition.phase();
+    if (auto present = check_present(loop); !present) { return present; }
+    if (const auto lacking = loop.axes.without_device(); lacking && phase != MachinePhase::Fault) {
+        return refuse(FaultCode::DeviceMissing,
+                      "axis " + loop.name_of_axis(*lacking) + " waits for its device; its log says for which");
+    }
+    if (phase == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
+    if (loop.condition.is_held()) { return refuse(FaultCode::Held, "a job is held or paused"); }
+    if (in_motion) { return refuse(FaultCode::Busy, "the machine is " + std::string(name_of(phase))); }
+    if (phase == MachinePhase::Idle) { return {}; }
+    return refuse(FaultCode::NotReady, "not every axis follows the coordinator and rests yet");
+}
+
+CommandResult check_present(const CoordinatorLoop& loop) {
+    const auto missing = loop.axes.missing(loop.slot);
+    if (!missing) { return {}; }
+    return refuse(FaultCode::AxisMissing, "axis " + loop.name_of_axis(*missing) + " is not heard");
+}
+
+CommandResult check_homed(const CoordinatorLoop& loop) {
+    const auto axis = loop.axes.not_homed();
+    if (!axis) { return {}; }
+    return refuse(FaultCode::NotHomed, "axis " + loop.name_of_axis(*axis) + " is not homed");
+}
+
+CommandResult check_clocks(const CoordinatorLoop& loop) {
+    const MachineConfig& machine = loop.machine;
+    const Ticks limit = machine.clock_error_to_begin();
+    const auto axis = loop.axes.uncertain(limit);
+    if (!axis) { return {}; }
+    const auto us = [&](Ticks t) {
+        return std::to_string(static_cast<std::int64_t>(Int128{t.value} * machine.tick_ns / 1000)) + " us";
+    };
+    return refuse(FaultCode::ClockUncertain,
+                  "axis " + loop.name_of_axis(*axis) + ": its clock may be " + us(loop.axes.state(*axis)->clock_error) +
+                      " off, the limit to begin is " + us(limit) + " (timing.clock_error_limit_us is " +
+                      std::to_string(machine.timing.clock_error_limit_us) +
+                      "); wait until the axis has heard the coordinator for some "
+                      "seconds, check the network to it, or give the slots more time");
+}
+
+std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {
+    const FaultText* text = find_fault(fault);
+    const std::string what = "the machine is in Fault: " + std::string(name_of(fault));
+    return refuse(FaultCode::InFault, text == nullptr ? what : what + ": " + remedy_text(*text));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,31 @@
+// Why a client's command is refused: with the value, the limit and the remedy, for a person.
+#pragma once
+
+#include <expected>
+#include <optional>
+#include <string>
+
+#include "core/coordinator/state/coordinator_loop.hpp"
+
+namespace lockstep {
+
+struct Refusal {
+    FaultCode why = FaultCode::None;
+    std::string text;
+};
+
+/// What becomes of a command: accepted, or refused.
+using CommandResult = std::expected<void, Refusal>;
+inline std::unexpected<Refusal> refuse(FaultCode why, std::string text) {
+    return std::unexpected(Refusal{why, std::move(text)});
+}
+
+/// A job can begin: every axis is present, follows this coordinator and rests, and nothing else is in progress.
+CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion);
+CommandResult check_present(const CoordinatorLoop& loop);
+CommandResult check_homed(const CoordinatorLoop& loop);
+/// Coordinated moves are for axes that agree on the time.
+CommandResult check_clocks(const CoordinatorLoop& loop);
+std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
+
+}  // namespace lockstep

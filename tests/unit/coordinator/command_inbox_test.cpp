@@ -1,0 +1,109 @@
+// Commands and programs as they arrive, and why a command is refused.
+#include "core/coordinator/command_inbox.hpp"
+
+#include "coordinator_parts.hpp"
+#include "core/coordinator/reply.hpp"
+
+namespace lockstep {
+namespace {
+
+TEST(CommandInbox, KeepsCommandsUntilTheyAreTaken) {
+    CommandInbox inbox;
+    const std::array commands{Command{.client = 1, .sequence = 1}, Command{.client = 2, .sequence = 1}};
+    inbox.receive(commands);
+    inbox.receive(commands);
+    EXPECT_EQ(inbox.take().size(), 4u);
+    EXPECT_TRUE(inbox.take().empty());
+}
+
+TEST(CommandInbox, KnowsCommandsThatWereAnswered) {
+    CommandInbox inbox;
+    Command command{.client = 1, .sequence = 5};
+    EXPECT_EQ(inbox.answer_to(command), nullptr);
+    inbox.note(reply_to(command, {}, 3));
+    ASSERT_NE(inbox.answer_to(command), nullptr);
+    EXPECT_EQ(inbox.answer_to(command)->job, 3u);
+    command.sequence = 4;
+    EXPECT_NE(inbox.answer_to(command), nullptr) << "older than the last";
+    command.sequence = 6;
+    EXPECT_EQ(inbox.answer_to(command), nullptr);
+}
+
+TEST(Reply, NamesTheReasonOfARefusal) {
+    const Reply reply = reply_to({.client = 1, .sequence = 5}, refuse(FaultCode::Busy, "the machine is Running"), 3);
+    EXPECT_EQ(reply.status, ReplyStatus::Refused);
+    EXPECT_EQ(reply.fault, static_cast<std::uint16_t>(FaultCode::Busy));
+    EXPECT_EQ(reply.text, "the machine is Running");
+    EXPECT_EQ(reply.job, 0u);
+}
+
+TEST(ProgramStore, KeepsTheNewestFewPrograms) {
+    ProgramStore programs;
+    for (std::uint64_t id = 1; id <= 5; ++id) { programs.accept(id, {.name = std::to_string(id)}); }
+    EXPECT_EQ(programs.find(1), nullptr);
+    ASSERT_NE(programs.find(2), nullptr);
+    programs.accept(5, {.name = "again"});
+    EXPECT_EQ(programs.find(5)->name, "again");
+    EXPECT_NE(programs.find(2), nullptr);
+}
+
+class Readiness : public CoordinatorParts {
+protected:
+    FaultCode refusal(bool in_motion = false) {
+        const CommandResult result = check_ready(loop(), in_motion);
+        return result ? FaultCode::None : result.error().why;
+    }
+    void enter(MachinePhase phase) { condition.enter(phase, out.notices); }
+};
+
+TEST_F(Readiness, NamesWhatKeepsAJobFromBeginning) {
+    EXPECT_EQ(refusal(), FaultCode::AxisMissing);
+    receive_all();
+    EXPECT_EQ(refusal(), FaultCode::NotReady);
+    enter(MachinePhase::Idle);
+    EXPECT_EQ(refusal(), FaultCode::None);
+    EXPECT_EQ(refusal(true), FaultCode::Busy);
+    enter(MachinePhase::Paused);
+    EXPECT_EQ(refusal(), FaultCode::Held);
+    enter(MachinePhase::Fault);
+    EXPECT_EQ(refusal(), FaultCode::InFault);
+}
+
+TEST_F(Readiness, NamesTheAxisThatHasNoDevice) {
+    receive_all();
+    enter(MachinePhase::Idle);
+    AxisState state = state_of(1);
+    state.unproved = static_cast<std::uint16_t>(FaultCode::DeviceMissing);
+    axes.take(state, slot);
+    const CommandResult result = check_ready(loop(), false);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().why, FaultCode::DeviceMissing);
+    EXPECT_NE(result.error().text.find("axis Y"), std::string::npos);
+}
+
+TEST_F(Readiness, RefusesCoordinatedMovesByAnUncertainClockWithTheLimit) {
+    receive_all();
+    EXPECT_TRUE(check_clocks(loop()));
+    AxisState state = state_of(0);
+    state.clock_error = machine.clock_error_to_begin() + Ticks{1};
+    axes.take(state, slot);
+    const CommandResult result = check_clocks(loop());
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().why, FaultCode::ClockUncertain);
+    EXPECT_NE(result.error().text.find("axis X"), std::string::npos);
+}
+
+TEST(MachineCondition, KeepsTheFirstFault) {
+    MachineCondition condition;
+    std::vector<CoordinatorNotice> notices;
+    EXPECT_TRUE(condition.latch(FaultCode::AxisLost, 1, notices));
+    EXPECT_FALSE(condition.latch(FaultCode::LimitHit, 0, notices));
+    EXPECT_EQ(condition.fault(), FaultCode::AxisLost);
+    EXPECT_EQ(condition.fault_axis(), 1u);
+    EXPECT_EQ(notices.size(), 1u);
+    condition.enter(condition.phase(), notices);
+    EXPECT_EQ(notices.size(), 1u) << "the phase has not changed";
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,147 @@
+// The parts of a job: its number and outcome, groups of homing, targets of own moves, progress on a path.
+#include <gtest/gtest.h>
+
+#include "coordinator_parts.hpp"
+#include "core/coordinator/jobs/homing_sequence.hpp"
+#include "core/coordinator/jobs/inherited_job.hpp"
+#include "core/coordinator/jobs/job.hpp"
+#include "core/coordinator/jobs/own_targets.hpp"
+#include "core/coordinator/jobs/path_progress.hpp"
+#include "core/methods/paper_steps.hpp"
+
+namespace lockstep {
+namespace {
+
+TEST(JobCount, ReportsTheLineOnlyOfTheJobThatATakeoverEnded) {
+    JobCount log;
+    EXPECT_EQ(log.begin({5, 1}), 1u);
+    log.cut(17);
+    EXPECT_EQ(log.line(), 17);
+    EXPECT_EQ(log.outcome(), JobOutcome::Stopped);
+    EXPECT_EQ(log.begin({6, 1}), 2u);
+    EXPECT_EQ(log.line(), 0);
+    EXPECT_EQ(log.begun_in(), (Term{6, 1}));
+}
+
+TEST(JobCount, GoesOnCountingFromTheOwnerBefore) {
+    JobCount log;
+    log.inherit({.job = 8, .outcome = JobOutcome::Done, .job_begun = {4, 4}});
+    EXPECT_EQ(log.number(), 8u);
+    EXPECT_EQ(log.outcome(), JobOutcome::Done);
+    EXPECT_EQ(log.begin({5, 1}), 9u);
+}
+
+TEST(HomingSequence, HomesAxesOfOneSequenceTogetherTheLowestFirst) {
+    MachineConfig machine{.name = "five"};
+    for (const int sequence : {2, 1, 2, 1, 3}) {
+        machine.axes.push_back({.name = "A"});
+        machine.axes.back().homing.sequence = sequence;
+    }
+    HomingSequence homing(0b01111);
+    EXPECT_EQ(homing.next_group(machine), 0b01010u);
+    EXPECT_EQ(homing.next_group(machine), 0b00101u);
+    EXPECT_EQ(homing.next_group(machine), 0u) << "the last axis was not asked for";
+}
+
+TEST(PathProgress, AddsUpToTheShareOfThePlannedTime) {
+    PathProgress progress;
+    progress.note(subticks(Ticks{250}), subticks(Ticks{750}));
+    EXPECT_DOUBLE_EQ(progress.share(), 0.25);
+    progress.note(subticks(Ticks{500}), subticks(Ticks{500}));
+    EXPECT_DOUBLE_EQ(progress.share(), 0.5);
+}
+
+TEST(PathProgress, NeverFallsWhenWhatIsLeftIsPlannedAnew) {
+    PathProgress progress;
+    progress.note(subticks(Ticks{500}), subticks(Ticks{500}));
+    progress.end_path(subticks(Ticks{400}));
+    progress.note({}, subticks(Ticks{2000}));
+    EXPECT_DOUBLE_EQ(progress.share(), 0.5);
+    progress.note(subticks(Ticks{1100}), subticks(Ticks{1000}));
+    EXPECT_DOUBLE_EQ(progress.share(), 0.75);
+}
+
+class OwnTargetsOfTwo : public CoordinatorParts {
+protected:
+    OwnTargetsOfTwo() { receive_all(); }
+    std::expected<OwnTargets, Refusal> targets(double x_mm, double y_mm, Ticks ticks = {}) {
+        accept(1, x_mm, y_mm);
+        const auto legs = ProgramPlanner(machine).plan(*programs.find(1), axes.counts()).value();
+        return OwnTargets::plan(legs, ticks, loop(), methods::begin_steps);
+    }
+};
+
+TEST_F(OwnTargetsOfTwo, OrderOnlyTheAxesThatMove) {
+    const auto to = targets(0, 30);
+    ASSERT_TRUE(to);
+    EXPECT_EQ(to->axes(), axis_bit(1));
+    CoordinatorLoop l = loop();
+    to->order(l);
+    EXPECT_FALSE(orders.newest(0));
+    EXPECT_EQ(orders.newest(1)->target_steps, 3000);
+}
+
+TEST_F(OwnTargetsOfTwo, ProgressIsThatOfTheAxisWithTheMostBeforeIt) {
+    const auto to = targets(20, 40);
+    AxisState x = state_of(0);
+    x.position = Position::steps(2000);
+    axes.take(x, slot);
+    AxisState y = state_of(1);
+    y.position = Position::steps(1000);
+    axes.take(y, slot);
+    EXPECT_DOUBLE_EQ(to->progress(axes), 0.25);
+}
+
+TEST_F(OwnTargetsOfTwo, RefuseAnAxisThatIsNotHomedAndATimeThatIsTooShort) {
+    EXPECT_EQ(targets(20, 40, Ticks{10}).error().why, FaultCode::BadProgram);
+    AxisState y = state_of(1);
+    y.homed = false;
+    axes.take(y, slot);
+    EXPECT_EQ(targets(20, 40).error().why, FaultCode::NotHomed);
+}
+
+class Inherited : public CoordinatorParts {
+protected:
+    Inherited() {
+        receive_all();
+        accept(1, 20, 40);
+        last.program = 1;
+        last.config_hash = 1;
+        last.stamp = slot;
+    }
+    MachineState last;
+};
+
+TEST_F(Inherited, IsNotGoneOnWithUnlessAskedFor) {
+    InheritedJob stops(OnTakeover::Stop, 1);
+    stops.begin(last);
+    EXPECT_EQ(stops.doubt(loop()), TakeoverDoubt::NotAsked);
+    InheritedJob continues(OnTakeover::Continue, 1);
+    continues.begin(last);
+    EXPECT_FALSE(continues.doubt(loop()));
+}
+
+TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
+    InheritedJob job(OnTakeover::Continue, 1);
+    const auto doubt_of = [&](const MachineState& state) {
+        job.begin(state);
+        return job.doubt(loop());
+    };
+    MachineState other = last;
+    other.program = 0;
+    EXPECT_EQ(doubt_of(other), TakeoverDoubt::NotRunning);
+    other.program = 2;
+    EXPECT_EQ(doubt_of(other), TakeoverDoubt::UnknownProgram);
+    other = last;
+    other.config_hash = 2;
+    EXPECT_EQ(doubt_of(other), TakeoverDoubt::OtherPlan);
+    axes.forget(1);
+    EXPECT_EQ(doubt_of(last), TakeoverDoubt::AxisInDoubt);
+    job.note_interrupt(slot);
+    EXPECT_EQ(doubt_of(last), TakeoverDoubt::Interrupted);
+    job.forget();
+    EXPECT_FALSE(job.exists());
+}
+
+}  // namespace
+}  // namespace lockstep

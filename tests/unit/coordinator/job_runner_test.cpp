@@ -1,0 +1,114 @@
+// A job by hand: begun, interrupted, failed and ended, with axes that report what the test lets them.
+#include "core/coordinator/jobs/job_runner.hpp"
+
+#include "coordinator_parts.hpp"
+#include "core/methods/paper_steps.hpp"
+
+namespace lockstep {
+namespace {
+
+class Running : public CoordinatorParts {
+protected:
+    Running() {
+        receive_all();
+        condition.enter(MachinePhase::Idle, out.notices);
+        accept(1, 20, 40);
+    }
+    template <typename Do>
+    auto ask(Do&& what) {
+        CoordinatorLoop l = loop();
+        return what(l);
+    }
+    FaultCode run() {
+        const CommandResult result =
+            ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 1}, l); });
+        return result ? FaultCode::None : result.error().why;
+    }
+    void pass_slot() {
+        ++slot;
+        receive_all();
+        ask([&](auto& l) { jobs.advance(l); });
+    }
+    JobRunner jobs{machine, 1, methods::begin_steps, std::nullopt};
+};
+
+TEST_F(Running, BeginsAnEpochAndSendsItsFrames) {
+    ASSERT_EQ(run(), FaultCode::None);
+    EXPECT_EQ(condition.phase(), MachinePhase::Running);
+    EXPECT_TRUE(has_job_event(JobEvent::Kind::Begun));
+    EXPECT_TRUE(has_job_event(JobEvent::Kind::EpochBegun));
+    EXPECT_TRUE(jobs.is_on_path());
+    for (int i = 0; i < 5 && out.frames.empty(); ++i) { pass_slot(); }
+    ASSERT_FALSE(out.frames.empty());
+    EXPECT_EQ(out.frames[0].number, 1u);
+    EXPECT_EQ(out.frames[0].term, term);
+}
+
+TEST_F(Running, RefusesAProgramThatHasNotArrived) {
+    const CommandResult result = ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 9}, l); });
+    EXPECT_EQ(result.error().why, FaultCode::UnknownProgram);
+    EXPECT_FALSE(jobs.exists());
+}
+
+TEST_F(Running, AFaultInMotionStopsOnThePathBeforeTheMachineIsInFault) {
+    ASSERT_EQ(run(), FaultCode::None);
+    ask([&](auto& l) { jobs.fail(FaultCode::AxisLost, 1, l); });
+    EXPECT_EQ(condition.phase(), MachinePhase::Stopping);
+    EXPECT_TRUE(jobs.is_on_path());
+    EXPECT_EQ(condition.fault_axis(), 1u);
+}
+
+TEST_F(Running, AFaultAtRestEndsInFaultAtOnce) {
+    ask([&](auto& l) { jobs.fail(FaultCode::AxisLost, 1, l); });
+    EXPECT_EQ(condition.phase(), MachinePhase::Fault);
+}
+
+TEST_F(Running, AHoldAfterAStopIsRefused) {
+    ASSERT_EQ(run(), FaultCode::None);
+    EXPECT_TRUE(ask([&](auto& l) { return jobs.interrupt(Intent::Stop, l); }));
+    EXPECT_EQ(ask([&](auto& l) { return jobs.interrupt(Intent::Hold, l); }).error().why, FaultCode::Busy);
+}
+
+TEST_F(Running, HomingEndsWhenEveryAxisHasDoneItsOrder) {
+    EXPECT_TRUE(ask([&](auto& l) { return jobs.home({.kind = CommandKind::Home}, l); }));
+    EXPECT_EQ(condition.phase(), MachinePhase::Homing);
+    finish_order(0);
+    ask([&](auto& l) { jobs.advance(l); });
+    EXPECT_TRUE(jobs.exists());
+    finish_order(1);
+    ask([&](auto& l) { jobs.advance(l); });
+    EXPECT_FALSE(jobs.exists());
+    EXPECT_TRUE(has_job_event(JobEvent::Kind::Ended));
+    EXPECT_EQ(condition.phase(), MachinePhase::Idle);
+}
+
+TEST_F(Running, HomingFailsWithTheFaultOfItsAxis) {
+    EXPECT_TRUE(ask([&](auto& l) { return jobs.home({.kind = CommandKind::Home}, l); }));
+    finish_order(0, FaultCode::HomeSwitchNotFound);
+    ask([&](auto& l) { jobs.advance(l); });
+    EXPECT_EQ(condition.fault(), FaultCode::HomeSwitchNotFound);
+    EXPECT_EQ(condition.phase(), MachinePhase::Stopping);
+    EXPECT_TRUE(orders.is_open(1, AxisCommandKind::Halt, axes)) << "the other axis is halted";
+}
+
+TEST_F(Running, OwnMovesEndAtTheirTargetsOrInAFault) {
+    EXPECT_TRUE(ask([&](auto& l) { return jobs.move_own({.kind = CommandKind::MoveOwn, .program = 1}, l); }));
+    EXPECT_FALSE(ask([&](auto& l) { return jobs.interrupt(Intent::Hold, l); })) << "they cannot be resumed";
+    finish_order(0);
+    finish_order(1);  // at 0 still, where neither was to go
+    ask([&](auto& l) { jobs.advance(l); });
+    EXPECT_EQ(condition.fault(), FaultCode::PositionMismatch);
+}
+
+TEST_F(Running, StandingDownForgetsTheJobWithoutARecord) {
+    ASSERT_EQ(run(), FaultCode::None);
+    jobs.stand_down();
+    EXPECT_FALSE(jobs.exists());
+    EXPECT_FALSE(jobs.in_motion());
+    MachineState state;
+    jobs.report(state, loop());
+    EXPECT_EQ(state.outcome, JobOutcome::Stopped);
+}
+
+}  // namespace
+}  // namespace lockstep
