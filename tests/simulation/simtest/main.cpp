@@ -34,6 +34,8 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults standby --axes 2
   limit      a switch is stuck, a slide is pushed, a device loses a frame:
                                                      lockstep-simtest --faults limit --axes 3
+  device     an axis's device dies, stops for a while, or is overwritten:
+                                                     lockstep-simtest --faults device --axes 3
   mixed      a half of the other kinds named, in each run:
                                                      lockstep-simtest --faults mixed,loss,clock
 
@@ -65,10 +67,11 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 32));
     app.add_flag("--long-searches", options.machine.long_searches,
                  "also machines that search their switches for minutes: about twice the time");
-    app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
+    app.add_option("--faults", options.faults,
+                   "none, all (a half of the kinds but device in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
-                               "corrupt", "stall", "clock", "override", "standby", "limit", "mixed", "all"}));
+                               "corrupt", "stall", "clock", "override", "standby", "limit", "device", "mixed", "all"}));
     app.footer(kKinds);
     app.add_option("--coverage", options.coverage, "a file for what the runs came to, as JSON");
     app.add_flag("--json", options.json, "the figures as JSON");

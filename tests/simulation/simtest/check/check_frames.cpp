@@ -123,12 +123,13 @@ private:
     }
 
     void check_distance(const EpochRuns& runs) {
-        FrameNumber least = runs.last[0].high, most = 0;
-        for (const LastFrame& last : runs.last) {
-            least = std::min(least, last.high);
-            most = std::max(most, last.low);
+        FrameNumber least = std::numeric_limits<FrameNumber>::max(), most = 0;
+        for (std::size_t i = 0; i < runs.last.size(); ++i) {
+            if (runs.lost_device[i]) { continue; }
+            least = std::min(least, runs.last[i].high);
+            most = std::max(most, runs.last[i].low);
         }
-        if (most > least + 1) { object({}, runs.parted, "axes more than one frame apart"); }
+        if (most > 0 && most > least + 1) { object({}, runs.parted, "axes more than one frame apart"); }
     }
 
     /// Where axes have parted, their coordinator enters Fault, and does not go on in a next epoch before.

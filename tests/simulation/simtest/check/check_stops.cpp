@@ -61,6 +61,19 @@ void check_cut_is_said(const Recording& recording, std::size_t i, const Track& t
     violations.push_back({"limit", i, track.start.value, {}, "its motion was cut short, and the machine goes on"});
 }
 
+/// A device that is lost for longer than its axis waits for it is a Fault by then, where nothing else goes wrong.
+void check_loss_is_said(const Recording& recording, const VirtualFault& fault, Violations& violations) {
+    constexpr Slot kNoticed = 10;  // from the axis's look to the coordinator's
+    const Ticks patience = recording.machine.slot_ticks() * (rules::silence_slots(recording.machine.timing) + kNoticed);
+    const bool alone = recording.faults.size() == 1 && !recording.lossy() && recording.emergencies.empty();
+    if (!alone || !fault.is_of_device() || fault.lasts <= patience) { return; }
+    const bool said = std::ranges::any_of(recording.machine_faults,
+                                          [&](Tick tick) { return fault.at <= tick && tick <= fault.at + patience; });
+    if (!said) {
+        violations.push_back({"device", fault.process, fault.at.value, {}, "its device is lost, and no Fault"});
+    }
+}
+
 }  // namespace
 
 Violations check_stops(const Recording& recording) {
@@ -71,7 +84,10 @@ Violations check_stops(const Recording& recording) {
             violations.push_back({"needless stop", {}, tick.value, {}, "the machine paused for nothing"});
         }
     }
-    for (const VirtualFault& fault : recording.faults) { check_limit(recording, fault, violations); }
+    for (const VirtualFault& fault : recording.faults) {
+        check_limit(recording, fault, violations);
+        check_loss_is_said(recording, fault, violations);
+    }
     for (std::size_t i = 0; i < recording.axes.size(); ++i) {
         for (const Track& track : recording.axes[i].tracks) { check_cut_is_said(recording, i, track, violations); }
     }

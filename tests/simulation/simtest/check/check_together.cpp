@@ -153,7 +153,10 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
     for (const VirtualFault& fault : recording.faults) {
         const bool ends =
             (fault.kind == VirtualFault::Kind::Crash || fault.is_of_plant()) && fault.process < until.size();
-        if (ends && fault.at >= job.began) { until[fault.process] = std::min(until[fault.process], fault.at); }
+        const bool in_job = fault.is_of_device() ? fault.end() >= job.began : fault.at >= job.began;
+        // A device that is lost takes along the steps that its axis had not read in its last loop.
+        const Ticks unread = fault.is_of_device() ? recording.machine.slot_ticks() : Ticks{};
+        if (ends && in_job) { until[fault.process] = std::min(until[fault.process], fault.at - unread); }
     }
     return until;
 }

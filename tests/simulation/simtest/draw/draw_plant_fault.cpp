@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lockstep::simtest {
 namespace {
@@ -24,6 +25,18 @@ VirtualFault draw_of(Draw& draw, const MachineConfig& machine, Kind kind, double
     return fault;
 }
 
+VirtualFault draw_loss(Draw& draw, const MachineConfig& machine) {
+    const Kind kind =
+        draw.any_of({Kind::KillDevice, Kind::KillDevice, Kind::StopDevice, Kind::StopDevice, Kind::Overwrite});
+    VirtualFault fault{.kind = kind, .process = draw.index(machine.axes.size())};
+    const auto silence = static_cast<double>(rules::silence_slots(machine.timing));
+    const bool is_short = kind == Kind::StopDevice && draw.chance(0.4);
+    const double slots = is_short ? draw.real(0.1, silence / 2) : silence * draw.magnitude(1.5, 20);
+    fault.lasts = {std::max<std::int64_t>(1, std::llround(slots * static_cast<double>(machine.slot_ticks().value)))};
+    fault.garbage = draw.chance(0.5);
+    return fault;
+}
+
 double slots_of(double seconds, const MachineConfig& machine) {
     return seconds * 1e6 / static_cast<double>(machine.timing.slot_us);
 }
@@ -43,6 +56,20 @@ PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine) {
     planned.edge = PlannedFault::Edge::FirstSend;
     const int until_moving = machine.timing.send_ahead_slots + machine.timing.frame_slots;
     planned.fault.lasts = std::max(planned.fault.lasts, machine.slot_ticks() * until_moving);
+    return planned;
+}
+
+PlannedFault draw_device_fault(Draw& draw, const MachineConfig& machine) {
+    PlannedFault planned{.fault = draw_loss(draw, machine)};
+    planned.frame = draw.chance(0.3) ? 1 : 1 + static_cast<FrameNumber>(draw.magnitude(1, 60));
+    planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
+    planned.slots = draw.chance(0.5) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
+    return planned;
+}
+
+PlannedFault draw_device_fault_of_homing(Draw& draw, const MachineConfig& machine) {
+    PlannedFault planned{.fault = draw_loss(draw, machine)};
+    planned.slots = slots_of(draw.magnitude(0.001, 5), machine);
     return planned;
 }
 

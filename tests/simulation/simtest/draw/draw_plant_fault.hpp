@@ -12,4 +12,9 @@ PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine);
 /// For a homing.
 PlannedFault draw_plant_fault_of_homing(Draw& draw, const MachineConfig& machine);
 
+/// A device that dies and is replaced, that stops for less or more than its axis tolerates, or whose registers are
+/// overwritten: in a job, or in a homing.
+PlannedFault draw_device_fault(Draw& draw, const MachineConfig& machine);
+PlannedFault draw_device_fault_of_homing(Draw& draw, const MachineConfig& machine);
+
 }  // namespace lockstep::simtest

@@ -159,6 +159,26 @@ void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
+/// Devices that are lost in jobs and homings, alone or shortly after what else goes wrong there. Drawn by itself, as
+/// overrides; the last job meets none.
+void give_device_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
+    Draw draw(seed ^ 0x0de71ce0de71ce00U);
+    if (mixed && draw.chance(0.7)) { return; }
+    scenario.tasks.push_back({scenario.tasks[0].program, {}, {}, {}});
+    if (draw.chance(0.3)) { scenario.homing_faults = {draw_device_fault_of_homing(draw, scenario.machine)}; }
+    for (std::size_t n = 0; n + 1 < scenario.tasks.size(); ++n) {
+        PlannedFault planned = draw_device_fault(draw, scenario.machine);
+        auto& faults = scenario.tasks[n].faults;
+        if (!faults.empty() && draw.chance(0.5)) {
+            planned.edge = PlannedFault::Edge::Before;
+            planned.slots = draw.real(0, 2.0 * scenario.machine.timing.frame_slots);
+        } else {
+            faults.clear();
+        }
+        faults.push_back(planned);
+    }
+}
+
 /// What is known of the time then changes from one exchange to the next. Drawn by itself, as overrides; the rest of a
 /// hop is the clocks'.
 void give_uneven_delays(std::uint64_t seed, Scenario& scenario) {
@@ -217,6 +237,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
     if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }
     if (asked.limit) { give_plant_faults(seed, asked.mixed, scenario); }
+    if (asked.device) { give_device_faults(seed, asked.mixed, scenario); }
     return scenario;
 }
 

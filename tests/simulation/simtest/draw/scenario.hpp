@@ -32,11 +32,15 @@ struct FaultKinds {
     bool mixed = false;  // each kind is there in half of the runs only
     bool override = false;
     bool standby = false;  // a second coordinator, and faults about takeovers
-    bool limit = false;    // switches, slides and devices
+    bool limit = false;    // switches, slides, and what a device holds
+    bool device = false;   // devices die, stop for a while, are overwritten
 
-    bool breaks_processes() const { return freeze || crash || partition || stall || clock || standby || limit; }
+    bool breaks_processes() const {
+        return freeze || crash || partition || stall || clock || standby || limit || device;
+    }
+    /// All but lost devices: with clocks of their own, a device that is lost silences its axis, which is then lost too.
     static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true};
+        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, false};
     }
 };
 

@@ -8,6 +8,9 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     if (!out.state) { return; }
     const AxisState& state = *out.state;
     const std::int64_t claimed = state.position.count();
+    const bool lacks_device = static_cast<FaultCode>(state.unproved) == FaultCode::DeviceMissing;
+    if (lacks_device && state.homed) { object(axis, now, "it says that it is homed, and that it has no device"); }
+    if (lacks_device || !has_device_[axis]) { return; }  // what it says is where the device was last seen
     if (claimed + node.controller().zero_count() != pulses_[axis]) {
         object(axis, now,
                "it says step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
@@ -21,6 +24,14 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
                    std::to_string(slide));
     }
     if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it says that it rests, and moves"); }
+}
+
+/// A device that takes another's place, or is powered up anew, counts from 0. While a device is stopped or its
+/// registers are overwritten, what it shows is not what it does; nor is it before its axis has looked at it again.
+void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
+    if (!fault.is_of_device()) { return; }
+    has_device_[fault.process] = !begins;
+    if (!begins && fault.kind != VirtualFault::Kind::StopDevice) { pulses_[fault.process] = 0; }
 }
 
 void ClaimCheck::object(std::size_t axis, Tick now, const std::string& what) {

@@ -11,17 +11,19 @@ namespace lockstep::simtest {
 class ClaimCheck : public VirtualObserver {
 public:
     ClaimCheck(VirtualMachine& vm, Recording& recording)
-        : vm_(vm), recording_(recording), pulses_(recording.axes.size(), 0) {}
+        : vm_(vm), recording_(recording), pulses_(recording.axes.size(), 0), has_device_(recording.axes.size(), true) {}
 
     void on_step(std::size_t axis, StepEdge step) override { pulses_[axis] += step.direction; }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
 private:
     void object(std::size_t axis, Tick now, const std::string& what);
 
     VirtualMachine& vm_;
     Recording& recording_;
-    std::vector<std::int64_t> pulses_;  // since power-up
+    std::vector<std::int64_t> pulses_;  // since the device's power-up
+    std::vector<bool> has_device_;      // and the axis has taken it
 };
 
 }  // namespace lockstep::simtest

@@ -61,6 +61,13 @@ LastFrame from_steps(const Recording& recording, const LostRun& lost, const Sent
     return found.value_or(any);
 }
 
+/// Struck before its last frame was over, however long ago: it may have stopped without its axis noticing.
+bool has_lost_device(const Recording& recording, const SentEpoch& epoch, std::size_t axis) {
+    const std::vector<VirtualFault> faults = faults_in(recording, epoch);
+    return std::ranges::any_of(
+        faults, [axis](const VirtualFault& fault) { return fault.is_of_device() && fault.process == axis; });
+}
+
 /// One fault at a time parts at most its victim. Several, or pulses that cease, may part anyone.
 std::vector<bool> may_differ(const Recording& recording, const SentEpoch& epoch) {
     const std::vector<VirtualFault> faults = faults_in(recording, epoch);
@@ -88,6 +95,7 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
             if (lost.epoch == number) { last = from_steps(recording, lost, epoch, i); }
         }
         runs.last.push_back(last);
+        runs.lost_device.push_back(has_lost_device(recording, epoch, i));
         least = std::min(least, last.high);
         most = std::max(most, last.low);
     }

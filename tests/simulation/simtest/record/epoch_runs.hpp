@@ -13,7 +13,8 @@ struct LastFrame {
 
 /// How the axes differ in an epoch, and what excuses it.
 struct EpochRuns {
-    std::vector<LastFrame> last;  // of each axis
+    std::vector<LastFrame> last;      // of each axis
+    std::vector<bool> lost_device{};  // a device that is lost stops anywhere
     std::vector<bool> may_differ;
     bool apart = false;          // they are not all the same
     std::optional<Tick> parted;  // apart: when the first frame that not all ran began

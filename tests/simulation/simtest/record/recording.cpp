@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/simulation/simtest/record/explain.hpp"
 
@@ -82,6 +83,9 @@ void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisN
         const auto* arm = std::get_if<device::Arm>(&order);
         if (arm != nullptr) { armed_[axis] = std::max(armed_[axis], arm->number); }
     }
+    if (!out.state) { return; }
+    const bool lacks = static_cast<FaultCode>(out.state->unproved) == FaultCode::DeviceMissing;
+    if (std::exchange(lacks_device_[axis], lacks) != lacks && lacks) { lose_run(axis, now); }
 }
 
 void Recorder::take_state(std::size_t axis, const AxisState& state, Tick now) {
@@ -132,7 +136,11 @@ void Recorder::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (!begins) { return; }
     recording_.faults.push_back(fault);
     const std::size_t i = fault.process;
-    if (fault.kind != VirtualFault::Kind::Crash || i >= recording_.axes.size()) { return; }
+    if (fault.kind == VirtualFault::Kind::Crash && i < recording_.axes.size()) { lose_run(i, now); }
+}
+
+/// What its device does from then on nobody says.
+void Recorder::lose_run(std::size_t i, Tick now) {
     AxisRecord& axis = recording_.axes[i];
     const bool some = !axis.tracks.empty() && axis.tracks.back().epoch == epoch_[i];
     axis.lost.push_back({now, axis.tracks.size(), epoch_[i], some ? axis.tracks.back().frame : 0, armed_[i]});

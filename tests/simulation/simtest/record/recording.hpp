@@ -37,7 +37,7 @@ struct PublishedBound {
     Ticks error;
 };
 
-/// A process ended in the middle of a run: its device ran on, and nobody says what.
+/// A process ended in the middle of a run, or lost its device: the device ran on, and nobody says what.
 struct LostRun {
     Tick at;
     std::size_t tracks = 0;  // recorded before
@@ -168,12 +168,14 @@ private:
     void take_notice(std::size_t axis, const AxisNotice& notice, const AxisNode& node);
     void take_state(std::size_t axis, const AxisState& state, Tick now);
     void take_notice(std::size_t process, const CoordinatorNotice& notice, Tick now);
+    void lose_run(std::size_t axis, Tick now);
     void keep(const Frame& frame, Tick now);
     void keep(const AxisCommand& order, Tick now);
 
     Recording& recording_;
     std::vector<Epoch> epoch_;        // the axes are in; 0: none
     std::vector<FrameNumber> armed_;  // in that epoch
+    std::map<std::size_t, bool> lacks_device_;
 };
 
 }  // namespace lockstep::simtest

@@ -90,8 +90,15 @@ void Bench::settle(double seconds) {
     const Ticks rest = machine().slot_ticks() * (t.send_ahead_slots + 2 * t.frame_slots);
     const Tick from = vm_.now();
     const Ticks limit{static_cast<std::int64_t>(std::ceil((seconds + outage_s_) * machine().ticks_per_second()))};
+    // What a device did while its axis lacked it is known when the axis has taken it again.
+    const auto has_device = [](const AxisState& axis) {
+        return static_cast<FaultCode>(axis.unproved) != FaultCode::DeviceMissing;
+    };
+    const auto is_over = [&](const VirtualFault& fault) { return !fault.is_of_device() || fault.end() < vm_.now(); };
     const auto settled = [&] {
-        return !vm_.faults_pending() && vm_.now() - from > rest && vm_.now() - watch_.moved() > rest;
+        return !vm_.faults_pending() && std::ranges::all_of(played_.recording.faults, is_over) &&
+               std::ranges::all_of(watch_.axes(), has_device) && vm_.now() - from > rest &&
+               vm_.now() - watch_.moved() > rest;
     };
     if (!vm_.advance_until(settled, limit + rest)) { object("liveness", "the machine does not come to rest"); }
 }

@@ -71,7 +71,7 @@ FaultKinds Options::kinds() const {
     if (has("all")) { return FaultKinds::all(); }
     return {has("delay"), has("reorder"),   has("duplicate"), has("loss"),  has("freeze"),
             has("crash"), has("partition"), has("corrupt"),   has("stall"), has("clock"),
-            has("mixed"), has("override"),  has("standby"),   has("limit")};
+            has("mixed"), has("override"),  has("standby"),   has("limit"), has("device")};
 }
 
 void Tally::add(const Verdict& verdict) {

@@ -83,7 +83,11 @@ void Trace::on_coordinator(std::size_t number, Tick now, const CoordinatorOutput
 }
 
 void Trace::on_fault(Tick now, const VirtualFault& fault, bool begins) {
-    constexpr std::array kKinds{"freeze", "crash", "cut", "clock set", "switch stuck", "push", "damaged frame"};
+    constexpr std::array kKinds{"freeze",        "crash",
+                                "cut",           "clock set",
+                                "switch stuck",  "push",
+                                "damaged frame", "device stopped",
+                                "device killed", "registers overwritten"};
     const std::string peer = fault.peer ? " from " + process(*fault.peer) : " from all";
     const std::string ways = std::string(fault.outgoing ? ", unheard" : "") + (fault.incoming ? ", deaf" : "");
     line(now, process(fault.process),
