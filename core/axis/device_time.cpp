@@ -22,12 +22,14 @@ DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
       pace_(machine.frame_ticks(), limits_of(machine.axes[axis], machine.tick_ns)) {}
 
 bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
-    device_ = device.now;
+    const bool stands_still = std::exchange(device_, device.now) == device.now;
     if (source_ != TimeSource::Network) {
         now_ = own;
         return true;
     }
-    if (!certain(own, device.shares_clock ? own : device.now) || !machine_.known()) { return false; }
+    const bool proves_nothing = stands_still && !device.shares_clock && shown_.known();
+    if (!proves_nothing && !certain(own, device.shares_clock ? own : device.now)) { return false; }
+    if (!machine_.known()) { return false; }
     now_ = machine_.advance(own, in_use);
     return true;
 }

@@ -202,5 +202,35 @@ TEST_F(OwnClocks, WithoutTheCoordinatorTheBoundGrows) {
     EXPECT_GT(widest_error(), before + 60);
 }
 
+/// Until it is given up (16 slots), a device whose clock stands still does not make its axis silent.
+TEST_F(OwnClocks, AxisGoesOnReportingWhileItsDeviceStandsStill) {
+    home();
+    wait(1);
+    const Tick between_looks = vm.now() + Ticks{333};
+    vm.schedule({.kind = VirtualFault::Kind::StopDevice, .process = 1, .at = between_looks, .lasts = {14'000}});
+    for (int slot = 0; slot < 20; ++slot) {
+        wait(0.001);
+        EXPECT_LE(vm.axis_states()[0]->stamp - vm.axis_states()[1]->stamp, 4) << "slot " << slot;
+    }
+    EXPECT_EQ(fault(), FaultCode::None) << describe();
+}
+
+TEST_F(OwnClocks, LostDeviceIsNamedAsTheCause) {
+    for (const auto kind : {VirtualFault::Kind::KillDevice, VirtualFault::Kind::StopDevice}) {
+        home();
+        wait(1);
+        ASSERT_EQ(run(program_of({{95, 95}, {5, 5}}, 20)).status, ReplyStatus::Accepted);
+        wait(1.5);
+        vm.schedule({.kind = kind, .process = 1, .at = vm.now(), .lasts = {2'000'000}});
+        ASSERT_TRUE(reaches(MachinePhase::Fault, 1)) << describe();
+        EXPECT_EQ(fault(), FaultCode::DeviceLost) << describe();
+        EXPECT_EQ(vm.state()->fault_axis, 1U);
+        wait(4);
+        ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+        wait(1);
+    }
+    home();
+}
+
 }  // namespace
 }  // namespace lockstep
