@@ -67,8 +67,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 32));
     app.add_flag("--long-searches", options.machine.long_searches,
                  "also machines that search their switches for minutes: about twice the time");
-    app.add_option("--faults", options.faults,
-                   "none, all (a half of the kinds but device in each run), or of the kinds below")
+    app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
                                "corrupt", "stall", "clock", "override", "standby", "limit", "device", "mixed", "all"}));

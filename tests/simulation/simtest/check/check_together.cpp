@@ -5,6 +5,7 @@
 
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/epoch_runs.hpp"
+#include "tests/simulation/simtest/record/explain.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -154,9 +155,8 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
         const bool ends =
             (fault.kind == VirtualFault::Kind::Crash || fault.is_of_plant()) && fault.process < until.size();
         const bool in_job = fault.is_of_device() ? fault.end() >= job.began : fault.at >= job.began;
-        // A device that is lost takes along the steps that its axis had not read in its last loop.
-        const Ticks unread = fault.is_of_device() ? recording.machine.slot_ticks() : Ticks{};
-        if (ends && in_job) { until[fault.process] = std::min(until[fault.process], fault.at - unread); }
+        if (!ends || !in_job) { continue; }
+        until[fault.process] = std::min(until[fault.process], unread_from(fault, recording.machine));
     }
     return until;
 }

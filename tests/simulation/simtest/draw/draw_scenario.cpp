@@ -237,7 +237,10 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
     if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }
     if (asked.limit) { give_plant_faults(seed, asked.mixed, scenario); }
-    if (asked.device) { give_device_faults(seed, asked.mixed, scenario); }
+    if (asked.device) {
+        give_device_faults(seed, asked.mixed, scenario);
+        scenario.resets_early = Draw(seed ^ 0x0ea717ea717ea717U).chance(0.3);
+    }
     return scenario;
 }
 

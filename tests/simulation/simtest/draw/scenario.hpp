@@ -38,9 +38,8 @@ struct FaultKinds {
     bool breaks_processes() const {
         return freeze || crash || partition || stall || clock || standby || limit || device;
     }
-    /// All but lost devices: with clocks of their own, a device that is lost silences its axis, which is then lost too.
     static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, false};
+        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, true};
     }
 };
 
@@ -115,6 +114,7 @@ struct Scenario {
     std::vector<WrongCommand> before_homing;
     std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
     bool asks_in_fault = false;                // for a homing, which must then be refused
+    bool resets_early = false;                 // while a fault may still last
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 

@@ -135,11 +135,15 @@ std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const Machine
     return fault.process;
 }
 
+Tick unread_from(const VirtualFault& fault, const MachineConfig& machine) {
+    return fault.is_of_device() ? fault.at - machine.slot_ticks() : fault.at;
+}
+
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
     return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
         const bool mine = fault.is_of_plant() && fault.process == axis;
         const bool over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
-        return mine && !over && fault.at <= until;
+        return mine && !over && unread_from(fault, recording.machine) <= until;
     });
 }
 

@@ -83,9 +83,21 @@ void Bench::wait(double seconds) {
     while (vm_.now() < until) { vm_.advance(); }
 }
 
+/// As an impatient person does: an axis or a device may still be missing, so the machine can do nothing then.
+void Bench::reset_early() {
+    constexpr std::uint64_t kNeverSent = 0;
+    (void)ask(CommandKind::Reset);
+    const Reply* reply = ask(CommandKind::Run, kNeverSent);
+    if (reply != nullptr && reply->status == ReplyStatus::Accepted) {
+        object("refusal", "a program never sent is run");
+    }
+}
+
 void Bench::settle(double seconds) {
     if (over_) { return; }
     vm_.withdraw_faults();
+    if (scenario_.resets_early && faulted()) { reset_early(); }
+    if (over_) { return; }
     const ProtocolTiming& t = machine().timing;
     const Ticks rest = machine().slot_ticks() * (t.send_ahead_slots + 2 * t.frame_slots);
     const Tick from = vm_.now();
@@ -105,6 +117,21 @@ void Bench::settle(double seconds) {
 
 const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
     return over_ ? nullptr : await_reply(vm_.command(kind, 0, program));
+}
+
+const Reply* Bench::ask_in_time(CommandKind kind, std::uint64_t program) {
+    constexpr double kLearning_s = 10;
+    const Tick patience = vm_.now() + Ticks{std::llround(kLearning_s * machine().ticks_per_second())};
+    const auto is_too_soon = [](const Reply& reply) {
+        return reply.status == ReplyStatus::Refused &&
+               reply.fault == static_cast<std::uint16_t>(FaultCode::ClockUncertain);
+    };
+    const Reply* reply = ask(kind, program);
+    while (reply != nullptr && is_too_soon(*reply) && vm_.now() < patience) {
+        wait(0.5);
+        reply = ask(kind, program);
+    }
+    return reply;
 }
 
 const Reply* Bench::turn(const Overrides& overrides) { return over_ ? nullptr : await_reply(vm_.turn(overrides)); }

@@ -37,6 +37,8 @@ public:
 
     /// Commands and waits for the answer, repeating itself where messages may be lost. Null: the run is over.
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
+    /// The same, but a refusal because of uncertain clocks is obeyed first: it tells the client to wait and ask again.
+    const Reply* ask_in_time(CommandKind kind, std::uint64_t program = 0);
     const Reply* turn(const Overrides& overrides);
     /// The faults that the next job meets.
     void plan(const std::vector<PlannedFault>& faults) { placer_.plan(faults); }
@@ -57,6 +59,7 @@ public:
 
 private:
     const Reply* await_reply(std::uint64_t sequence);
+    void reset_early();
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of whoever is asked
 
     /// Whoever has taken over may have heard a command while it stood by, and answers it when it comes again. Nobody

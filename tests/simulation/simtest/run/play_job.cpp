@@ -79,7 +79,7 @@ void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
     const Tick asked = bench.vm().now();
     std::uint64_t program = 0;
     if (wrong.program) { program = bench.send_program(starting_at(at, bench.machine(), *wrong.program)); }
-    const Reply* reply = bench.ask(wrong.kind, program);
+    const Reply* reply = bench.ask_in_time(wrong.kind, program);
     if (reply == nullptr) { return; }
     const bool otherwise = reply->status == ReplyStatus::Refused && bench.disturbed_since(asked);
     if (!otherwise && !is_refusal(*reply, wrong.refusal)) {
@@ -178,24 +178,12 @@ bool JobPlayer::start() {
     job_.course = course_of(task_.program, bench_.machine(), at_, bench_.most_feed());
     job_.first_step = bench_.steps_made();
     const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
-    const Reply* reply = ask_in_time(CommandKind::Run, program);
+    const Reply* reply = bench_.ask_in_time(CommandKind::Run, program);
     if (reply == nullptr) { return false; }
     begun_ = reply->status == ReplyStatus::Accepted;
     if (!begun_) { refused("refusal", *reply); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
-}
-
-/// As a person does who is told to wait until the clocks are known well enough.
-const Reply* JobPlayer::ask_in_time(CommandKind kind, std::uint64_t program) {
-    constexpr double kLearning_s = 10;
-    const Tick patience = bench_.vm().now() + Ticks{std::llround(kLearning_s * bench_.machine().ticks_per_second())};
-    const Reply* reply = bench_.ask(kind, program);
-    while (reply != nullptr && is_refusal(*reply, FaultCode::ClockUncertain) && bench_.vm().now() < patience) {
-        bench_.wait(0.5);
-        reply = bench_.ask(kind, program);
-    }
-    return reply;
 }
 
 /// What an undisturbed machine does not refuse.
@@ -279,7 +267,7 @@ void JobPlayer::give(const WrongCommand& wrong) {
 
 void JobPlayer::resume() {
     if (ended()) { return; }
-    const Reply* reply = ask_in_time(CommandKind::Resume);
+    const Reply* reply = bench_.ask_in_time(CommandKind::Resume);
     if (reply == nullptr) { return; }
     if (reply->status != ReplyStatus::Accepted) { return refused("resume", *reply); }
     moving_since_ = bench_.vm().now();

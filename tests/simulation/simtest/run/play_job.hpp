@@ -24,7 +24,6 @@ private:
     void give(const WrongCommand& wrong);
     void resume();
     void record();
-    const Reply* ask_in_time(CommandKind kind, std::uint64_t program = 0);
     void refused(const char* what, const Reply& reply);
     bool disturbed() const { return bench_.disturbed_since(job_.began); }
     bool ended() const { return bench_.watch().outcome().has_value(); }
