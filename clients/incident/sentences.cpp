@@ -174,7 +174,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::Phase: return phase_words(incident, entry);
         case Kind::Started: return "starts";
         case Kind::Reopened:
-            return fmt::format("opens its DDS participant anew: {}", text_of(static_cast<ReopenReason>(event.detail)));
+            return fmt::format("opens its DDS participant again: {}", text_of(static_cast<ReopenReason>(event.detail)));
         case Kind::Stalled: return fmt::format("its loop has not run for {}", duration(lasts));
         case Kind::LoopStuck: return fmt::format("its loop has not run for {}: it ends itself", duration(lasts));
         case Kind::Loops:

@@ -50,7 +50,7 @@ Session::Session(const ChosenMachine& machine, Bus bus)
       healths_(axes_.size()) {}
 
 std::expected<Session, Failure> Session::join(const ChosenMachine& machine, Purpose purpose) {
-    hear_dds([](const std::string&) {});  // for silent(): only the verb writes to the terminal
+    forward_dds_log([](const std::string&) {});  // for silent(): only the verb writes to the terminal
     const bool looks = purpose == Purpose::Look;
     auto admission = admit(machine.config, looks ? viewer_member() : client_member());
     if (!admission) { return std::unexpected(failed(admission.error())); }
@@ -185,7 +185,7 @@ std::string Session::present_axes() const {
 }
 
 Failure Session::silent() const {
-    const std::string refused = dds_said_last().empty() ? "" : " (DDS says: " + dds_said_last() + ")";
+    const std::string refused = last_dds_message().empty() ? "" : " (DDS says: " + last_dds_message() + ")";
     const std::string none = "no coordinator of " + place_text() + refused;
     if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
         const std::string waiting = present_axes();

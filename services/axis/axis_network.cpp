@@ -53,7 +53,7 @@ const AxisReceived& AxisNetwork::receive() {
     if (link->clock) { received_.exchanges = link->clock->take(); }
     bus.frames.take([&](Frame&& m) { received_.frames.push_back(std::move(m)); });
     bus.states.take([&](AxisState&& m) {
-        axes_heard_ |= axis_bit(m.axis);
+        axes_received_ |= axis_bit(m.axis);
         received_.states.push_back(m);
     });
     bus.machine.take([&](MachineState&& m) {
@@ -66,7 +66,7 @@ const AxisReceived& AxisNetwork::receive() {
     });
     bus.commands.take([&](AxisCommand&& m) { received_.commands.push_back(m); });
     bus.requests.take([&](Command&& m) { received_.requests.push_back(m); });
-    machine_heard_ = machine_heard_ || !received_.machine.empty();
+    machine_received_ = machine_received_ || !received_.machine.empty();
     refused_now_ = refused_by(bus);
     return received_;
 }
@@ -96,14 +96,14 @@ Reception AxisNetwork::look(const AxisLink& link, bool at_rest) {
     const AxisBus& bus = link.bus;
     topics_ = {bus.frames.reception(), bus.states.reception(), bus.machine.reception(), bus.commands.reception(),
                bus.requests.reception()};
-    const AxisSet heard = std::exchange(axes_heard_, 0);
-    const bool is_machine_heard = std::exchange(machine_heard_, false);
+    const AxisSet received = std::exchange(axes_received_, 0);
+    const bool is_machine_received = std::exchange(machine_received_, false);
     const Acknowledged by = std::exchange(acknowledged_, {});
-    const bool is_axis_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(heard)) ||
-                                (is_machine_heard && (others_ & ~heard) != 0);
+    const bool is_axis_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(received)) ||
+                                (is_machine_received && (others_ & ~received) != 0);
     return {.change = change_of(bus),
-            .is_peer_silent = is_axis_silent || (bus.machine.matched() > 0 && !is_machine_heard),
-            .is_peer_missing = !is_machine_heard,
+            .is_peer_silent = is_axis_silent || (bus.machine.matched() > 0 && !is_machine_received),
+            .is_peer_missing = !is_machine_received,
             .is_unreceived = by.has_published && by.is_owner_received && !by.is_received,
             .may_reopen = at_rest,
             .topics = topics_};

@@ -1,5 +1,5 @@
-// What an axis's process receives and publishes, and its link to the others, which is opened anew when it has ceased to
-// deliver.
+// What an axis's process receives and publishes, and its link to the other processes. The link is opened again when it
+// no longer delivers.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace lockstep {
 
 struct AxisLink {
     AxisBus bus;
-    std::unique_ptr<ClockClient> clock;  // where the coordinator is asked for the time
+    std::unique_ptr<ClockClient> clock;  // asks the coordinator for the time
 };
 
 /// The messages of one loop.
@@ -45,19 +45,19 @@ public:
     /// Error: as open_bus.
     static std::expected<AxisNetwork, std::string> open(const Setup& setup);
 
-    /// What came since the last call; nothing while the link is being opened anew.
+    /// The messages received since the last call; none while the link is being opened again.
     const AxisReceived& receive();
     void publish(const AxisState& state);
-    /// Where another process that publishes as this axis runs, by DDS's discovery; empty: it is not found.
+    /// The host of another process that publishes as this axis, from DDS discovery; empty: not found.
     std::string host_of_rival() const;
     void publish(const AxisHealth& health);
 
-    /// Once in every loop, by the process's own clock. Why the link is being opened anew from now on; only at rest.
+    /// Call it in every loop, with the process's own clock. Returns why the link is now opened again; only at rest.
     std::optional<ReopenReason> tend(Tick now, bool at_rest);
     /// How often since the process started.
     std::uint64_t reopened() const { return link_->reopened(); }
 
-    /// Messages that were not believed, since the process started, and why the last ones were not.
+    /// Messages refused since the process started, and why the last ones were refused.
     std::uint64_t refused() const { return refused_before_ + refused_now_; }
     std::string refusals();
 
@@ -69,18 +69,18 @@ private:
     std::uint32_t axis_;
     std::unique_ptr<Link> link_;
     AxisReceived received_;
-    AxisSet others_ = 0;      // axes that, by the coordinator, are there
-    AxisSet axes_heard_ = 0;  // since the last look
-    bool machine_heard_ = false;
-    /// Since the last look.
+    AxisSet others_ = 0;         // axes that the coordinator reports as present
+    AxisSet axes_received_ = 0;  // since the last check
+    bool machine_received_ = false;
+    /// Since the last check.
     struct Acknowledged {
         bool has_published = false;      // a state
         bool is_owner_received = false;  // the owner's state was received
         bool is_received = false;        // and reported that the owner receives this axis
     } acknowledged_;
     std::vector<TopicReception> topics_;
-    std::uint64_t refused_now_ = 0;     // by the link that is open
-    std::uint64_t refused_before_ = 0;  // by those before it
+    std::uint64_t refused_now_ = 0;     // by the link that is open now
+    std::uint64_t refused_before_ = 0;  // by the links before it
 };
 
 }  // namespace lockstep

@@ -18,7 +18,7 @@ AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick n
 AxisNode::AxisNode(const Setup& setup, OpenDevice open)
     : open_(std::move(open)),
       machine_(setup.machine),
-      lacks_("not looked for yet"),
+      lacks_("not searched for yet"),
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
       time_(setup.axis, setup.machine),
       clock_reset_(setup.machine.tick_ns) {}

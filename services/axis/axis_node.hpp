@@ -20,10 +20,10 @@
 
 namespace lockstep {
 
-/// The device an axis is given: a window onto its registers and, where it is simulated here, the device behind it.
+/// The device of an axis: a window onto its registers and, if it is simulated here, the device behind it.
 struct AxisDevice {
     RegisterWindow window;
-    std::unique_ptr<SimulatedDevice> simulated;  // null: another process's, or hardware
+    std::unique_ptr<SimulatedDevice> simulated;  // null: the device is another process's, or hardware
     bool shares_clock = false;                   // it counts the ticks of this process's clock
 };
 
@@ -39,7 +39,7 @@ struct AxisMail {
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
     std::span<const AxisCommand> commands;
-    std::span<const Command> requests;  // clients'
+    std::span<const Command> requests;  // from clients
     std::span<const ClockExchange> clock;
 };
 
@@ -54,38 +54,38 @@ public:
     };
     using OnStep = std::function<void(StepEdge)>;
 
-    /// A device that is not there, or that is lost, is looked for anew every kSeekPeriod.
+    /// A device that is missing or lost is searched for again every kSeekPeriod.
     AxisNode(const Setup& setup, OpenDevice open);
     static constexpr std::chrono::milliseconds kSeekPeriod{200};
 
-    /// One loop when this process's clock reads `own`, which is machine time where that is shared: lets a simulated
+    /// One loop when this process's clock reads `own`, which is machine time if the clock is shared: lets a simulated
     /// device run up to it, decides, and gives the device its orders. Every step made since the last loop goes to
-    /// on_step, in order, in the device's time. Trouble with the device becomes a fault; one that is given up is
-    /// closed, and told before, for the case that it goes on after all, to come to rest. Nothing is decided or said
-    /// before the machine time is known.
+    /// on_step, in order, in the device's time. An error of the device becomes a fault. A device that is given up is
+    /// closed; before that it is ordered to come to rest, in case it goes on running. The node decides and publishes
+    /// nothing before it knows the machine time.
     AxisOutputs step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
-    /// The two halves of a loop: what is decided, and what the device is told of it.
+    /// The two halves of a loop: the decisions, and the orders to the device.
     AxisOutputs decide(Tick own, const AxisMail& mail, const OnStep& on_step);
     void carry_out(Tick own, const AxisOutputs& decided);
 
-    /// From the next step on every loop is measured. `meter` outlives the node.
+    /// From the next step on, every loop is measured. `meter` outlives the node.
     void measure(HealthMeter& meter) { meter_ = &meter; }
-    /// From the next step on what is decided is noted. `flight` outlives the node.
+    /// From the next step on, decisions are noted. `flight` outlives the node.
     void note_in(AxisFlight& flight) { flight_ = &flight; }
-    /// What it is said of the devices: orders refused and devices lost, and steps whose time was not kept.
+    /// Errors reported about devices: refused orders, lost devices, and steps without a recorded time.
     std::uint64_t troubles() const { return troubles_; }
     std::uint64_t lost_captures() const { return lost_before_ + lost_captures_; }
-    /// Why it has no device; empty: it has one, or has only begun to look.
+    /// Why it has no device; empty: it has one, or the search has just begun.
     std::string lacks() const { return has_device() || is_looking() ? std::string() : lacks_; }
-    /// How far `now` may be off.
+    /// Upper bound of the error of `now`.
     Ticks clock_error() const { return time_.error(); }
-    /// The coordinator's clock began anew: this process is to end, and be started again.
+    /// The coordinator's clock restarted: this process must end, and be started again.
     bool must_restart() const { return must_restart_; }
 
-    /// What was last wrong with the device; empty: nothing ever was.
+    /// The last error of the device; empty: there was none.
     const std::string& trouble() const { return trouble_; }
-    /// Machine time at the last step, and whether it is known.
+    /// Machine time at the last step, if it is known.
     Tick now() const { return time_.now(); }
     bool knows_time() const { return knows_time_; }
     const AxisController& controller() const { return controller_; }
@@ -101,22 +101,22 @@ private:
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
-    /// One that was found. What a dead one has left looks like one, but for its clock.
+    /// A device that was found. A dead device's memory looks the same; only its clock stands still.
     struct Found {
         AxisDevice device;
         DeviceDriver driver;
         DeviceWatch watch;
-        std::optional<Tick> first = {};  // that it showed
-        bool lives = false;              // its clock goes on
+        std::optional<Tick> first = {};  // its first clock reading
+        bool lives = false;              // its clock advances
     };
     bool has_device() const { return found_ && found_->lives; }
-    /// At the start: nothing is said before it is clear whether there is one.
+    /// At the start: the node reports nothing until it is clear whether there is a device.
     bool is_looking() const { return found_ && !found_->lives && !has_begun_; }
 
     OpenDevice open_;
     MachineConfig machine_;
     std::optional<Found> found_;
-    std::optional<Tick> sought_;  // last, by this process's clock; nothing: at once
+    std::optional<Tick> sought_;  // the last search, by this process's clock; nothing: search at once
     std::string lacks_;
     AxisController controller_;
     bool has_begun_ = false;
@@ -124,14 +124,14 @@ private:
     bool knows_time_ = false;
     ClockReset clock_reset_;
     bool must_restart_ = false;
-    DeviceStatus status_{.free_segments = registers::kSegmentRingEntries};  // the last there was
+    DeviceStatus status_{.free_segments = registers::kSegmentRingEntries};  // the last status read
     std::uint64_t lost_captures_ = 0;                                       // of this device
-    std::uint64_t lost_before_ = 0;                                         // of those before it
+    std::uint64_t lost_before_ = 0;                                         // of the devices before it
     std::string trouble_;
     std::uint64_t troubles_ = 0;
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
-    bool failed_ = false;           // since the controller was last told
+    bool failed_ = false;           // since the controller was last informed
 };
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// An axis's events as lines of its log.
+// Writes an axis's events to its log.
 #pragma once
 
 #include "core/axis/axis_controller.hpp"

@@ -49,18 +49,18 @@ OpenDevice opener_of(const std::string& fpga, const AxisConfig& axis, std::int64
     };
 }
 
-void complain_of_disk(const std::string& why) {
+void report_disk_failure(const std::string& why) {
     log_warning("the position is not kept, a new process will not know it: " + why +
                 "; set position_directory to one that can be written");
 }
 
 KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
     ReadPosition read = read_position(position_file(machine, axis));
-    if (!read.trouble.empty()) { log_warning("the kept position is not believed: " + read.trouble); }
+    if (!read.trouble.empty()) { log_warning("the kept position is refused: " + read.trouble); }
     return std::move(read.kept);
 }
 
-/// The loop's state: what came, what is said, what is complained about.
+/// The loop's state: what it received, what it publishes, what it reports.
 class AxisService {
 public:
     /// `fpga`: as AxisConfig::device.
@@ -75,7 +75,7 @@ public:
           flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
           flight_(setup.axis, setup.machine, *flight_log_),
           recorder_(setup.machine, setup.axis, setup.identity, *sink_),
-          keeper_(position_file(setup.machine, setup.axis), complain_of_disk),
+          keeper_(position_file(setup.machine, setup.axis), report_disk_failure),
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
@@ -84,7 +84,7 @@ public:
     AxisService(const AxisService&) = delete;  // the node measures itself by this object
     AxisService& operator=(const AxisService&) = delete;
 
-    /// `begun`: when the loop was to begin, on CLOCK_MONOTONIC. False: this process is to end, see end_reason().
+    /// `begun`: the loop's scheduled start, on CLOCK_MONOTONIC. False: this process must end, see end_reason().
     bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
         const AxisReceived& in = receive();
         const Tick now = clock_.now();
@@ -100,9 +100,9 @@ public:
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         report_device();
         tend_network(now);
-        end_if_time_began_anew();
-        complain(now);
-        log_strangers(begun);
+        end_if_coordinator_clock_restarted();
+        report_waiting(now);
+        log_unauthenticated_peers(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
         say_health(skipped_loops);
         return end_reason_.empty();
@@ -123,11 +123,11 @@ private:
             if (state.axis == setup_.axis && state.identity != setup_.identity) { meet_rival(state, slot); }
         }
         const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
-        if (std::ranges::any_of(in.machine, owns)) { machine_heard_ = clock_.now(); }
+        if (std::ranges::any_of(in.machine, owns)) { machine_received_ = clock_.now(); }
         return in;
     }
 
-    /// Another process publishes in the name of this axis: one of the two must leave.
+    /// Another process publishes as this axis: one of the two must end.
     void meet_rival(const AxisState& state, Slot slot) {
         const bool proved = second_.proves(state.identity, state.stamp, slot);
         if (!rival_.must_leave(state.identity, proved, own_now())) { return; }
@@ -136,7 +136,7 @@ private:
                       (host.empty() ? "" : " on host " + host) + "; end one of them: lockstep down, on its host";
     }
 
-    /// Of no clock that is set or shared: how long this process has run.
+    /// Independent of clocks that are set or shared: how long this process has run.
     Tick own_now() const { return {monotonic_now().count() / setup_.machine.tick_ns}; }
 
     void tend_network(Tick now) {
@@ -146,7 +146,7 @@ private:
                           .kind = FlightKind::Reopened,
                           .detail = static_cast<std::uint8_t>(*reason),
                           .count = static_cast<std::int64_t>(network_.reopened())});
-        log_warning("opens its DDS participant anew: " + std::string(text_of(*reason)));
+        log_warning("opens its DDS participant again: " + std::string(text_of(*reason)));
     }
 
     void say_health(std::uint64_t skipped_loops) {
@@ -166,17 +166,19 @@ private:
         const bool has_device = node_.lacks().empty();
         if (has_device == has_device_) { return; }
         has_device_ = has_device;
-        has_device ? log_info("device " + fpga_ + " is there") : report_missing_device();
+        has_device ? log_info("device " + fpga_ + " is present") : report_missing_device();
     }
 
     void report_missing_device() const { log_warning("waits for its device " + fpga_ + ": " + node_.lacks()); }
 
-    /// Once every few seconds: whom it waits for, what it was sent and did not believe, what its device says.
-    void complain(Tick now) {
+    /// Every few seconds: reports the missing peer or clock, the refused messages, and the device's errors.
+    void report_waiting(Tick now) {
         const Ticks period{5'000'000'000 / setup_.machine.tick_ns};
-        if (now - complained_ < period) { return; }
-        complained_ = now;
-        if (now - machine_heard_ > period) { log_info("waits for the coordinator of machine " + setup_.machine.name); }
+        if (now - reported_ < period) { return; }
+        reported_ = now;
+        if (now - machine_received_ > period) {
+            log_info("waits for the coordinator of machine " + setup_.machine.name);
+        }
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
             lost_records_ = lost;
             log_warning(lost_records_text(setup_.machine, lost));
@@ -194,11 +196,12 @@ private:
         }
     }
 
-    void end_if_time_began_anew() {
+    void end_if_coordinator_clock_restarted() {
         if (!node_.must_restart()) { return; }
         end_reason_ = "the coordinator's clock went back by " +
                       std::to_string(node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000) +
-                      " s, was its host started anew? axis " + own_name() + " is to be started again, to take its time";
+                      " s, was its host restarted? axis " + own_name() +
+                      " must be started again, to take over its time";
     }
 
     const std::string& own_name() const { return setup_.machine.axes[setup_.axis].name; }
@@ -212,13 +215,13 @@ private:
     std::unique_ptr<FlightLog> flight_log_;
     CheckReport checks_{*flight_log_};
     AxisFlight flight_;
-    UserSignal user_signal_;  // a person asks for what was noted
+    UserSignal user_signal_;  // a person requests the notes of the last seconds
     AxisRecorder recorder_;
     PositionKeeper keeper_;
     HealthMeter meter_;
     std::atomic<Tick> looped_;  // when the loop last ran
-    Tick complained_ = clock_.now();
-    Tick machine_heard_;
+    Tick reported_ = clock_.now();
+    Tick machine_received_;
     std::uint64_t refused_ = 0;
     std::uint64_t lost_records_ = 0;
     std::string trouble_;

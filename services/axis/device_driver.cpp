@@ -11,7 +11,7 @@ namespace {
 using namespace registers;
 
 constexpr std::uint64_t kNoVeto = std::numeric_limits<std::uint64_t>::max();
-/// An update takes well under a microsecond, a look some ten nanoseconds: who is still at it after these was held up.
+/// An update takes well under a microsecond, a look some ten nanoseconds: after this many the device's process stalls.
 constexpr int kMaxLooks = 1000;
 
 static_assert(static_cast<std::uint64_t>(Trigger::None) == kTriggerNone &&
@@ -24,7 +24,7 @@ std::string hex(std::uint64_t value) {
     return text;
 }
 
-/// A word that tells whether host and device can work together at all.
+/// A register that identifies the device and its version.
 struct Identification {
     const char* name;
     std::size_t offset;
@@ -32,12 +32,12 @@ struct Identification {
     const char* remedy;
 };
 
-/// How many entries a ring holds, where that can be.
+/// The number of entries in a ring. Error: head and tail contradict each other.
 std::expected<std::uint64_t, std::string> entries_in(const char* ring, std::uint64_t head, std::uint64_t tail,
                                                      std::uint64_t capacity) {
     if (head - tail <= capacity) { return head - tail; }
     return std::unexpected(std::string("device: ") + ring + " head " + hex(head) + " and tail " + hex(tail) +
-                           " cannot be: it holds " + std::to_string(capacity) + "; restart the device");
+                           " are impossible: it holds " + std::to_string(capacity) + "; restart the device");
 }
 
 std::expected<std::uint64_t, std::string> segments_in(const RegisterWindow& window) {
@@ -48,7 +48,7 @@ std::expected<std::uint64_t, std::string> captures_in(const RegisterWindow& wind
     return entries_in("capture ring", window.load(kCaptureHead), window.load(kCaptureTail), kCaptureRingEntries);
 }
 
-/// Writes one frame's entries behind each other, and publishes them together.
+/// Writes the entries of one frame in order, and publishes them together.
 class FrameWriter {
 public:
     FrameWriter(RegisterWindow window, const device::LoadFrame& frame)
@@ -86,7 +86,7 @@ private:
     Position position_;
 };
 
-/// Looked at again with every read: memory that was taken away or overwritten no longer shows it.
+/// Checked at every read: memory that was removed or overwritten no longer shows these values.
 std::expected<void, std::string> identify(const RegisterWindow& window, std::int64_t tick_ns) {
     const Identification words[] = {
         {"MAGIC", kMagic, kMagicValue, "is this a Lockstep axis device, and powered up?"},
@@ -130,7 +130,7 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
 
 std::expected<DeviceStatus, std::string> DeviceDriver::stale_look() {
     if (last_look_ && ++stale_reads_ <= kMaxStaleReads) {
-        last_look_->run_asked = window_.load(kRunRequest);  // the host's own word
+        last_look_->run_asked = window_.load(kRunRequest);  // the host's own register
         return *last_look_;
     }
     return std::unexpected("device: SEQUENCE reads " + hex(window_.load(kSequence)) +
@@ -168,7 +168,7 @@ std::expected<void, std::string> DeviceDriver::apply(const DeviceOrder& order) {
     return std::visit([this](const auto& one) { return apply_one(one); }, order);
 }
 
-/// In this order: withdrawn before permitted, and the run's number last. The device reads them the other way round.
+/// In this order: the withdrawn frames before the permitted ones, the run's number last. The device reads in reverse.
 DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
     if (order.run == 0 || order.run == window_.load(kRunRequest)) {
         return std::unexpected("device: run " + std::to_string(order.run) +
@@ -222,7 +222,7 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
     const auto captured = captures_in(window_);
     if (!captured) { return captured; }
     const std::uint64_t tail = window_.load(kCaptureTail);
-    const Tick now{signed_word(kTick)};  // read behind the head: the steps in the ring are of this tick or before
+    const Tick now{signed_word(kTick)};  // read after the head: the steps in the ring have this tick or an earlier one
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
         const std::size_t slot = index % kCaptureRingEntries;
         const std::uint64_t word = window_.load(kCaptureRing + slot * kCaptureRingEntryBytes);
@@ -230,7 +230,7 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
                             .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)};
         if (step.tick > now || (last_step_ && step.tick <= *last_step_)) {
             return std::unexpected("device: capture ring entry " + std::to_string(index) + " reads tick " +
-                                   std::to_string(step.tick.value) + ", which cannot be at tick " +
+                                   std::to_string(step.tick.value) + ", which is impossible at tick " +
                                    std::to_string(now.value));
         }
         last_step_ = step.tick;

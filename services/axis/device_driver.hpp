@@ -1,5 +1,5 @@
-// The host's end of the register map: an axis controller's orders become register writes, registers become values.
-// Nothing read from the window is trusted: what cannot be is an error that says what was read and what to do.
+// The host's side of the register map: an axis controller's orders become register writes, registers become values.
+// Nothing read from the window is trusted: an impossible value is an error with the value and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,28 @@
 
 namespace lockstep {
 
-/// One at a time per device. It takes over where the one before it left the rings.
+/// One at a time per device. It continues where its predecessor left the rings.
 class DeviceDriver {
 public:
-    /// tick_ns: the configuration's. Errors: no device there, another version of the map, another tick, rings whose
+    /// tick_ns: the configuration's. Errors: no device, another version of the map, another tick, rings whose
     /// ends contradict each other.
     static std::expected<DeviceDriver, std::string> attach(RegisterWindow window, std::int64_t tick_ns);
 
-    /// One consistent look, never a wait: while the device is held up in the middle of an update it is the look before,
-    /// as if the device had not come that far. Error where that goes on for kMaxStaleReads reads, where there is no
-    /// look before, or where the words make no sense or are no device's any more. A device that stopped between updates
-    /// shows by `now` standing still.
+    /// One consistent reading, without waiting: while the device is in the middle of an update it returns the reading
+    /// before. Error if that goes on for kMaxStaleReads reads, if there is no reading before, or if the registers are
+    /// impossible or no longer a device's.
+    /// If a device stops between updates, `now` stands still.
     std::expected<DeviceStatus, std::string> read();
     static constexpr int kMaxStaleReads = 1000;
 
-    /// Error, and nothing has changed: a frame that does not fit the ring or has no body, or that comes before any run;
-    /// a run whose number is not new.
+    /// Error, and nothing has changed: a frame that does not fit the ring, has no body, or precedes any run; a run
+    /// whose number is not new.
     std::expected<void, std::string> apply(const DeviceOrder& order);
 
-    /// Calls back with every step made since the last call, in order. Returns how many. Error: wild ring ends, or ticks
-    /// that do not rise.
+    /// Calls back with every step made since the last call, in order. Returns how many. Error: impossible ring ends, or
+    /// ticks that do not rise.
     std::expected<std::uint64_t, std::string> drain_capture(const std::function<void(StepEdge)>& on_step);
-    /// Steps since the device's power-up that came while the capture ring was full.
+    /// Steps since the device's power-up that were made while the capture ring was full.
     std::uint64_t lost_captures() const { return window_.load(registers::kCaptureLost); }
 
 private:

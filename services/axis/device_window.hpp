@@ -1,4 +1,4 @@
-// The registers of a device that is not simulated in the axis's own process, by the name the configuration has for it.
+// The registers of a device that is not simulated in the axis's own process, opened by the name in the configuration.
 #pragma once
 
 #include <expected>

@@ -21,10 +21,10 @@ int main(int argc, char** argv) {
     app.add_option("--clock-error", clock_error,
                    "for tests: makes this process's clock, and the device simulated in it, wrong: "
                    "offset=SECONDS,ppm=N,step=SECONDS@SECONDS (after the start); needs time_source: NETWORK");
-    app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
+    app.add_flag("--no-lcm", no_lcm, "do not publish the record; the process still keeps its own log");
     app.footer(
         "Example: lockstep-axis --machine machine.textproto --axis X\n"
-        "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
+        "SIGUSR1: writes what it received, decided and published in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

@@ -43,7 +43,7 @@ std::expected<KeptPosition, std::string> position_from_text(std::string_view tex
         return std::unexpected(to_text("position", errors.front()));
     }
     if (message.checksum() != checksum_of(message)) {
-        return std::unexpected(std::string("its checksum is not that of what it says: it is damaged or was edited"));
+        return std::unexpected(std::string("its checksum does not match its content: it is damaged or was edited"));
     }
     return KeptPosition{.scale = {message.machine(), message.axis(), message.steps_per_mm(),
                                   message.switch_position_mm(), message.toward_min()},

@@ -18,7 +18,7 @@ ReadPosition unreadable(const std::filesystem::path& path, const std::string& wh
     return {std::unexpected(FaultCode::PositionUnreadable), path.string() + ": " + why};
 }
 
-/// Empty: nothing speaks against reading it.
+/// Empty: the file may be read.
 std::string refusal_of(const struct stat& file) {
     if (!S_ISREG(file.st_mode)) { return "this is not a regular file; remove it"; }
     if (file.st_uid != geteuid() && file.st_uid != 0) {
@@ -54,10 +54,10 @@ ReadPosition read_position(const std::filesystem::path& path) {
     return {*kept, {}};
 }
 
-PositionKeeper::PositionKeeper(std::filesystem::path path, Complain complain)
-    : path_(std::move(path)), complain_(complain), thread_([this](const std::stop_token& stop) { serve(stop); }) {
-    std::error_code said_by_writing;
-    std::filesystem::create_directories(path_.parent_path(), said_by_writing);
+PositionKeeper::PositionKeeper(std::filesystem::path path, OnFailure on_failure)
+    : path_(std::move(path)), on_failure_(on_failure), thread_([this](const std::stop_token& stop) { serve(stop); }) {
+    std::error_code ignored;
+    std::filesystem::create_directories(path_.parent_path(), ignored);
 }
 
 PositionKeeper::~PositionKeeper() {
@@ -85,7 +85,7 @@ void PositionKeeper::serve(const std::stop_token& stop) {
 
 void PositionKeeper::write(const KeptPosition& position) {
     const auto written = replace_text_file(path_, position_text(position));
-    if (!written && !failed_) { complain_(written.error()); }
+    if (!written && !failed_) { on_failure_(written.error()); }
     failed_ = !written;
 }
 

@@ -1,5 +1,5 @@
-// Where an axis's position outlives its process: one small file, replaced whole after each run (core/
-// axis/device/position_claim.hpp says when the next process believes it).
+// Keeps an axis's position for the next process: one small file, replaced whole after each run (core/
+// axis/device/position_claim.hpp states when the next process accepts it).
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@
 
 namespace lockstep {
 
-/// DIRECTORY/AXIS.textproto, in the directory that the machine's file or the host names.
+/// DIRECTORY/AXIS.textproto. DIRECTORY comes from the machine's file or from the host.
 std::filesystem::path position_file(const MachineConfig& machine, std::size_t axis);
 
 struct ReadPosition {
@@ -22,17 +22,17 @@ struct ReadPosition {
     std::string trouble;  // with PositionUnreadable: what is wrong with the file, for the log
 };
 
-/// Refuses what somebody else may have written: a file of another user, or one that others may write.
+/// Refuses a file that another user may have written: one of another user, or one that others may write.
 ReadPosition read_position(const std::filesystem::path& path);
 
-/// Writes behind the caller's back: who keeps never waits for the disk. Of positions that come faster than the disk
-/// takes them the newest is written; one that is not written is refused later, as any old one is.
+/// Writes in the background: keep() never waits for the disk. If positions come faster than the disk takes them, only
+/// the newest is written. A position that was not written is out of date, and the next process refuses the old one.
 class PositionKeeper {
 public:
-    using Complain = void (*)(const std::string& why);
-    /// `complain` is called by the writing thread, when writing fails for the first time in a row.
-    PositionKeeper(std::filesystem::path path, Complain complain);
-    /// Waits until all is written.
+    using OnFailure = void (*)(const std::string& why);
+    /// The writing thread calls `on_failure` when a write fails after one that succeeded.
+    PositionKeeper(std::filesystem::path path, OnFailure on_failure);
+    /// Waits until everything is written.
     ~PositionKeeper();
 
     void keep(KeptPosition position);
@@ -42,8 +42,8 @@ private:
     void write(const KeptPosition& position);
 
     std::filesystem::path path_;
-    Complain complain_;
-    bool failed_ = false;  // the last time
+    OnFailure on_failure_;
+    bool failed_ = false;  // the last write
     std::mutex mutex_;
     std::condition_variable_any news_;
     std::optional<KeptPosition> next_;

@@ -47,7 +47,7 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     bus.chunks.take([&](ProgramChunk&& m) { received_.chunks.push_back(std::move(m)); });
     bus.healths.take([&](AxisHealth&& m) { received_.healths.push_back(m); });
     bus.states.take([&](AxisState&& m) {
-        axes_heard_ |= axis_bit(m.axis);
+        axes_received_ |= axis_bit(m.axis);
         is_owner_received_ = is_owner_received_ || m.hears_owner;
         received_.states.push_back(m);
     });
@@ -57,8 +57,8 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     return received_;
 }
 
-/// First which epoch it is and where its frames come to rest, then the frames: an axis takes the first frame of an
-/// epoch it has heard of only, and a standby knows of every frame that axes may have.
+/// First the state with the epoch and where its frames come to rest, then the frames: an axis takes the first frame of
+/// an epoch only after that state, and a standby knows every frame that axes may have.
 void CoordinatorNetwork::publish(const CoordinatorOutputs& out) {
     CoordinatorLink* const link = link_->get();
     if (link == nullptr) { return; }
@@ -76,12 +76,12 @@ Reception CoordinatorNetwork::look(const CoordinatorLink& link, Duty duty) {
     const CoordinatorBus& bus = link.bus;
     topics_ = {bus.states.reception(), bus.other_coordinators.reception(), bus.commands.reception(),
                bus.chunks.reception()};
-    const AxisSet heard = std::exchange(axes_heard_, 0);
+    const AxisSet received = std::exchange(axes_received_, 0);
     const bool is_owner_received = std::exchange(is_owner_received_, false);
     return {.change = change_of(bus),
-            .is_peer_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(heard)),
-            .is_peer_missing = (axes_ & ~heard) != 0,
-            .is_unreceived = duty.owns_machine && heard != 0 && !is_owner_received,
+            .is_peer_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(received)),
+            .is_peer_missing = (axes_ & ~received) != 0,
+            .is_unreceived = duty.owns_machine && received != 0 && !is_owner_received,
             .may_reopen = duty.at_rest,
             .topics = topics_};
 }

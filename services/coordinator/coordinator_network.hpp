@@ -1,5 +1,5 @@
-// What a coordinator receives and publishes, and its link to the others, which is opened anew when it has ceased to
-// deliver.
+// What a coordinator receives and publishes, and its link to the other processes. The link is opened again when it no
+// longer delivers.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace lockstep {
 
 struct CoordinatorLink {
     CoordinatorBus bus;
-    std::unique_ptr<ClockServer> clock;  // where axes ask for the time
+    std::unique_ptr<ClockServer> clock;  // axes ask it for the time
 };
 
 /// The messages of one loop.
@@ -29,7 +29,7 @@ struct CoordinatorReceived {
     std::vector<MachineState> others;
     std::vector<Command> commands;
     std::vector<ProgramChunk> chunks;
-    std::vector<AxisHealth> healths;  // for the record alone
+    std::vector<AxisHealth> healths;  // only for the record
     void clear();
 };
 
@@ -43,24 +43,24 @@ public:
     /// Error: as open_bus.
     static std::expected<CoordinatorNetwork, std::string> open(const Setup& setup);
 
-    /// What came since the last call; nothing while the link is being opened anew.
+    /// The messages received since the last call; none while the link is being opened again.
     const CoordinatorReceived& receive();
     void publish(const CoordinatorOutputs& out);
     void publish(const Reply& reply);
 
     struct Duty {
         bool at_rest = false;
-        bool owns_machine = false;  // then every axis reports whether it receives this process
+        bool owns_machine = false;  // then every axis reports whether it receives this process's messages
     };
-    /// Once in every loop, by the process's own clock. Why the link is being opened anew from now on; only at rest.
+    /// Call it in every loop, with the process's own clock. Returns why the link is now opened again; only at rest.
     std::optional<ReopenReason> tend(Tick now, Duty duty);
     /// How often since the process started.
     std::uint64_t reopened() const { return link_->reopened(); }
 
-    /// Messages that were not believed, since the process started, and why the last ones were not.
+    /// Messages refused since the process started, and why the last ones were refused.
     std::uint64_t refused() const { return refused_before_ + refused_now_; }
     std::string refusals();
-    /// Where who is not heard is waited for.
+    /// Where the states of a missing axis are expected.
     std::string place_of_states();
 
 private:
@@ -71,11 +71,11 @@ private:
     AxisSet axes_;  // all of the machine
     std::unique_ptr<Link> link_;
     CoordinatorReceived received_;
-    AxisSet axes_heard_ = 0;          // since the last look
-    bool is_owner_received_ = false;  // since the last look: by an axis
+    AxisSet axes_received_ = 0;       // since the last check
+    bool is_owner_received_ = false;  // since the last check: by an axis
     std::vector<TopicReception> topics_;
-    std::uint64_t refused_now_ = 0;     // by the link that is open
-    std::uint64_t refused_before_ = 0;  // by those before it
+    std::uint64_t refused_now_ = 0;     // by the link that is open now
+    std::uint64_t refused_before_ = 0;  // by the links before it
 };
 
 }  // namespace lockstep

@@ -74,8 +74,8 @@ public:
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         tend_network(now);
-        complain(now);
-        log_strangers(monotonic_now());
+        report_waiting(now);
+        log_unauthenticated_peers(monotonic_now());
         return !out.must_quit;
     }
 
@@ -95,14 +95,14 @@ private:
         }
         for (const AxisState& state : received.states) {
             if (state.axis >= machine_.axes.size()) { continue; }
-            heard_ |= axis_bit(state.axis);
+            received_axes_ |= axis_bit(state.axis);
             configs_[state.axis] = state.config_hash;
         }
         for (const AxisHealth& health : received.healths) { recorder_.note_axis(health); }
         return received;
     }
 
-    /// A job that is held is not at rest: it would be lost with the axes' silence.
+    /// A held job is not at rest: it would be lost with the axes' silence.
     bool at_rest() const {
         const MachinePhase phase = coordinator_.phase();
         return phase == MachinePhase::Waiting || phase == MachinePhase::Idle || phase == MachinePhase::Fault ||
@@ -116,7 +116,7 @@ private:
                           .kind = FlightKind::Reopened,
                           .detail = static_cast<std::uint8_t>(*reason),
                           .count = static_cast<std::int64_t>(network_.reopened())});
-        log_warning("opens its DDS participant anew: " + std::string(text_of(*reason)));
+        log_warning("opens its DDS participant again: " + std::string(text_of(*reason)));
     }
 
     std::string axis_name(std::uint64_t axis) const {
@@ -128,22 +128,20 @@ private:
         switch (notice.kind) {
             case Kind::Phase:
                 return log_info("machine is " + std::string(name_of(static_cast<MachinePhase>(notice.number))));
-            case Kind::AxisSeen: return log_info("axis " + axis_name(notice.number) + " is heard");
+            case Kind::AxisSeen: return log_info("receives axis " + axis_name(notice.number));
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,
                                  "axis " + axis_name(notice.number) + " fell silent");
             case Kind::Claimed: return log_info("owns the machine, term " + std::to_string(notice.number));
             case Kind::StoodDown:
-                return log_warning("stands down: another coordinator owns the machine, term " +
-                                   std::to_string(notice.number));
+                return log_warning("ends: another coordinator owns the machine, term " + std::to_string(notice.number));
             case Kind::JobCutShort:
-                return log_warning("the job of the coordinator before was cut short near line " +
+                return log_warning("the previous coordinator's job ended early near line " +
                                    std::to_string(notice.number) + ": " + std::string(text_of(notice.doubt)) +
                                    "; the axes rest; go on: lockstep run FILE --from-line " +
                                    std::to_string(notice.number));
             case Kind::JobContinued:
-                return log_info("goes on with the job of the coordinator before, near line " +
-                                std::to_string(notice.number));
+                return log_info("continues the previous coordinator's job near line " + std::to_string(notice.number));
             case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -158,13 +156,13 @@ private:
         }
     }
 
-    /// Once every few seconds: whom it waits for, and what it was sent and did not believe.
-    void complain(Tick now) {
+    /// Every few seconds: reports missing axes, configurations that differ, and refused messages.
+    void report_waiting(Tick now) {
         const Ticks period{5'000'000'000 / machine_.tick_ns};
-        if (now - complained_ < period) { return; }
-        complained_ = now;
+        if (now - reported_ < period) { return; }
+        reported_ = now;
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
-            if (!has_axis(heard_, i)) {
+            if (!has_axis(received_axes_, i)) {
                 log_info("waits for axis " + machine_.axes[i].name + " " + network_.place_of_states());
             }
         }
@@ -174,7 +172,7 @@ private:
                         hash_text(config_hash_) +
                         ": nothing moves; give all hosts the same machine file, then lockstep down and up");
         }
-        heard_ = 0;
+        received_axes_ = 0;
         configs_.clear();
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
             lost_records_ = lost;
@@ -195,13 +193,13 @@ private:
     std::unique_ptr<FlightLog> flight_log_;
     CheckReport checks_{*flight_log_};
     CoordinatorFlight flight_;
-    UserSignal user_signal_;  // a person asks for what was noted
+    UserSignal user_signal_;  // a person requests the notes of the last seconds
     JobRecorder recorder_;
     ProgramInbox inbox_;
     std::atomic<Tick> looped_;  // when the loop last ran
-    Tick complained_ = clock_.now();
-    AxisSet heard_ = 0;
-    std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes heard
+    Tick reported_ = clock_.now();
+    AxisSet received_axes_ = 0;
+    std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes received
     std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;
     std::uint64_t lost_records_ = 0;
@@ -258,14 +256,13 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
         return kServiceBadInput;
     }
     if (options.standby && machine->timing.time_source == TimeSource::Network) {
-        std::cerr
-            << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, which "
-               "another host's cannot carry on; use SHARED (one host) or PTP\n";
+        std::cerr << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "
+                     "another host's clock cannot continue it; use SHARED (one host) or PTP\n";
         return kServiceBadInput;
     }
     if (options.on_takeover == OnTakeover::Continue && machine->coordination == StepMethod::Lai) {
-        std::cerr << "--on-takeover continue: by coordination LAI a block is planned in parts, which another "
-                     "coordinator cannot tell apart; use stop, or coordination: RANADE\n";
+        std::cerr << "--on-takeover continue: coordination LAI plans a block in parts, and another "
+                     "coordinator cannot distinguish them; use stop, or coordination: RANADE\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"coordinator", "", options.log_file, true}); !log) {

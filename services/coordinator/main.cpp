@@ -15,7 +15,7 @@ const std::map<std::string, lockstep::OnTakeover> kOnTakeover{{"stop", lockstep:
 int main(int argc, char** argv) {
     CLI::App app{
         "Runs a machine's coordinator: takes commands and programs from clients, plans them, and sends frames to "
-        "the axes, until SIGTERM or SIGINT. One owns the machine; a second one ends, or stands by."};
+        "the axes, until SIGTERM or SIGINT. One coordinator owns the machine; a second one ends, or stands by."};
     lockstep::CoordinatorServiceOptions options;
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
@@ -25,18 +25,18 @@ int main(int argc, char** argv) {
         "stand by while another coordinator owns the machine, and take over, at rest, when it falls silent; "
         "give it to both of two");
     app.add_option("--on-takeover", options.on_takeover,
-                   "with --standby, what becomes of a program in motion when this one takes over: stop; or continue, "
+                   "with --standby, for a program in motion at the takeover: stop it; or continue it, "
                    "if every axis rests where the last owner's frames end")
         ->transform(CLI::CheckedTransformer(kOnTakeover).description("{stop,continue}"))
         ->needs(standby)
         ->default_str("stop");
     app.add_flag("--second", options.second,
                  "where security is on: join by the keys of `standby`, not of `coordinator`; give it to one of two");
-    app.add_flag("--no-lcm", no_lcm, "do not publish the record; a log of its own is kept all the same");
+    app.add_flag("--no-lcm", no_lcm, "do not publish the record; the process still keeps its own log");
     app.footer(
         "Examples:\n  lockstep-coordinator --machine machine.textproto\n"
         "  lockstep-coordinator --machine machine.textproto --standby --on-takeover continue\n"
-        "SIGUSR1: writes what it heard, decided and said in its last seconds to an incident file\n"
+        "SIGUSR1: writes what it received, decided and published in its last seconds to an incident file\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration");
     try {
         app.parse(argc, argv);

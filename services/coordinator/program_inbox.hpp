@@ -1,4 +1,4 @@
-// Puts programs together from the chunks that clients send.
+// Assembles programs from the chunks that clients send.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace lockstep {
 
-/// Chunks may come again and out of order. A bounded number of programs is put together at a time, each bounded in
-/// size; the oldest gives way.
+/// Accepts chunks repeated and out of order. Assembles a bounded number of programs at a time, each of bounded size; a
+/// new one replaces the oldest.
 class ProgramInbox {
 public:
     struct Taken {
         Reply reply;                     // to the chunk
-        std::optional<Program> program;  // whole now
-        bool is_new = false;             // the chunk had not come before
+        std::optional<Program> program;  // once it is complete
+        bool is_new = false;             // the chunk was not received before
     };
     Taken take(const ProgramChunk& chunk);
 
@@ -29,7 +29,7 @@ private:
         std::uint32_t missing = 0;
         std::size_t bytes = 0;
         std::vector<std::optional<std::vector<std::uint8_t>>> chunks;
-        Reply outcome;  // of the whole, once it is there
+        Reply outcome;  // for the whole program, once it is complete
     };
     using Key = std::pair<Identity, std::uint64_t>;
     Parcel& parcel_of(const ProgramChunk& chunk);

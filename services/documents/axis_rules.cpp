@@ -19,7 +19,7 @@ constexpr double kMaxSpeed_mm_s = 1e6;
 constexpr double kMinAccel_mm_s2 = 1e-3;
 constexpr double kMaxAccel_mm_s2 = 1e9;
 constexpr double kMaxRampSeconds = 600;  // slower is a mistake in the units
-constexpr double kMaxSteps = 0x1p40;     // far inside what plans in double are exact for
+constexpr double kMaxSteps = 0x1p40;     // within the range where plans in double are exact
 
 class AxisRules {
 public:
@@ -49,7 +49,7 @@ private:
         for (std::size_t other = 0; other < index_; ++other) {
             problems_.require(!same_name(axis_.name, machine_.axes[other].name), "name",
                               "the name is taken by axis " + std::to_string(other + 1) + ", " +
-                                  machine_.axes[other].name + "; names differ in more than capitals");
+                                  machine_.axes[other].name + "; names must differ in more than capitals");
         }
     }
 
@@ -155,7 +155,7 @@ private:
                                       number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm));
     }
 
-    /// On the side homed to, and reached before the limit switch is.
+    /// On the side that is homed to, and reached before the limit switch.
     void check_switch() {
         const double at = axis_.homing.switch_position_mm;
         const double middle = (axis_.position_min_mm + axis_.position_max_mm) / 2;
@@ -192,7 +192,7 @@ private:
                 number_text(limit_min()) + " and " + number_text(limit_max()));
     }
 
-    /// Tried out, so only where the numbers it is tried with are sound.
+    /// Plans a trial move, so only if its numbers are valid.
     void check_method() {
         const auto is_sound = [this](std::string_view key) { return problems_.is_sound(key); };
         constexpr std::array<std::string_view, 5> kLimits{"steps_per_mm", "start_velocity_mm_s", "max_velocity_mm_s",

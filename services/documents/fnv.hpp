@@ -1,4 +1,4 @@
-// FNV-1a, 64 bits: tells documents apart, and a damaged one from a whole one.
+// FNV-1a, 64 bits: distinguishes documents, and detects a damaged one.
 #pragma once
 
 #include <cstdint>

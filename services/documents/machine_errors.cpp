@@ -11,7 +11,7 @@ using Problems = std::vector<Problem>;
 
 constexpr std::size_t kMaxDiagnostics = 50;
 
-/// Where the keys of a machine stand.
+/// Maps the keys of a machine to places in the text.
 struct Text {
     const TextSource& source;
     const google::protobuf::Descriptor& document;
@@ -25,7 +25,7 @@ struct Text {
     }
 };
 
-/// What is wrong with a default comes of what is written, and is said only where nothing written is wrong.
+/// A default can only be wrong because of a written value. It is reported only if no written value is wrong.
 Problems axis_problems(const MachineConfig& machine, std::size_t axis, const Text& text) {
     Problems problems = axis_problems(machine, axis);
     const auto is_written = [&](const Problem& problem) { return text.place_of(problem).is_of_key; };
@@ -33,7 +33,7 @@ Problems axis_problems(const MachineConfig& machine, std::size_t axis, const Tex
     return problems;
 }
 
-/// Missing keys first; a block that lacks one is judged no further.
+/// Missing keys first; a block that lacks a key is not checked further.
 Problems problems_of(const MachineDraft& draft, const Text& text) {
     Problems problems = draft.missing;
     const auto is_whole = [&](std::optional<std::size_t> axis) {

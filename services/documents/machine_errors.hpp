@@ -1,4 +1,4 @@
-// Everything that is wrong with a machine as it was written down, each with its place in the text.
+// Everything that is wrong with a machine's configuration as written, each with its place in the text.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace lockstep {
 
-/// In the order of the text. The machine is `document` itself, or a block of it: `block` is then its key with a point
-/// behind it, "machine.".
+/// In the order of the text. The machine is `document` itself, or a block of it: then `block` is its key followed by a
+/// point, "machine.".
 Diagnostics machine_errors(const MachineDraft& draft, const TextSource& source,
                            const google::protobuf::Descriptor& document, const std::string& block = {});
 

@@ -8,12 +8,12 @@ namespace {
 constexpr double kDefaultLatchShare = 0.2;  // of the search velocity
 constexpr double kDefaultPulloff_mm = 2;
 constexpr double kDefaultTouchTolerance_mm = 0.02;
-constexpr double kDefaultPulloffShare = 0.1;  // of the travel, where that is less
+constexpr double kDefaultPulloffShare = 0.1;  // of the travel, if that is less
 constexpr double kDefaultTravelMargin_mm = 2;
 constexpr const char* kMethodNames = "RANADE, SPIELAUER, LAI, LAM and CARRICA";
-constexpr double kDefaultPlantReserve = 1.5;  // what the motor can do over what the axis is asked
+constexpr double kDefaultPlantReserve = 1.5;  // the motor's capability over the axis's limits
 
-/// Reads keys into their places; notes what must be there and is not.
+/// Reads keys into the configuration; notes required keys that are missing.
 class Reader {
 public:
     explicit Reader(std::vector<Problem>& missing, std::optional<std::size_t> axis = {})
@@ -84,7 +84,7 @@ RecordConfig read_record(const proto::Record& message) {
     };
 }
 
-/// A block that asks for security and does not say how must not mean none.
+/// A security block without content must not mean that security is off.
 SecurityConfig read_security(const proto::Machine& message, Reader reader) {
     SecurityConfig security;
     if (!message.has_security()) { return security; }
@@ -97,7 +97,7 @@ RealTimeConfig read_real_time(const proto::RealTime& message) {
     return {.priority = message.priority(), .cpus = {message.cpus().begin(), message.cpus().end()}};
 }
 
-/// Written without std::clamp, whose order of limits a file may break.
+/// Without std::clamp, which requires ordered limits: a file may violate that.
 double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
 }
@@ -162,7 +162,7 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     axis.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : axis.max_accel_mm_s2;
     reader.require(message.has_position_min_mm(), message.position_min_mm(), axis.position_min_mm, "position_min_mm");
     reader.require(message.has_position_max_mm(), message.position_max_mm(), axis.position_max_mm, "position_max_mm");
-    if (!proto::Method_IsValid(message.method())) {  // protobuf lets any number stand for a name
+    if (!proto::Method_IsValid(message.method())) {  // protobuf accepts any number for an enumeration
         reader.refuse("method", "method is " + std::to_string(message.method()) + "; it is one of " + kMethodNames);
     }
     axis.method = read_method(message.method());
@@ -197,7 +197,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     if (!coordinates) {
         Reader(draft.missing)
             .refuse("coordination", "coordination is " + method_name(message.coordination()) +
-                                        "; of several axes together only RANADE and LAI can move");
+                                        "; only RANADE and LAI can move several axes together");
     }
     for (const proto::Axis& axis : message.axis()) {
         draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));

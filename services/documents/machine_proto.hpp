@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// A configuration with its defaults in place, and the keys it must have and has not. Not checked otherwise.
+/// A configuration with its defaults filled in, and the required keys that are missing. Not checked otherwise.
 struct MachineDraft {
     MachineConfig machine;
     std::vector<Problem> missing;
@@ -17,7 +17,7 @@ struct MachineDraft {
 
 MachineDraft machine_from_proto(const proto::Machine& message);
 
-/// Every key present.
+/// Writes every key.
 proto::Machine machine_to_proto(const MachineConfig& machine);
 
 }  // namespace lockstep

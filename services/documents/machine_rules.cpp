@@ -13,7 +13,7 @@ namespace lockstep {
 namespace {
 
 constexpr int kMaxSlots = 10'000;
-constexpr std::uint32_t kMaxDomain = 232;  // the last whose ports are below 65536 (DDS interoperability, 9.6.1)
+constexpr std::uint32_t kMaxDomain = 232;  // the last domain whose ports are below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
 constexpr std::size_t kMaxPeers = 64;
 
@@ -43,13 +43,13 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(RULE_CHECK_AHEAD(s), m, s),
             "freshness_slots + 2 x stall_slots + 8");
     require("timing.frame_slots", t.frame_slots, RULE_LEAST_FRAME(m, s), "freshness_slots + stall_slots + 2");
-    // Three frames of the longest kind are what a device's segment ring holds ahead of the one in progress.
+    // The device's segment ring holds three frames of maximum length ahead of the one in progress.
     problems.require_between({"timing.send_ahead_slots", "timing.frame_slots"}, t.send_ahead_slots < 3 * t.frame_slots,
                              "timing.send_ahead_slots is " + std::to_string(t.send_ahead_slots) +
                                  "; below 3 x frame_slots, " + std::to_string(3 * t.frame_slots));
 }
 
-/// What the setpoint protocol leaves for clocks: a hop has to hold their error twice, beside the network's delay.
+/// The setpoint protocol's allowance for clocks: a hop must cover twice their error, besides the network's delay.
 void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
     if (t.time_source == TimeSource::Shared) { return; }
     const std::int64_t most = t.most_clock_error_us();
@@ -115,13 +115,13 @@ void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {
     }
 }
 
-/// Hosts that differ have clocks that differ, and nothing to say to each other over lo.
+/// Different hosts have different clocks, and cannot exchange messages over lo.
 void check_hosts(const MachineConfig& machine, ProblemList& problems) {
     problems.require(
         machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
         "coordinator_host is \"" + machine.coordinator_host + "\"; the name of a host: letters, digits, - and .");
     problems.require(!machine.network.one_host || machine.network.peers.empty(), "network.one_host",
-                     "network.one_host is true, but network.peers names hosts to look on; leave one of them out");
+                     "network.one_host is true, but network.peers names other hosts; leave one of them out");
     const std::vector<std::string> hosts = hosts_of(machine);
     if (hosts.size() < 2) { return; }
     const std::string several = "the machine is on several hosts, such as " + hosts[0] + " and " + hosts[1];

@@ -1,4 +1,4 @@
-// What a configuration must satisfy before a machine may run with it, apart from how it was written down.
+// What a valid configuration must satisfy, however it was written.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// A key of the configuration: "tick_ns", "timing.slot_us", or within axis i "homing.pulloff_mm". Empty: the block.
+/// A key of the configuration: "tick_ns", "timing.slot_us", or "homing.pulloff_mm" of axis i. Empty: the block.
 struct FieldPath {
     std::optional<std::size_t> axis;
     std::string key;
@@ -25,7 +25,7 @@ struct Problem {
 /// The machine's own keys, its timing and its network.
 std::vector<Problem> machine_problems(const MachineConfig& machine);
 
-/// One axis's keys, and its name among the axes before it.
+/// The keys of one axis, and its name among the axes before it.
 std::vector<Problem> axis_problems(const MachineConfig& machine, std::size_t axis);
 
 }  // namespace lockstep

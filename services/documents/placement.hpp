@@ -11,13 +11,13 @@
 
 namespace lockstep {
 
-/// Names of one host: equal but for capitals, or one is the other without its domain.
+/// Two names of one host: equal but for capitals, or one is the other without its domain.
 bool same_host(std::string_view one, std::string_view other);
 
 /// The hosts that a configuration names, each once.
 std::vector<std::string> hosts_of(const MachineConfig& machine);
 
-/// What runs on a host: all that is placed there, or nowhere.
+/// The processes of a host: those placed there, and those placed nowhere.
 struct Placement {
     bool coordinator = false;
     std::vector<std::size_t> axes;
@@ -25,8 +25,8 @@ struct Placement {
 };
 Placement placed_on(const MachineConfig& machine, std::string_view host);
 
-/// The axis that a process on this host is to run: the one `named`; where none is, the only one that is placed there by
-/// name. The error says which there are.
+/// The axis that a process on this host runs: the one `named`; if none is named, the only one that is placed there by
+/// name. The error lists the axes.
 std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
                                                     std::string_view host);
 

@@ -1,4 +1,4 @@
-// Collects problems: at most one for a key, and none that only follows from another.
+// Collects problems: at most one for a key, and no consequential ones.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ public:
                 key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
     }
 
-    /// The first key is to blame. Judged only where nothing is wrong with any of them by itself.
+    /// The first key is reported. Checked only if each of the keys is valid by itself.
     void require_between(std::initializer_list<std::string_view> keys, bool holds, const std::string& message) {
         const bool can_be_judged = std::ranges::all_of(keys, [this](std::string_view key) { return is_sound(key); });
         require(holds || !can_be_judged, *keys.begin(), message);

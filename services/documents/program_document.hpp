@@ -1,7 +1,7 @@
 // Program <-> idl/proto/program.proto, as bytes for the network and as text for people.
 //
-// On the way in everything is checked that does not need the machine: sizes match, numbers are finite and within the
-// limits of core/program.hpp, names are names. The error says what, and in which block.
+// A program from outside is checked for everything that does not need the machine: sizes match, numbers are finite and
+// within the limits of core/program.hpp, names are valid. The error names the value and the block.
 #pragma once
 
 #include <cstdint>

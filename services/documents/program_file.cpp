@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-/// Names travel in Protobuf strings, which are UTF-8; a file's name may be any bytes.
+/// Protobuf strings are UTF-8, but a file's name may be any bytes.
 std::string printable(std::string name) {
     std::ranges::replace_if(
         name, [](char c) { return c < ' ' || c > '~'; }, '?');

@@ -1,4 +1,4 @@
-// A G-code file becomes a program for a machine that stands somewhere.
+// Reads a G-code file as a program for a machine at a given position.
 #pragma once
 
 #include <expected>
@@ -13,12 +13,12 @@
 
 namespace lockstep {
 
-/// What G-code must know of the machine: names, travel, and the park positions for G28. start_mm: one per axis.
+/// The machine's data for the G-code interpreter: names, travel, park positions for G28. start_mm: one per axis.
 GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& start_mm, std::string program_name,
                        GcodeSwitches switches = {});
 
-/// `start_mm` is where each axis stands when the program begins, one number per axis of the machine. The program is
-/// called by the file's name.
+/// `start_mm` is the position of each axis when the program begins, one number per axis of the machine. The program
+/// gets the file's name.
 std::expected<Program, Diagnostics> load_gcode_file(const std::filesystem::path& path, const MachineConfig& machine,
                                                     const std::vector<double>& start_mm, GcodeSwitches switches = {});
 

@@ -12,7 +12,7 @@ std::string report_json(const google::protobuf::Message& report) {
     options.always_print_primitive_fields = true;
     options.preserve_proto_field_names = true;
     std::string text;
-    (void)google::protobuf::util::MessageToJsonString(report, &text, options);  // fails for Any alone
+    (void)google::protobuf::util::MessageToJsonString(report, &text, options);  // fails only for Any
     return text;
 }
 

@@ -1,4 +1,4 @@
-// A report as JSON: protobuf's own mapping, keys as report.proto writes them, numbers that are 0 written too.
+// A report as JSON: protobuf's own mapping, with report.proto's key names; zeros are written too.
 #pragma once
 
 #include <google/protobuf/message.h>

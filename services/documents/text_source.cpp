@@ -26,12 +26,12 @@ public:
     Diagnostics found;
 };
 
-/// Goes down from a block to a key, as far as the text has it.
+/// Descends from a block to a key, as far as the text has it.
 class Descent {
 public:
     Descent(const pb::TextFormat::ParseInfoTree& tree, const pb::Descriptor& type) : tree_(&tree), type_(&type) {}
 
-    /// `index` counts where the key repeats: the first where it is below 0.
+    /// `index`: which of a repeated key; below 0: the first.
     void enter(const std::string& key, int index) {
         const pb::FieldDescriptor* field = tree_ == nullptr ? nullptr : type_->FindFieldByName(key);
         if (field != nullptr) { index = field->is_repeated() ? std::max(index, 0) : -1; }

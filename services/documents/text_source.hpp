@@ -1,4 +1,4 @@
-// A protobuf message read from text, and where each of its keys stood.
+// A protobuf message read from text, with the place of each of its keys.
 #pragma once
 
 #include <google/protobuf/text_format.h>
@@ -11,7 +11,7 @@ namespace lockstep {
 
 class TextSource {
 public:
-    /// Unknown and repeated keys, wrong types and wrong syntax are the answer; empty: all went well.
+    /// Returns unknown and repeated keys, wrong types and wrong syntax; empty: no error.
     Diagnostics parse(std::string_view text, google::protobuf::Message& message);
 
     struct Place {
@@ -19,7 +19,7 @@ public:
         int column = 1;
         bool is_of_key = false;  // the key itself; otherwise the block that it is missing from
     };
-    /// "timing.slot_us"; "axis[1].homing.park_mm" of a key that repeats, from 0. Empty: the text.
+    /// `path`: "timing.slot_us"; "axis[1].homing.park_mm" for a repeated key, from 0. Empty: the text.
     Place place_of(const google::protobuf::Descriptor& type, std::string_view path) const;
 
 private:

@@ -1,4 +1,4 @@
-// What is wrong with a file a person wrote, in the form that editors and compilers use.
+// An error in a file that a person wrote, in the format of editors and compilers.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace lockstep {
 
 struct Diagnostic {
-    int line = 0;    // from 1; 0: the file as a whole
+    int line = 0;    // from 1; 0: the whole file
     int column = 0;  // from 1
     std::string message;
 };

@@ -20,7 +20,7 @@ std::optional<fs::path> named_by(const char* variable) {
     return fs::absolute(set);
 }
 
-/// Root's place; else one in the user's own, and where there is none either, one that anybody has.
+/// Root's directory; else the user's own; if there is none, the shared one.
 fs::path root(const fs::path& of_root, const char* users, const fs::path& below) {
     if (const auto set = named_by("LOCKSTEP_STATE")) { return *set; }
     if (geteuid() == 0) { return of_root; }
@@ -49,9 +49,9 @@ std::vector<fs::path> memory_directories() {
 }
 
 std::expected<void, std::string> make_own_directory(const fs::path& directory) {
-    if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST) { return cannot(directory, "make it"); }
+    if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST) { return cannot(directory, "create it"); }
     struct stat status {};
-    if (lstat(directory.c_str(), &status) != 0) { return cannot(directory, "look at it"); }
+    if (lstat(directory.c_str(), &status) != 0) { return cannot(directory, "examine it"); }
     if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid()) {
         return std::unexpected(directory.string() + ": is not a directory of this user; remove it");
     }

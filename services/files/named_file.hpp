@@ -1,4 +1,4 @@
-// A file that is open, and the name under which it was found.
+// An open file, and the path under which it was found.
 #pragma once
 
 #include <sys/stat.h>
@@ -11,12 +11,12 @@
 
 namespace lockstep {
 
-/// What could not be done with it, and why, as errno has it.
+/// The error for an action that failed, with the reason from errno.
 inline std::unexpected<std::string> cannot(const std::string& file, const char* action) {
     return std::unexpected(file + ": cannot " + action + ": " + std::strerror(errno));
 }
 
-/// The name's file and the one that is open are the same: nobody has removed or replaced it meanwhile.
+/// The path still names the open file: it was not removed or replaced meanwhile.
 inline bool is_still_named(const std::filesystem::path& path, int file) {
     struct stat open_one {};
     struct stat named {};

@@ -1,5 +1,5 @@
-// A file in the making: it gets its name when it is whole, so that what breaks off leaves no half of one, and what
-// stood there before stays until then.
+// A file under construction: it gets its name when it is complete. An interrupted writer leaves no partial file. The
+// previous file stays until then.
 #pragma once
 
 #include <expected>
@@ -10,21 +10,21 @@ namespace lockstep {
 
 class UnfinishedFile {
 public:
-    /// Nothing is written yet: its maker writes to unfinished().
+    /// Writes nothing yet: the owner writes to unfinished().
     explicit UnfinishedFile(const std::filesystem::path& path);
     UnfinishedFile(UnfinishedFile&& other) noexcept;
     UnfinishedFile& operator=(UnfinishedFile&&) = delete;
-    /// What was not kept is gone.
+    /// Removes the file if it was not kept.
     ~UnfinishedFile();
 
     const std::filesystem::path& path() const { return path_; }
     const std::filesystem::path& unfinished() const { return unfinished_; }
-    /// It stands under its name now. Error: the file and the reason.
+    /// Gives the file its name. Error: the file and the reason.
     std::expected<void, std::string> keep();
 
 private:
     std::filesystem::path path_;
-    std::filesystem::path unfinished_;  // empty: nothing to clear away
+    std::filesystem::path unfinished_;  // empty: nothing to remove
 };
 
 }  // namespace lockstep

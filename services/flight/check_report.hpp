@@ -1,5 +1,5 @@
-// Reports the failed check of this process (core/check.hpp) where a person finds it: in the service's log, and in the
-// flight ring, from which the process that takes its place writes an incident file.
+// Reports a failed check of this process (core/check.hpp) in the service's log and in the flight ring. The process's
+// successor writes the ring to an incident file.
 #pragma once
 
 #include "core/check.hpp"
@@ -7,13 +7,13 @@
 
 namespace lockstep {
 
-/// While it lives, checks that fail in this process are reported. One at a time in a process.
+/// While it exists, it reports failed checks of this process. One at a time in a process.
 class CheckReport {
 public:
     explicit CheckReport(FlightLog& flight);
     CheckReport(const CheckReport&) = delete;
     CheckReport& operator=(const CheckReport&) = delete;
-    /// The reporter before it is in place again.
+    /// Restores the previous reporter.
     ~CheckReport();
 
 private:

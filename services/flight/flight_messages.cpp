@@ -28,7 +28,7 @@ std::optional<FlightPeer> peer_in(const MachineConfig& machine, const std::strin
 }
 
 Ticks ticks_of(double us, std::int64_t tick_ns) {
-    constexpr double kMost = 1e15;  // beyond anything that lasts
+    constexpr double kMost = 1e15;  // longer than anything lasts
     const double ticks = us * 1000 / static_cast<double>(tick_ns);
     return {std::llround(std::isfinite(ticks) ? std::clamp(ticks, -kMost, kMost) : 0)};
 }
@@ -88,7 +88,7 @@ std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message) {
                                "\": this command reads version " + std::to_string(kFlightVersion));
     }
     if (message.process.contains('/') || message.machine.contains('/')) {
-        return std::unexpected("a head of a process that no machine can have");
+        return std::unexpected("a head of a process that is neither a coordinator nor an axis");
     }
     FlightHead head;
     head.source = {.machine = message.machine,
@@ -106,7 +106,7 @@ std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message
     const auto about = peer_in(machine, message.about);
     const FaultText* fault = find_fault(message.fault);
     if (!kind) { return std::unexpected("an event of a kind that is not known: \"" + message.what + "\""); }
-    if (!about) { return std::unexpected("an event about \"" + message.about + "\", which the machine has not"); }
+    if (!about) { return std::unexpected("an event about \"" + message.about + "\", which the machine does not have"); }
     if (fault == nullptr && !message.fault.empty()) {
         return std::unexpected("an event of a fault that is not known: \"" + message.fault + "\"");
     }
@@ -124,7 +124,7 @@ std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message
     return out;
 }
 
-/// A head, as in a file, and behind it how many files are kept, and where.
+/// A head, as in a file, followed by how many files are kept, and where.
 std::vector<std::uint8_t> encode_source(const FlightSource& source) {
     const flight_head_t head = to_lcm(source, {});
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(head.getEncodedSize()));
@@ -138,7 +138,7 @@ std::expected<FlightSource, std::string> decode_source(std::span<const std::uint
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const std::size_t head_bytes = std::min(text.rfind('\n'), text.size());
     const auto message = decode_lcm<flight_head_t>(bytes.first(head_bytes));
-    if (!message || head_bytes == text.size()) { return std::unexpected("whose it is cannot be read"); }
+    if (!message || head_bytes == text.size()) { return std::unexpected("the process it belongs to cannot be read"); }
     auto head = from_lcm(*message);
     if (!head) { return std::unexpected(head.error()); }
     const std::string rest(text.substr(head_bytes + 1));

@@ -1,4 +1,4 @@
-// What a process has noted, as LCM messages and back: the only place that knows their types.
+// A process's notes as LCM messages and back: the only file that knows their types.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace lockstep {
 
 inline constexpr std::int32_t kFlightVersion = 1;
 
-/// Why what a process noted was written, and when it happened.
+/// Why a process's notes were written, and when the incident happened.
 struct IncidentMark {
     IncidentReason reason = IncidentReason::Asked;
     Tick tick;                 // machine time
@@ -26,7 +26,7 @@ struct IncidentMark {
 };
 
 flight_head_t to_lcm(const FlightSource& source, const IncidentMark& mark);
-/// `machine` names whom events are about.
+/// `machine` provides the names of the axes that events refer to.
 flight_event_t to_lcm(const FlightSource& source, const MachineConfig& machine, const NumberedEvent& event);
 
 /// `text`: why the process ended by itself.
@@ -36,12 +36,12 @@ struct FlightHead {
     FlightSource source;
     IncidentMark mark;
 };
-/// Error: of a version, or with a reason, that is not known here.
+/// Error: an unknown version or reason.
 std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message);
-/// Error: of a kind that is not known here, or about nobody there is.
+/// Error: an unknown kind, or an event about an axis that the machine does not have.
 std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message, const MachineConfig& machine);
 
-/// As it stands in a ring.
+/// The source as stored in a ring.
 std::vector<std::uint8_t> encode_source(const FlightSource& source);
 std::expected<FlightSource, std::string> decode_source(std::span<const std::uint8_t> bytes);
 

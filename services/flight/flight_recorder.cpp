@@ -19,7 +19,7 @@ constexpr auto kLookEvery = 100ms;
 constexpr auto kAftermath = 1s;    // after the last of several incidents close together...
 constexpr auto kLongestWait = 5s;  // ...but not longer after the first
 
-/// Where nothing is kept.
+/// For a process that keeps no notes.
 class NoFlight final : public FlightLog {
 public:
     void add(const FlightEvent& /*event*/) override {}
@@ -32,7 +32,7 @@ std::string how_to_read(const std::filesystem::path& file) {
 
 void say_left(const LeftRings& left) {
     for (const auto& file : left.saved) {
-        log_warning("a process of this machine has ended unasked; what it had noted is in " + how_to_read(file));
+        log_warning("a process of this machine ended without being asked to; its notes are in " + how_to_read(file));
     }
     for (const std::string& problem : left.problems) { log_warning(problem); }
 }
@@ -90,14 +90,15 @@ void FlightRecorder::serve(const std::stop_token& stop) {
 
 void FlightRecorder::write() {
     const auto snapshot = read_ring(ring_.path());
-    if (!snapshot) { return log_warning("nothing is written of the incident: " + snapshot.error()); }
+    if (!snapshot) { return log_warning("the incident is not written: " + snapshot.error()); }
     const auto incident = first_incident(snapshot->events, written_);
     if (!incident) { return; }
     written_ = snapshot->events.back().number;
     const auto reason = static_cast<IncidentReason>(incident->event.detail);
     const auto file = write_incident(*snapshot, {reason, incident->event.tick, wall_clock_us()});
-    if (!file) { return log_warning("nothing is written of the incident: " + file.error()); }
-    log_warning("incident (" + std::string(name_of(reason)) + "): what came before is in " + how_to_read(*file));
+    if (!file) { return log_warning("the incident is not written: " + file.error()); }
+    log_warning("incident (" + std::string(name_of(reason)) + "): the notes of the time before it are in " +
+                how_to_read(*file));
 }
 
 std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity) {
@@ -130,7 +131,7 @@ LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesys
             found.saved.push_back(*file);
         } else {
             found.problems.push_back("what " + snapshot->source.process +
-                                     " had noted when it ended is not written: " + file.error());
+                                     "'s notes from before its end are not written: " + file.error());
         }
     }
     return found;

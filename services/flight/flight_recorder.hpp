@@ -1,5 +1,5 @@
-// The flight recorder of a process: a ring of what it notes, and a thread that writes it to a file when there is an
-// incident, and soon after, so that what came of it is in it too.
+// The flight recorder of a process: a ring of its notes, and a thread that writes them to a file at an incident, and
+// again soon after, so that the file includes the aftermath.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ public:
     static std::expected<std::unique_ptr<FlightRecorder>, std::string> open(const std::filesystem::path& directory,
                                                                             const FlightSource& source,
                                                                             std::size_t events);
-    /// What is not written of an incident yet is written now.
+    /// Writes what is not yet written of an incident.
     ~FlightRecorder() override;
 
     void add(const FlightEvent& event) override;
@@ -43,17 +43,17 @@ private:
     std::jthread thread_;
 };
 
-/// Where a process of the machine notes its flight, as the machine's file has it: `axis` is empty for the coordinator.
-/// Where there can be none the log says why, and nothing is kept.
+/// Opens the flight recorder of a process as the machine's file configures it; `axis` is empty for the coordinator. If
+/// that fails, the log states why, and nothing is kept.
 std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity);
 
-/// What dead processes had noted, and is in files now.
+/// The notes of dead processes, now in files.
 struct LeftRings {
     std::vector<std::filesystem::path> saved;
-    std::vector<std::string> problems;  // what could not be written, and why
+    std::vector<std::string> problems;  // the rings that could not be written, and why
 };
 
-/// Of those in `rings` whose incident files go to `incidents`.
+/// Saves those rings in `rings` whose incident files belong in `incidents`.
 LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesystem::path& incidents);
 
 }  // namespace lockstep

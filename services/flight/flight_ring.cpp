@@ -26,7 +26,7 @@ constexpr std::uint64_t kMagic = 0x4c53464c49474854U;  // LSFLIGHT
 constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kHeaderBytes = kFlightSlotBytes;
 constexpr std::size_t kSourceAt = kHeaderBytes + kFlightNoteBytes;
-constexpr std::size_t kMaxBytes = std::size_t{128} << 20;  // more is no ring
+constexpr std::size_t kMaxBytes = std::size_t{128} << 20;  // a larger file is not a ring
 using EventSlot = NumberedSlot<FlightEvent>;
 static_assert(EventSlot::kWords * sizeof(std::uint64_t) == kFlightSlotBytes);
 
@@ -38,7 +38,7 @@ struct Header {
     std::uint64_t slots_at = 0;      // byte
 };
 
-/// Whatever the file says, nothing beyond it is looked at.
+/// Never reads beyond the file, whatever its header contains.
 std::optional<Header> header_of(const SharedMapping& mapping) {
     Header header;
     if (mapping.bytes() < kSourceAt) { return std::nullopt; }
@@ -62,7 +62,7 @@ std::string note_of(const SharedMapping& mapping) {
 std::expected<FlightRing, std::string> FlightRing::create(const fs::path& directory, const FlightSource& source,
                                                           std::size_t events) {
     if (const auto made = make_own_directory(directory); !made) { return std::unexpected(made.error()); }
-    static std::atomic<int> rings = 0;  // of this process: more than one in tests alone
+    static std::atomic<int> rings = 0;  // of this process: more than one only in tests
     const std::string name =
         source.machine + "." + source.process + "." + std::to_string(getpid()) + "." + std::to_string(rings++);
     const fs::path unfinished = directory / (name + ".new");
@@ -72,22 +72,22 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
         (kSourceAt + source_bytes.size() + kFlightSlotBytes - 1) / kFlightSlotBytes * kFlightSlotBytes;
     const std::size_t bytes = slots_at + events * kFlightSlotBytes;
     const int file = open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (file < 0) { return cannot(unfinished, "make it"); }
-    // Memory is had now or not at all: a page that is not there later would end the process.
+    if (file < 0) { return cannot(unfinished, "create it"); }
+    // Reserves the memory now: a page that is missing later would end the process.
     errno = posix_fallocate(file, 0, static_cast<off_t>(bytes));
     SharedMapping mapping(file, errno == 0 ? bytes : 0, PROT_READ | PROT_WRITE);
     if (mapping.words() == nullptr || flock(file, LOCK_EX | LOCK_NB) != 0) {
-        const auto error = cannot(unfinished, "have its memory");
+        const auto error = cannot(unfinished, "reserve its memory");
         unlink(unfinished.c_str());
         close(file);
         return error;
     }
-    std::memset(mapping.words(), 0, bytes);  // and touched, so that no store waits for it
+    std::memset(mapping.words(), 0, bytes);  // and touched, so that no later store waits for a page
     const Header header{.events = events, .source_bytes = source_bytes.size(), .slots_at = slots_at};
     std::memcpy(mapping.words(), &header, sizeof header);
     std::memcpy(bytes_of(mapping) + kSourceAt, source_bytes.data(), source_bytes.size());
     std::error_code error;
-    fs::rename(unfinished, path, error);  // whoever sees it finds it whole, and locked
+    fs::rename(unfinished, path, error);  // the name appears when the ring is complete and locked
     return FlightRing(path, file, std::move(mapping), slots_at, events);
 }
 
@@ -124,7 +124,7 @@ std::expected<FlightSnapshot, std::string> read_ring(const fs::path& path) {
     const SharedMapping mapping(file, bytes, PROT_READ | PROT_WRITE);
     close(file);
     const auto header = mapping.words() == nullptr ? std::nullopt : header_of(mapping);
-    if (!header) { return std::unexpected(path.string() + ": is no ring of a flight recorder of this version"); }
+    if (!header) { return std::unexpected(path.string() + ": is not a flight recorder ring of this version"); }
     auto source = decode_source({bytes_of(mapping) + kSourceAt, header->source_bytes});
     if (!source) { return std::unexpected(path.string() + ": " + source.error()); }
     FlightSnapshot snapshot{.source = *std::move(source), .events = {}, .note = note_of(mapping)};

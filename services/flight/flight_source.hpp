@@ -1,4 +1,4 @@
-// Whose flight it is, and what it has noted.
+// The source of a flight record, and its notes.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct FlightSource {
     std::int64_t tick_ns = 1000;
     std::string config;               // machine.textproto
     std::filesystem::path directory;  // for incident files
-    int files = 1;                    // of this process kept there, at least 1
+    int files = 1;                    // number of incident files kept for this process, at least 1
     bool operator==(const FlightSource&) const = default;
 };
 
@@ -27,11 +27,11 @@ struct NumberedEvent {
     bool operator==(const NumberedEvent&) const = default;
 };
 
-/// What a ring holds at one moment, in the order noted.
+/// The content of a ring at one moment, in the order noted.
 struct FlightSnapshot {
     FlightSource source;
     std::vector<NumberedEvent> events;
-    std::string note = {};  // why the process ended by itself; empty: it did not, or it could not say
+    std::string note = {};  // why the process ended itself; empty: it did not, or could not note it
 };
 
 /// The name of a process, as the machine's file has its axes; empty for the coordinator.

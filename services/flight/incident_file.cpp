@@ -31,7 +31,7 @@ std::string stamp(std::int64_t wall_us) {
     return std::string(text, length) + fraction;
 }
 
-/// STAMP-PROCESS-INCARNATION: two coordinators, one of them standing by, do not meet.
+/// STAMP-PROCESS-INCARNATION: a coordinator and its standby get different names.
 fs::path file_for(const FlightSource& source, const IncidentMark& mark) {
     return source.directory / (stamp(mark.wall_us) + "-" + source.process + "-" +
                                std::to_string(source.incarnation % 100'000) + std::string(kEnd));
@@ -91,7 +91,7 @@ std::expected<fs::path, std::string> write_incident(const FlightSnapshot& snapsh
     auto log = LogWriter::open(file.unfinished());
     if (!log) { return std::unexpected(log.error()); }
     if (!write_events(snapshot, mark, *log)) {
-        return std::unexpected(file.path().string() + ": cannot be written whole: is the disk full?");
+        return std::unexpected(file.path().string() + ": cannot be written completely: is the disk full?");
     }
     if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }
     remove_oldest(source);

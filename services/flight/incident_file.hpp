@@ -1,4 +1,4 @@
-// An incident file: what one process noted in the last seconds before a fault and the first after it, as an LCM log.
+// An incident file: one process's notes of the seconds before and after a fault, as an LCM log.
 #pragma once
 
 #include <expected>
@@ -12,21 +12,21 @@
 
 namespace lockstep {
 
-/// How much of what was before the incident is written.
+/// How much of the time before the incident is written.
 inline constexpr std::int64_t kFlightSeconds = 10;
 
-/// The first incident noted after event `after`; nothing where there is none.
+/// The first incident noted after event `after`; nothing if there is none.
 std::optional<NumberedEvent> first_incident(std::span<const NumberedEvent> events, std::uint64_t after);
 
-/// Writes it into the source's directory, which is made, and removes the oldest of the same process beyond as many as
-/// are kept. Returns the file. Error: the disk's, and the remedy.
+/// Writes the snapshot into the source's directory, which it creates, and removes the oldest files of the same process
+/// beyond the number kept. Returns the file. Error: the disk's, and the remedy.
 std::expected<std::filesystem::path, std::string> write_incident(const FlightSnapshot& snapshot,
                                                                  const IncidentMark& mark);
 
 /// Incident files, the oldest first.
 std::vector<std::filesystem::path> incident_files(const std::filesystem::path& directory);
 
-/// Where this host's processes of the machine write theirs.
+/// Where this host's processes of the machine write their incident files.
 std::filesystem::path incident_directory(const MachineConfig& machine);
 
 /// Microseconds since 1970, by this host's clock.

@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Says why in the flight record and in the log, and ends the process by SIGABRT. now: when the loop last ran.
+/// Writes why to the flight record and the log, and ends the process by SIGABRT. now: when the loop last ran.
 [[noreturn]] void end_stuck_process(FlightLog& flight, Tick now, std::int64_t tick_ns);
 
 }  // namespace lockstep

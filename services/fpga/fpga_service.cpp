@@ -25,8 +25,8 @@ std::uint64_t drawn_number() {
     return std::uniform_int_distribution<std::uint64_t>()(random);
 }
 
-/// The device and what is behind it. Its registers may be taken away or overwritten by others: then it powers up anew,
-/// and the slide stays where it is.
+/// The device and the plant behind it. Another process may remove or overwrite its registers: then the device powers up
+/// again, and the slide stays where it is.
 class Board {
 public:
     Board(const FpgaOptions& options, const AxisConfig& axis, const MachineConfig& machine)
@@ -35,7 +35,7 @@ public:
           clock_(machine.tick_ns, machine.timing.time_source),
           plant_(axis, machine.tick_ns) {}
 
-    /// Error: its registers cannot be made.
+    /// Error: its registers cannot be created.
     std::expected<void, std::string> power_up() {
         if (device_) { plant_ = device_->plant(); }
         device_.reset();  // with its window: the name is free again
@@ -49,7 +49,7 @@ public:
 
     std::expected<void, std::string> advance() {
         if (!device_->is_intact()) {
-            log_error("the registers were overwritten or taken away; powers up anew, unhomed");
+            log_error("the registers were overwritten or removed; powers up again, unhomed");
             if (auto up = power_up(); !up) { return up; }
         }
         device_->advance(clock_.now());

@@ -1,7 +1,7 @@
-// One axis's simulated device in real time, on shared memory, by name or in a file.
+// One axis's simulated device in real time, in shared memory or in a file.
 //
-// Its tick is CLOCK_MONOTONIC in units of tick_ns, as every process of the machine counts it. Steps fall on the ticks
-// that the frames define, however late the loop wakes; only the host's words are seen that much later.
+// Its tick is CLOCK_MONOTONIC in units of tick_ns, as in every process of the machine. Steps fall on the ticks that
+// the frames define, however late the loop wakes; only the host's register writes take effect that much later.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct FpgaOptions {
     std::string file;  // its path
 };
 
-/// Serves until SIGINT or SIGTERM. The process's exit code: 0 ended as asked, 1 failed, the cause in the log.
+/// Serves until SIGINT or SIGTERM. Returns the exit code: 0 ended as asked, 1 failed, the cause is in the log.
 int serve_fpga(const FpgaOptions& options);
 
 }  // namespace lockstep

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
     app.add_option("--axis", options.axis, "the axis's name in that file")->required();
     auto* place = app.add_option_group("where", "where the registers are");
     place->add_option("--name", options.name, "shared memory of this name, under /dev/shm: shm:NAME for the axis");
-    place->add_option("--file", options.file, "a file that is mapped, made if need be: uio:PATH for the axis");
+    place->add_option("--file", options.file, "a file to map, created if missing: uio:PATH for the axis");
     place->require_option(1);
     app.footer(
         "Examples:\n  lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"

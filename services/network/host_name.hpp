@@ -1,4 +1,4 @@
-// The name of the host that this process runs on, as the kernel has it.
+// The host's name, from the kernel.
 #pragma once
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// Whether a network interface is still the one that sockets were opened on: one that was unplugged and comes back has
-// its name, but sockets that are tied to the old one receive nothing; and DDS tells its peers the address that it had.
+// Detects that a network interface was replaced since its sockets were opened. An interface that was unplugged and
+// returns keeps its name, but sockets bound to the old one receive nothing, and DDS announces the old address.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct InterfaceIdentity {
     bool operator==(const InterfaceIdentity&) const = default;
 };
 
-/// Nothing: there is none of this name, it is down, or it has no IPv4 address.
+/// Nothing: there is no interface of this name, it is down, or it has no IPv4 address.
 std::optional<InterfaceIdentity> interface_identity(const std::string& name);
 
 }  // namespace lockstep

@@ -23,7 +23,7 @@ bool is_multicast_address(const std::string& address) {
     return inet_pton(AF_INET, address.c_str(), &parsed) == 1 && (ntohl(parsed.s_addr) >> 28) == 0xE;
 }
 
-/// What comes before the separator; `text` keeps what comes after it.
+/// Returns the part before the separator; `text` keeps the part after it.
 std::string_view cut(std::string_view& text, std::string_view separator) {
     const std::size_t at = text.find(separator);
     const std::string_view before = text.substr(0, at);

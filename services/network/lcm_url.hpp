@@ -1,4 +1,4 @@
-// What an LCM URL says of where its messages go.
+// An LCM URL, parsed.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// What an LCM URL says, e.g. udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304; what is missing has LCM's default.
+/// The parts of an LCM URL, e.g. udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304; a missing part has a default.
 struct LcmUrl {
     std::string provider = "udpm";
     std::string address = "239.255.76.67";
@@ -18,7 +18,7 @@ struct LcmUrl {
     bool is_multicast() const { return provider == "udpm" || provider == "mpudpm"; }
 };
 
-/// Error: a port or ttl that is no number in range, an address that is no IPv4 multicast address.
+/// Error: a port or ttl that is not a number in range, an address that is not an IPv4 multicast address.
 std::expected<LcmUrl, std::string> parse_lcm_url(std::string_view url);
 
 }  // namespace lockstep

@@ -18,11 +18,11 @@ constexpr const char* kDefaultGroup = "239.255.76.67";
 
 std::string remedy(const std::string& interface) {
     return "run as root: ip route add " + std::string(kMulticastRange) + " dev " + interface +
-           (interface == "lo" ? " (and, if nothing is heard: ip link set lo multicast on)" : "");
+           (interface == "lo" ? " (and, if nothing is received: ip link set lo multicast on)" : "");
 }
 
-/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. True: it succeeded. It does not fork: a copy of the pages
-/// of a process in motion would delay its loop.
+/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. True: it succeeded. It does not fork: copying the pages of
+/// a process in motion would delay its loop.
 bool change_loopback_route(const char* verb) {
     std::array<const char*, 7> words{"ip", "route", verb, kMulticastRange, "dev", "lo", nullptr};
     posix_spawn_file_actions_t actions;

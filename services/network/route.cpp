@@ -1,5 +1,5 @@
 // Asks the kernel by rtnetlink, since neither /proc/net/route (no policy routes) nor a socket's chosen source address
-// (not that of lo, even where the route is) tells the interface. See rtnetlink(7), RTM_GETROUTE.
+// (not lo's address, even if the route leads to lo) shows the interface. See rtnetlink(7), RTM_GETROUTE.
 #include "services/network/route.hpp"
 
 #include <arpa/inet.h>
@@ -41,7 +41,7 @@ RouteRequest request_for(in_addr destination) {
     return request;
 }
 
-/// Sends the request and receives the one answer. Returns its length, or minus errno.
+/// Sends the request and receives the answer. Returns its length, or minus errno.
 int ask_kernel(const RouteRequest& request, Answer& answer) {
     const int netlink = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE);
     if (netlink < 0) { return -errno; }

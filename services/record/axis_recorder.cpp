@@ -17,9 +17,9 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
                 .incarnation = incarnation,
                 .tick_ns = machine.tick_ns},
                0, [this](step_batch_t& batch) { publish(batch); }),
-      witness_(machine, machine.axes[axis].name, sink) {}
+      marker_(machine, machine.axes[axis].name, sink) {}
 
-/// The count before the first step there is: where the axis stands, less the steps it had made by then.
+/// The count before the first recorded step: the axis's position minus its steps so far.
 void AxisRecorder::place(const AxisState& state) {
     const Tick read = clock_.own + (state.tick - clock_.other);
     std::int64_t before = state.position.count();
@@ -37,11 +37,11 @@ void AxisRecorder::batch_steps() {
 void AxisRecorder::finish() {
     batch_steps();
     batcher_.flush();
-    witness_.note_end(machine_.axes[axis_].name, incarnation_, counts_, clock_.other);
+    marker_.note_end(machine_.axes[axis_].name, incarnation_, counts_, clock_.other);
 }
 
-/// Adds when its steps were made in machine time, by the newest look at the clocks. An estimate that has become better
-/// may put them before those of the batch before: then they are said to be just behind, and to be known no better.
+/// Adds the steps' machine times, from the newest clock estimate. An improved estimate may put them before those of the
+/// previous batch: then they are recorded just after it, and their error bound grows accordingly.
 void AxisRecorder::publish(step_batch_t& batch) {
     const Tick first{batch.first_tick};
     const Tick last = std::accumulate(batch.delta_ticks.begin(), batch.delta_ticks.end(), first,
@@ -59,11 +59,11 @@ void AxisRecorder::publish(step_batch_t& batch) {
 
 void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
-    if (out.state) { witness_.note(machine_.axes[axis_].name, incarnation_, counts_, clock_.other); }
+    if (out.state) { marker_.note(machine_.axes[axis_].name, incarnation_, counts_, clock_.other); }
     if (out.device_changed) { placed_ = false; }
     if (!placed_ && out.state) {
         place(*out.state);
-        zero_count_ = zero_count;  // as the state has it: a process may begin homed
+        zero_count_ = zero_count;  // from the state: a process may begin homed
     }
     batch_steps();
     for (const ExecutedTrack& track : out.tracks) {
@@ -88,7 +88,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
         batcher_.set_position(batcher_.position_steps() - (zero_count - zero_count_));
         zero_count_ = zero_count;
     }
-    if (lost_captures != lost_captures_) {  // the next state says where the steps kept from now on begin
+    if (lost_captures != lost_captures_) {  // the next state gives the position before the following steps
         lost_captures_ = lost_captures;
         placed_ = false;
     }

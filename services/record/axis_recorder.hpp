@@ -1,4 +1,4 @@
-// One axis's part of the record: every step, where the axis is, and what it was told to run.
+// One axis's part of the record: every step, the axis's position, and the runs it was ordered.
 #pragma once
 
 #include <memory>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/axis/axis_controller.hpp"
+#include "services/record/record_marker.hpp"
 #include "services/record/record_sink.hpp"
-#include "services/record/record_witness.hpp"
 #include "services/record/step_batcher.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
@@ -24,19 +24,19 @@ public:
 
     /// Every step, in order, before the loop's outputs.
     void step(StepEdge step) { steps_.push_back(step); }
-    /// After each loop: its outputs, what the axis's zero then is, and how many steps so far the device could not keep
-    /// the time of: they are missing behind those of this loop. Steps and runs are recorded in the device's time, with
-    /// what that is in machine time.
+    /// Call it after each loop: with the loop's outputs, the axis's zero after it, and how many steps so far have no
+    /// recorded time: they are missing after those of this loop. Steps and runs are recorded in the device's time and
+    /// in machine time.
     void loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures);
     void health(const AxisHealth& health) {
         sink_.publish(channels_.health, to_lcm(machine_, health, {incarnation_, counts_.figures++}));
     }
-    /// What the coordinator is known to have published by then.
+    /// The coordinator's published counts at that time.
     void note_coordinator(const MachineState& state) {
-        witness_.note("", state.term.coordinator, state.published, state.tick);
+        marker_.note("", state.term.coordinator, state.published, state.tick);
     }
     RecordCounts published() const { return counts_; }
-    /// At the end: what is still in hand.
+    /// At the end: publishes what is not yet published.
     void finish();
 
 private:
@@ -52,12 +52,12 @@ private:
     StepBatcher batcher_;
     std::int64_t zero_count_ = 0;
     RecordCounts counts_;  // published so far
-    RecordWitness witness_;
+    RecordMarker marker_;
     std::uint64_t lost_captures_ = 0;
-    /// It is known where the device stands: not at first, since it may have outlived another process, nor where it has
-    /// been exchanged, nor after steps without their time.
+    /// The device's position is known: not at first, since the device may have outlived another process, nor after the
+    /// device was exchanged, nor after steps without their time.
     bool placed_ = false;
-    std::vector<StepEdge> steps_;    // not given to the batcher yet
+    std::vector<StepEdge> steps_;    // not yet given to the batcher
     ClockView clock_;                // the device's, in machine time, at the last loop
     std::optional<Tick> published_;  // machine time of the last step published
 };

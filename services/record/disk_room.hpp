@@ -1,5 +1,5 @@
-// Room on a disk for a file that grows, taken before it is written. So a full disk is noticed while there is still some
-// room left in the file, in which it can be said what is lost.
+// Reserves disk space for a growing file before it is written. So a full disk is noticed while the file still has room
+// to record what is lost.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@ namespace lockstep {
 
 class DiskRoom {
 public:
-    static constexpr std::uint64_t kAhead = 16 << 10;  // taken at a time
-    static constexpr std::uint64_t kKept = 16 << 10;   // for what must be said
+    static constexpr std::uint64_t kAhead = 16 << 10;  // reserved at a time
+    static constexpr std::uint64_t kKept = 16 << 10;   // for the loss messages
 
-    /// The file is there. Where the file system cannot take room in advance there is none to keep.
+    /// The file exists. If the file system cannot reserve space in advance, nothing is reserved.
     explicit DiskRoom(const std::filesystem::path& file);
-    /// Gives back what the file has not grown into.
+    /// Releases the space that the file did not use.
     ~DiskRoom();
     DiskRoom(DiskRoom&& other) noexcept;
     DiskRoom& operator=(DiskRoom&& other) noexcept;

@@ -28,11 +28,11 @@ JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, Rec
       sink_(sink),
       channel_(job_channel(machine.name)),
       config_(machine_text(machine)),
-      witness_(machine, "", sink) {}
+      marker_(machine, "", sink) {}
 
 void JobRecorder::note_axis(const AxisHealth& health) {
     if (health.axis >= machine_.axes.size()) { return; }
-    witness_.note(machine_.axes[health.axis].name, health.identity, health.published, health.tick);
+    marker_.note(machine_.axes[health.axis].name, health.identity, health.published, health.tick);
 }
 
 void JobRecorder::record(Tick now, const JobEvent& event) {
@@ -70,7 +70,7 @@ void JobRecorder::record(Tick now, const ProgramChunk& chunk) {
     publish(now, std::move(part));
 }
 
-/// Into the job's message where it is short; else the parts are there already, or are recorded now.
+/// Into the job's message if it is short; otherwise its parts were recorded already, or are recorded now.
 void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& record) {
     bool is_in_parts = std::ranges::find(in_parts_, event.program_id) != in_parts_.end();
     if (!is_in_parts && event.program->blocks.size() > kBlocksInJob) {
@@ -99,7 +99,7 @@ void JobRecorder::record_parts(Tick now, const JobEvent& event) {
     }
 }
 
-/// A microsecond before the job: merged logs, which are in the order of time, have it in front of the job as well.
+/// A microsecond before the job: so it precedes the job in merged logs too, which are sorted by time.
 void JobRecorder::publish(Tick now, program_part_t&& part) {
     part.utime = utime_of(now, machine_.tick_ns) - 1;
     part.machine = machine_.name;

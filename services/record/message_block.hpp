@@ -1,4 +1,4 @@
-// Messages behind each other in one piece of memory that is used again and again: nothing is allocated once it has
+// Consecutive messages in one reused piece of memory: nothing is allocated once it has
 // grown.
 #pragma once
 
@@ -23,12 +23,12 @@ public:
         bytes_.insert(bytes_.end(), data.begin(), data.end());
     }
 
-    template <typename Tell>
-    void each(Tell&& tell) const {
+    template <typename Use>
+    void each(Use&& use) const {
         const std::uint8_t* at = bytes_.data();
         for (const Entry& entry : entries_) {
             const std::string_view channel(reinterpret_cast<const char*>(at), entry.channel_bytes);
-            tell(Message{channel, entry.utime, {at + entry.channel_bytes, entry.data_bytes}});
+            use(Message{channel, entry.utime, {at + entry.channel_bytes, entry.data_bytes}});
             at += entry.channel_bytes + entry.data_bytes;
         }
     }

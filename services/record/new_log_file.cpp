@@ -13,15 +13,15 @@ bool is_log(const std::filesystem::path& path) {
     return event && *event;
 }
 
-/// Empty: it may be written. Otherwise what is in the way.
+/// Empty: it may be written. Otherwise the reason why not.
 std::string obstacle(const std::filesystem::path& path, bool force) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) { return ""; }
     if (std::filesystem::is_directory(status)) { return "it is a directory; name a file"; }
-    if (!std::filesystem::is_regular_file(status)) { return "it is no regular file; name another"; }
+    if (!std::filesystem::is_regular_file(status)) { return "it is not a regular file; name another"; }
     if (force || std::filesystem::file_size(path, error) == 0 || is_log(path)) { return ""; }
-    return "the file there is not a log; name another, or say --force to replace it";
+    return "the file there is not a log; name another, or add --force to replace it";
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::expected<NewLogFile, std::string> NewLogFile::begin(const std::filesystem::
 
 std::expected<void, std::string> NewLogFile::keep() {
     if (!sink_->finish()) {
-        return std::unexpected(file_.path().string() + ": cannot be written whole: is the disk full?");
+        return std::unexpected(file_.path().string() + ": cannot be written completely: is the disk full?");
     }
     return file_.keep();
 }

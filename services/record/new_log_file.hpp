@@ -1,4 +1,4 @@
-// A log in the making: it gets its name when it is whole, so that a run that breaks off leaves no half of one.
+// A log under construction: it gets its name when it is complete, so that an interrupted run leaves no partial log.
 #pragma once
 
 #include <expected>
@@ -13,12 +13,12 @@ namespace lockstep {
 
 class NewLogFile {
 public:
-    /// `force`: what stands there may be replaced whatever it is; without it only a log may. Error: why not, and the
+    /// `force`: replaces any file; without it only a log is replaced. Error: why not, and the
     /// remedy.
     static std::expected<NewLogFile, std::string> begin(const std::filesystem::path& path, bool force);
 
     RecordSink& sink() { return *sink_; }
-    /// The log stands under its name now. Error: the disk is full or gone.
+    /// Gives the log its name. Error: the disk is full or failed.
     std::expected<void, std::string> keep();
 
 private:

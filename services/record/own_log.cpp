@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-QueuedSink::SayLoss loss_teller(const MachineConfig& machine, const std::string& axis) {
+QueuedSink::WriteLoss loss_teller(const MachineConfig& machine, const std::string& axis) {
     return [machine = machine.name, axis](RecordSink& log, const RecordLoss& loss) {
         record_loss_t message{};
         message.utime = loss.last_utime;
@@ -50,7 +50,7 @@ std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost) 
     return std::to_string(lost) + " messages of the record are lost so far: they could not be " +
            (machine.record.own_logs ? "written to " + own_log_directory(machine).string() + " (free room there)"
                                     : std::string("sent (record { own_logs: true } keeps them on a disk)")) +
-           " or sent; lockstep log merge says what no log has";
+           " or sent; lockstep log merge lists what no log contains";
 }
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// The log that a process keeps by itself, on the board it runs on, as the machine's file has it (`record`).
+// The log that a process keeps on its own board, as the machine's file configures it (`record`).
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace lockstep {
 std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const MachineConfig& machine,
                                                                      const std::string& axis);
 
-/// Where this host's processes of the machine keep theirs.
+/// Where this host's processes of the machine keep their logs.
 std::filesystem::path own_log_directory(const MachineConfig& machine);
 
-/// For a process's log, where it has lost so many messages since its start.
+/// For a process's log, if it has lost so many messages since its start.
 std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost);
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@ namespace lockstep {
 
 namespace {
 
-/// The room that a sink keeps for what must be said.
+/// The space that a sink reserves for loss messages.
 class KeptRoom final : public RecordSink {
 public:
     explicit KeptRoom(RecordSink& of) : of_(of) {}
@@ -32,10 +32,10 @@ void RecordLoss::add(const RecordLoss& later) {
     if (!later.mark.empty()) { mark = later.mark; }
 }
 
-QueuedSink::QueuedSink(std::unique_ptr<RecordSink> behind, SayLoss say_loss, std::string mark_channel,
+QueuedSink::QueuedSink(std::unique_ptr<RecordSink> behind, WriteLoss write_loss, std::string mark_channel,
                        std::size_t queue_bytes)
     : behind_(std::move(behind)),
-      say_loss_(std::move(say_loss)),
+      write_loss_(std::move(write_loss)),
       mark_channel_(std::move(mark_channel)),
       queue_bytes_(queue_bytes),
       thread_([this](const std::stop_token& stop) { serve(stop); }) {}
@@ -44,7 +44,7 @@ QueuedSink::~QueuedSink() {
     thread_.request_stop();
     thread_.join();
     write_out(aside_);
-    say_in_kept_room(true);
+    report_in_kept_room(true);
 }
 
 void QueuedSink::lose(RecordLoss& loss, std::string_view channel, std::int64_t utime,
@@ -60,7 +60,7 @@ void QueuedSink::add(Backlog& backlog, std::string_view channel, std::int64_t ut
     fits ? backlog.block.add(channel, utime, bytes) : lose(backlog.dropped, channel, utime, bytes);
 }
 
-/// The order is kept: what was put aside goes first.
+/// Keeps the order: messages put aside go first.
 void QueuedSink::write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) { return add(aside_, channel, utime, bytes); }
@@ -88,34 +88,34 @@ void QueuedSink::serve(const std::stop_token& stop) {
 
 void QueuedSink::write_out(const Backlog& backlog) {
     backlog.block.each([this](const MessageBlock::Message& message) {
-        (void)say_unsaid(*behind_);
+        (void)report_losses(*behind_);
         const std::uint64_t failed = behind_->failures();
         behind_->write(std::string(message.channel), message.utime, message.data);
-        if (behind_->failures() != failed) { return lose(unsaid_, message.channel, message.utime, message.data); }
-        said_in_a_row_ = 0;
+        if (behind_->failures() != failed) { return lose(unreported_, message.channel, message.utime, message.data); }
+        reported_in_a_row_ = 0;
     });
-    unsaid_.add(backlog.dropped);
-    (void)say_unsaid(*behind_);
-    say_in_kept_room(false);
+    unreported_.add(backlog.dropped);
+    (void)report_losses(*behind_);
+    report_in_kept_room(false);
     if (!backlog.block.empty()) { behind_->flush(); }
 }
 
-/// What cannot be said now is said later.
-bool QueuedSink::say_unsaid(RecordSink& to) {
-    if (unsaid_.messages == 0) { return false; }
+/// Returns false if the loss could not be written. Then it is written later.
+bool QueuedSink::report_losses(RecordSink& to) {
+    if (unreported_.messages == 0) { return false; }
     const std::uint64_t failed = behind_->failures();
-    say_loss_(to, unsaid_);
+    write_loss_(to, unreported_);
     if (behind_->failures() != failed) { return false; }
-    unsaid_ = {};
+    unreported_ = {};
     return true;
 }
 
-void QueuedSink::say_in_kept_room(bool at_end) {
-    if (!at_end && unsaid_.messages <= said_in_a_row_) { return; }
-    const std::uint64_t messages = unsaid_.messages;
+void QueuedSink::report_in_kept_room(bool at_end) {
+    if (!at_end && unreported_.messages <= reported_in_a_row_) { return; }
+    const std::uint64_t messages = unreported_.messages;
     KeptRoom room(*behind_);
-    if (!say_unsaid(room)) { return; }
-    said_in_a_row_ += messages;
+    if (!report_losses(room)) { return; }
+    reported_in_a_row_ += messages;
     behind_->flush();
 }
 

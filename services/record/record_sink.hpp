@@ -1,4 +1,4 @@
-// Where the record goes: the network, a log file, or both.
+// The destination of the record: the network, a log file, or both.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace lockstep {
 class RecordSink {
 public:
     virtual ~RecordSink() = default;
-    /// utime: microseconds of machine time. What cannot be written is counted: motion never waits for it.
+    /// utime: microseconds of machine time. A message that cannot be written is counted: motion never waits for it.
     virtual void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) = 0;
-    /// Into room that is kept for what must be said even where nothing else can be written.
+    /// Writes into reserved space, even if nothing else can be written.
     virtual void write_kept(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
         write(channel, utime, bytes);
     }
-    /// What was written is where it belongs, and is not held back in memory.
+    /// Passes on everything that is buffered in memory.
     virtual void flush() {}
     /// Messages that could not be written.
     virtual std::uint64_t failures() const { return 0; }

@@ -48,8 +48,8 @@ std::string file_name(const std::string& name, std::uint64_t number) {
     return name + "." + digits + ".lcm";
 }
 
-/// The first free name from `number` on: two coordinators, one of them standing by, keep theirs side by side. Where no
-/// file can be made it is left to who opens it to say why.
+/// The first free name from `number` on: a coordinator and its standby keep their files side by side. If no file can be
+/// created, opening it reports why.
 fs::path claim_file(const RotatingLog::Place& place, std::uint64_t number) {
     constexpr std::uint64_t kMostRivals = 100;
     fs::path path;
@@ -83,7 +83,7 @@ std::expected<RotatingLog::File, std::string> RotatingLog::new_file() const {
     auto writer = LogWriter::open(path);
     if (!writer) { return std::unexpected(writer.error()); }
     File file{DiskRoom(path), std::move(*writer)};
-    if (file_ && !file.room.reaches(0)) {  // the file before has room for what must be said, which this one has not
+    if (file_ && !file.room.reaches(0)) {  // the previous file has room for loss messages, the new one has none
         std::error_code ignored;
         fs::remove(path, ignored);
         return std::unexpected("the disk is full");
@@ -100,8 +100,8 @@ bool RotatingLog::begin_file() {
     return true;
 }
 
-/// Until a new file has room. Empty files, of processes that did not get far, count as if they held something: else
-/// there might come to be any number of them.
+/// Until a new file has room. Empty files, of processes that ended early, count as if they were not empty: otherwise
+/// their number would be unbounded.
 void RotatingLog::remove_oldest() const {
     constexpr std::uint64_t kLeastBytes = 4096;
     const std::uint64_t room = place_.limit_bytes - place_.limit_bytes / kFiles;
@@ -115,7 +115,7 @@ void RotatingLog::remove_oldest() const {
     }
 }
 
-/// A message larger than a whole file has one to itself.
+/// A message larger than a whole file gets its own file.
 bool RotatingLog::has_room(std::uint64_t bytes) const {
     return file_->written == 0 || file_->written + bytes <= place_.limit_bytes / kFiles;
 }
@@ -154,7 +154,7 @@ void RotatingLog::write_kept(const std::string& channel, std::int64_t utime, std
     file_ ? put(channel, utime, bytes) : void(++failures_);
 }
 
-/// What then turns out not to fit is not known message by message: one failure is counted, and the file's end shows it.
+/// A failure here cannot be assigned to single messages: it counts once, and the file's end shows it.
 void RotatingLog::flush() {
     if (!file_ || file_->writer.flush()) { return; }
     ++failures_;

@@ -1,6 +1,6 @@
-// A log on disk that never becomes larger than it may: files NAME.000001.lcm, NAME.000002.lcm, ..., each an eighth of
-// the limit. As one is full the next begins and the oldest goes, whichever process has written it. On a full disk the
-// file in progress keeps a little room, for what is lost to be said.
+// A log on disk with a maximum size: files NAME.000001.lcm, NAME.000002.lcm, ..., each an eighth of the limit. When one
+// is full the next begins and the oldest is removed, whichever process wrote it. The file in progress reserves a little
+// space, so that losses can be recorded on a full disk.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace lockstep {
 class RotatingLog final : public RecordSink {
 public:
     static constexpr std::uint64_t kFiles = 8;
-    static constexpr std::int64_t kRetry_us = 10'000'000;  // after what could not be written, as by a full disk
+    static constexpr std::int64_t kRetry_us = 10'000'000;  // after a failed write, e.g. on a full disk
 
     struct Place {
         std::filesystem::path directory;
-        std::string name;  // of who writes it
+        std::string name;  // of the writing process
         std::uint64_t limit_bytes = 0;
     };
 
-    /// Makes the directory, and a new file behind those that are there. Error: why not, and the remedy.
+    /// Creates the directory, and a new file after those that exist. Error: why not, and the remedy.
     static std::expected<RotatingLog, std::string> open(Place place);
 
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override;
@@ -37,7 +37,7 @@ public:
 private:
     explicit RotatingLog(Place place) : place_(std::move(place)) {}
     struct File {
-        DiskRoom room;  // given back when the writer has written all
+        DiskRoom room;  // released when the writer has written everything
         LogWriter writer;
         std::uint64_t written = 0;  // bytes
     };

@@ -23,7 +23,7 @@ RouteWatch::RouteWatch(std::string address, std::string interface)
       interface_(std::move(interface)),
       thread_([this](const std::stop_token& stop) { watch(stop); }) {}
 
-std::string RouteWatch::mend() const {
+std::string RouteWatch::restore() const {
     const auto route = route_interface(address_);
     if (route && *route == interface_) { return ""; }
     const std::string lost = "LCM: multicast is no longer routed to " + interface_;
@@ -32,7 +32,7 @@ std::string RouteWatch::mend() const {
     return lost + "; " + (added ? "its route was added again" : added.error());
 }
 
-/// The same is reported once, until the route is there again.
+/// Reports the same problem once, until the route exists again.
 void RouteWatch::watch(const std::stop_token& stop) const {
     leave_real_time();
     std::mutex mutex;
@@ -41,7 +41,7 @@ void RouteWatch::watch(const std::stop_token& stop) const {
     while (true) {
         std::unique_lock lock(mutex);
         if (wake.wait_for(lock, stop, kLookEvery, [&] { return stop.stop_requested(); })) { return; }
-        const std::string text = mend();
+        const std::string text = restore();
         if (!text.empty() && text != reported) { log_warning(text); }
         reported = text;
     }

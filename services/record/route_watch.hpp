@@ -1,5 +1,5 @@
-// Keeps LCM's multicast route. The kernel drops the routes of an interface that goes down, and nobody brings that of lo
-// back when it comes up again: the record would be lost from then on.
+// Keeps LCM's multicast route. The kernel drops the routes of an interface that goes down, and does not restore the one
+// of lo when it comes up again: the record would be lost from then on.
 #pragma once
 
 #include <memory>
@@ -12,20 +12,20 @@ namespace lockstep {
 
 class RouteWatch {
 public:
-    /// address: of LCM's multicast. interface: by which it is routed now, and is to be.
+    /// address: of LCM's multicast. interface: its present and required route.
     RouteWatch(std::string address, std::string interface);
 
 private:
     void watch(const std::stop_token& stop) const;
-    /// Adds the route of lo where this process may. What there is to report; empty: nothing.
-    std::string mend() const;
+    /// Adds the route of lo if this process may. Returns the text to report; empty: nothing.
+    std::string restore() const;
 
     std::string address_;
     std::string interface_;
     std::jthread thread_;
 };
 
-/// Null: LCM does not multicast, or is not routed.
+/// Null: LCM does not use multicast, or is not routed.
 std::unique_ptr<RouteWatch> watch_route(const NetworkConfig& network);
 
 }  // namespace lockstep

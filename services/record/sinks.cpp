@@ -12,7 +12,7 @@ std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std:
         if (publisher) {
             sinks.push_back(std::make_unique<LcmSink>(std::move(*publisher), watch_route(machine.network)));
         } else {
-            log_warning("nothing is published of the record: " + publisher.error());
+            log_warning("the record is not published: " + publisher.error());
         }
     }
     if (machine.record.own_logs) {
@@ -20,7 +20,7 @@ std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std:
         if (log) {
             sinks.push_back(std::move(*log));
         } else {
-            log_warning("no log of its own is kept: " + log.error());
+            log_warning("this process keeps no log of its own: " + log.error());
         }
     }
     return std::make_unique<AllSinks>(std::move(sinks));

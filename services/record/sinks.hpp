@@ -1,4 +1,4 @@
-// The sinks there are: LCM's network, for lcm-logger and lcm-spy; LCM's log file; several at once.
+// The sinks: LCM's network, for lcm-logger and lcm-spy; LCM's log file; several at once.
 #pragma once
 
 #include <memory>
@@ -34,7 +34,7 @@ public:
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
         failures_ += writer_.write(channel, utime, bytes) ? 0 : 1;
     }
-    /// False: the file lacks something.
+    /// False: the file is incomplete.
     bool finish() { return writer_.flush() && failures_ == 0; }
     std::uint64_t failures() const override { return failures_; }
 
@@ -43,13 +43,13 @@ private:
     std::uint64_t failures_ = 0;
 };
 
-/// Where nothing is recorded.
+/// Records nothing.
 class NoSink : public RecordSink {
 public:
     void write(const std::string&, std::int64_t, std::span<const std::uint8_t>) override {}
 };
 
-/// All of them, one after the other.
+/// Writes to several sinks in turn.
 class AllSinks : public RecordSink {
 public:
     explicit AllSinks(std::vector<std::unique_ptr<RecordSink>> sinks) : sinks_(std::move(sinks)) {}
@@ -66,9 +66,9 @@ private:
     std::vector<std::unique_ptr<RecordSink>> sinks_;
 };
 
-/// What a process records: to the network where it is to be `published`, and into a log of its own where the machine's
-/// file has it so. `axis` is the axis's name, empty for the coordinator. What cannot be opened is left out: the log
-/// says why.
+/// A process's record: to the network if it is `published`, and into its own log if the machine's file asks for one.
+/// `axis` is the axis's name, empty for the coordinator. A sink that cannot be opened is omitted: the log states
+/// why.
 std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std::string& axis, bool published);
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
 // Collects the steps of one axis into messages: one each kBatchPeriod, and one more whenever a message is full. The
-// axes' turns are spread over the period, so that a logger is not given all of them at once.
+// axes' turns are spread over the period, so that a logger does not receive all of them at once.
 #pragma once
 
 #include <chrono>
@@ -15,11 +15,11 @@ namespace lockstep {
 
 class StepBatcher {
 public:
-    /// `batch` is whole but for its times in machine time.
+    /// `batch` is complete except for its machine times.
     using Publish = std::function<void(step_batch_t& batch)>;
 
     static constexpr std::chrono::nanoseconds kBatchPeriod = std::chrono::milliseconds{10};
-    static constexpr std::int32_t kMaxSteps = 2000;  // 10 KB: larger messages travel in more fragments and gain nothing
+    static constexpr std::int32_t kMaxSteps = 2000;  // 10 KB: larger messages need more fragments without benefit
 
     struct Source {
         std::string machine;
@@ -34,15 +34,15 @@ public:
     /// Steps come in the order of their ticks.
     void add(StepEdge step);
 
-    /// Publishes what there is if the axis's turn has come. Call it once a loop, with the device's time. An axis at
+    /// Publishes the collected steps if it is the axis's turn. Call it once a loop, with the device's time. An axis at
     /// rest publishes nothing.
     void poll(Tick now);
 
-    /// Publishes what there is.
+    /// Publishes the collected steps.
     void flush();
 
-    /// The count jumps without steps: the axis was zeroed, or the times of some steps were lost. Publishes what there
-    /// is first, so that a reader sees the jump between two batches.
+    /// The count jumps without steps: the axis was zeroed, or the times of some steps were lost. Publishes the
+    /// collected steps first, so that a reader sees the jump between two batches.
     void set_position(std::int64_t position_steps);
 
     std::int64_t position_steps() const { return batch_.position_before + moved_; }
@@ -53,8 +53,8 @@ private:
     step_batch_t batch_;
     Publish publish_;
     Ticks period_;
-    Tick due_;                // when the axis's turn comes next
-    Tick last_step_;          // of the batch, where it has one
+    Tick due_;                // the axis's next turn
+    Tick last_step_;          // of the batch, if it is not empty
     std::int64_t moved_ = 0;  // by the batch's steps
 };
 

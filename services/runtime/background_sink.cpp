@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLines = 256;
 
-/// The process's signals go to the threads that wait for them.
+/// Blocks the process's signals, so that only the threads that wait for them receive them.
 class SignalsBlocked {
 public:
     SignalsBlocked() {
@@ -31,7 +31,7 @@ private:
     sigset_t before_{};
 };
 
-/// False: it does not hold in this time.
+/// False: it did not hold in this time.
 template <typename Condition>
 bool wait_until(std::chrono::milliseconds most, Condition condition) {
     constexpr std::chrono::milliseconds kStep{1};
@@ -44,7 +44,7 @@ bool wait_until(std::chrono::milliseconds most, Condition condition) {
 struct BackgroundSink::Shared {
     explicit Shared(spdlog::sink_ptr sink) : to(std::move(sink)) {}
 
-    /// A disk that is full makes spdlog throw.
+    /// spdlog throws if the disk is full.
     void write(std::chrono::system_clock::time_point time, int level, std::string_view text) {
         try {
             to->log({time, {}, {}, static_cast<spdlog::level::level_enum>(level), {text.data(), text.size()}});
@@ -66,7 +66,7 @@ struct BackgroundSink::Shared {
     std::atomic<bool> ends = false;
     std::atomic<bool> has_ended = false;  // the thread
     std::atomic<std::uint64_t> unwritten = 0;
-    std::uint64_t reported = 0;  // of the lines lost
+    std::uint64_t reported = 0;  // lost lines reported so far
 };
 
 BackgroundSink::BackgroundSink(spdlog::sink_ptr to) : shared_(std::make_shared<Shared>(std::move(to))) {

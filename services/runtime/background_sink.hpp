@@ -1,5 +1,5 @@
-// Writes the log in a thread of its own, so that no loop waits for a disk that hangs. What finds no room in the queue
-// is lost, counted, and reported in the log as soon as it can be written again.
+// Writes the log in its own thread, so that no loop waits for a disk that hangs. A line that does not fit into the
+// queue is lost, counted, and reported in the log as soon as the disk works again.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ class BackgroundSink final : public spdlog::sinks::sink {
 public:
     /// to: where the lines are written.
     explicit BackgroundSink(spdlog::sink_ptr to);
-    /// Writes what is queued, but waits at most kPatience for it.
+    /// Writes the queued lines, but waits at most kPatience.
     ~BackgroundSink() override;
     BackgroundSink(const BackgroundSink&) = delete;
     BackgroundSink& operator=(const BackgroundSink&) = delete;
@@ -26,7 +26,7 @@ public:
     void set_pattern(const std::string& pattern) override;
     void set_formatter(std::unique_ptr<spdlog::formatter> formatter) override;
 
-    /// Waits until all lines are written, but no longer than this.
+    /// Waits until all lines are written, but at most for this time.
     void drain(std::chrono::milliseconds most) const;
     /// Lines that were not written.
     std::uint64_t lost() const;
@@ -37,7 +37,7 @@ private:
     struct Shared;
     static void serve(const std::shared_ptr<Shared>& shared);
 
-    std::shared_ptr<Shared> shared_;  // the thread's too: where the disk hangs, the thread outlives this object
+    std::shared_ptr<Shared> shared_;  // the thread's too: if the disk hangs, the thread outlives this object
     std::thread thread_;
 };
 

@@ -1,6 +1,6 @@
-// The clock a process reads, in ticks. Where machine time is shared, or comes over the network, it is CLOCK_MONOTONIC:
+// The clock of a process, in ticks. If machine time is shared, or comes over the network, it is CLOCK_MONOTONIC:
 // it does not jump when the wall clock is set, and its origin is the host's start. With PTP it is CLOCK_TAI, which the
-// PTP service keeps the same on all hosts.
+// PTP service synchronizes on all hosts.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ public:
     Tick now() const { return tick_at(read()); }
     Tick tick_at(std::chrono::nanoseconds time) const { return {time.count() / tick_ns_}; }
     std::chrono::nanoseconds time_of(Tick tick) const { return std::chrono::nanoseconds{tick.value * tick_ns_}; }
-    /// Microseconds of machine time, as LCM messages carry it.
+    /// Microseconds of machine time, as in LCM messages.
     std::int64_t utime_of(Tick tick) const { return time_of(tick).count() / 1000; }
 
 private:

@@ -1,4 +1,4 @@
-// A clock made wrong on purpose, to test how the machine bears it.
+// Injects clock error for tests.
 #pragma once
 
 #include <chrono>
@@ -16,11 +16,11 @@ struct ClockError {
 
     bool operator==(const ClockError&) const = default;
 
-    /// What the wrong clock reads, `since` its start, when a right one reads `time`.
+    /// The reading of the wrong clock, `since` its start, when a correct one reads `time`.
     std::chrono::nanoseconds applied(std::chrono::nanoseconds time, std::chrono::nanoseconds since) const;
 };
 
-/// From "offset=SECONDS,ppm=N,step=SECONDS@SECONDS", each part once and none needed. Error: what cannot be read.
+/// From "offset=SECONDS,ppm=N,step=SECONDS@SECONDS", each part once and all optional. Error: what cannot be read.
 std::expected<ClockError, std::string> parse_clock_error(std::string_view text);
 
 }  // namespace lockstep

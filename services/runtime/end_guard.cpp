@@ -14,9 +14,9 @@ namespace lockstep {
 namespace {
 
 constexpr int kLooks = 40;
-constexpr std::string_view kWhy = "does not end within the time given: a disk may hang; ends at once\n";
+constexpr std::string_view kWhy = "did not end in the time given: a disk may hang; ends at once\n";
 
-/// Without the log: whoever hangs may hold it.
+/// Without the log: a thread that hangs may hold it.
 [[noreturn]] void end_at_once() {
     pollfd log{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (poll(&log, 1, 0) == 1) { (void)!write(log.fd, kWhy.data(), kWhy.size()); }

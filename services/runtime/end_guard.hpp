@@ -1,7 +1,7 @@
-// Bounds how long a process takes to end: what it waits for then, such as a thread whose disk hangs, may never come.
+// Bounds how long a process takes to end: a thread whose disk hangs, for example, may never end.
 //
-// The first object of a service, so that it outlives all that is waited for. What is not written by then is lost, as if
-// the process had been killed; its flight recorder's memory stays.
+// It is the first object of a service, so that it outlives everything that the end waits for. What is not written by
+// then is lost, as if the process had been killed; its flight recorder's memory stays.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ inline constexpr std::chrono::seconds kLongestEnd{4};
 class EndGuard {
 public:
     /// Once a stop has been requested the process has `longest` to end; then it ends at once, with kServiceFailed. It
-    /// counts its own looks, not time: where the whole process stands still it does not look either.
+    /// counts its own checks, not time: while the whole process stands still it does not check either.
     explicit EndGuard(const StopSignal& stop, std::chrono::milliseconds longest = kLongestEnd);
 
 private:

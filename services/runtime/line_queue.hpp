@@ -1,8 +1,8 @@
-// A bounded queue of log lines: any thread adds, one thread takes, and nobody waits. Where it is full a line is dropped
-// and counted.
+// A bounded queue of log lines: any thread adds, one thread takes, and no thread waits. If it is full, a line is
+// dropped and counted.
 //
 // Each place has a turn: `at` when it is free for the line numbered `at`, `at + 1` when it holds that line. A thread
-// that adds claims a number first, fills the place, then hands it on. Source: Dmitry Vyukov's bounded MPMC queue.
+// that adds claims a number first, fills the place, then publishes it. Source: Dmitry Vyukov's bounded MPMC queue.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,7 @@ public:
     }
 
     bool is_empty() const { return out_.load(std::memory_order_acquire) == in_.load(std::memory_order_relaxed); }
-    /// Lines that found no place.
+    /// Lines that were dropped.
     std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
 private:

@@ -14,7 +14,7 @@
 namespace lockstep {
 namespace {
 
-/// A word of the pattern: spdlog reads '%' as the start of a flag.
+/// A field of the pattern: spdlog reads '%' as the start of a flag.
 std::string word(std::string_view text) {
     std::string out;
     for (char c : text) { out += c == '%' ? "%%" : std::string(1, c); }

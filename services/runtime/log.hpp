@@ -15,7 +15,7 @@
 
 namespace lockstep {
 
-/// A log file that has grown to this size is renamed from NAME.log to NAME.1.log, and so on; the oldest is removed.
+/// A log file of this size is renamed from NAME.log to NAME.1.log, and so on; the oldest is removed.
 inline constexpr std::size_t kLogFileBytes = 4 << 20;
 inline constexpr std::size_t kOlderLogFiles = 2;
 
@@ -23,16 +23,16 @@ struct LogTarget {
     std::string service;                             // "coordinator", "axis", ...
     std::string axis;                                // empty: none
     std::optional<std::filesystem::path> file = {};  // none: standard error
-    bool in_background = false;                      // for a process with a loop, which never waits for the disk then
+    bool in_background = false;                      // for a process with a loop, which then never waits for the disk
 };
 
-/// Makes it spdlog's default logger. Error: the file cannot be opened; the text names it and says why.
+/// Makes it spdlog's default logger. Error: the file cannot be opened, with its name and the reason.
 std::expected<void, std::string> open_log(const LogTarget& target);
 
-/// Waits until the lines so far are written, but no longer than this.
+/// Waits until the lines so far are written, but at most for this time.
 void drain_log(std::chrono::milliseconds most);
 
-/// Lines of a log in the background that were not written since it was opened, because the disk hung or was full.
+/// Lines of a background log that were not written since it was opened, because the disk hung or was full.
 std::uint64_t lost_log_lines();
 
 /// One line about a fault: its stable name as the code, or "-" for FaultCode::None.

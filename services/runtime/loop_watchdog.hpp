@@ -1,8 +1,8 @@
-// Ends a process whose loop stands still, so that the process that started it starts it again.
+// Ends a process whose loop stands still, so that its supervisor starts it again.
 //
-// A call into a library may never return, for example after damaged packets. The axes rest by themselves then, but the
-// process would be missing for good. The watchdog counts its own looks, not time: where the whole process stands still
-// it does not look either, and the process goes on.
+// A call into a library may never return, for example after damaged packets. The axes then rest by themselves, but the
+// process would be missing for good. The watchdog counts its own checks, not time: while the whole process stands still
+// it does not check either, and the process goes on.
 #pragma once
 
 #include <atomic>

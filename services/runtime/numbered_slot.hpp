@@ -1,6 +1,6 @@
-// A place in memory that processes share, for one record at a time: one process writes it, any may read it at any time,
-// and nobody waits. The record's number stands before it, 0 while it is written: a record that is half written, by a
-// process at work or by one that was killed, is never taken for one.
+// A place in shared memory for one record at a time: one process writes it, any process may read it at any time,
+// and none waits. The record's number precedes it, and is 0 during a write: a reader never accepts a half-written
+// record, whether its writer is at work or was killed.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // A loop at whole multiples of its period on CLOCK_MONOTONIC: loops of the same period in different processes wake
-// together, and a loop that wakes late skips what it missed rather than running it in a burst.
+// together, and a loop that wakes late skips the missed periods instead of running them in a burst.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ public:
     explicit PeriodicLoop(std::chrono::nanoseconds period, std::chrono::nanoseconds offset = {})
         : period_(period), offset_(offset) {}
 
-    /// Calls step(the time it was to wake, on CLOCK_MONOTONIC) once a period until a stop is requested.
+    /// Calls step(the scheduled wake-up time, on CLOCK_MONOTONIC) once a period until a stop is requested.
     template <typename Step>
     void run(const StopSignal& stop, Step step) {
         start();
@@ -24,7 +24,7 @@ public:
 
     /// Periods in which the loop did not wake because it was late.
     std::uint64_t skipped_periods() const { return skipped_; }
-    /// The latest it has ever woken after its time.
+    /// The largest delay of a wake-up.
     std::chrono::nanoseconds worst_lateness() const { return worst_lateness_; }
 
 private:

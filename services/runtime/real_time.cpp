@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kHeap_bytes = 16U << 20U;  // more than a service's loop ever has at a time
+constexpr std::size_t kHeap_bytes = 16U << 20U;  // more than a service's loop ever uses at a time
 
 std::string cause() { return std::string(" (") + std::strerror(errno) + ")"; }
 
@@ -41,7 +41,7 @@ std::string ask_for_cpus(const std::vector<int>& cpus) {
            std::to_string(sysconf(_SC_NPROCESSORS_CONF) - 1) + " (real_time.cpus)";
 }
 
-/// Memory that is freed stays with the process, and is touched once.
+/// Freed memory stays with the process, and is touched once.
 void touch_heap() {
     mallopt(M_TRIM_THRESHOLD, -1);
     mallopt(M_MMAP_MAX, 0);
@@ -50,7 +50,7 @@ void touch_heap() {
     for (std::size_t i = 0; i < kHeap_bytes; i += 4096) { bytes[i] = 0; }
 }
 
-/// With a limit, what is mapped later would fail where it exceeds it: then nothing is locked.
+/// With a limit, a later mapping would fail if it exceeds it: then nothing is locked.
 bool may_lock_all() {
     rlimit limit{};
     return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);

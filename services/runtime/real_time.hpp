@@ -1,4 +1,4 @@
-// What a service asks of its host's scheduler and memory, and what came of it.
+// A service's requests to its host's scheduler and memory, and their results.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace lockstep {
 
-/// Asks for what is configured, for this thread and those it starts after: call it before a DDS participant is made.
-/// Each line says what was granted, or what was not, what that costs, and the remedy. Where nothing is asked: none.
-std::vector<std::string> ask_for_real_time(const RealTimeConfig& wanted);
+/// Requests what is configured, for this thread and those that it starts later: call it before creating a DDS
+/// participant. Each line states what was granted, or what was refused, its effect, and the remedy. Nothing
+requested : no lines.
 
-/// This thread need not be in time: it goes back to the normal scheduler.
-void leave_real_time();
+            /// This thread has no deadlines: it returns to the normal scheduler.
+            void
+            leave_real_time();
 
 }  // namespace lockstep

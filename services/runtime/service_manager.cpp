@@ -15,8 +15,8 @@ void ServiceManager::ready(const std::string& status) const {
 }
 
 void ServiceManager::alive(std::chrono::nanoseconds now) {
-    if (period_.count() == 0 || now - told_ < period_) { return; }
-    told_ = now;
+    if (period_.count() == 0 || now - notified_ < period_) { return; }
+    notified_ = now;
     (void)sd_notify(0, "WATCHDOG=1");
 }
 

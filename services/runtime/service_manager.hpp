@@ -1,4 +1,4 @@
-// What a service tells the systemd that started it, if one did: that it is up, that it is alive, that it ends.
+// Notifies the systemd that started this service, if any: that it is ready, alive, or ending.
 #pragma once
 
 #include <chrono>
@@ -11,14 +11,14 @@ public:
     ServiceManager();
 
     void ready(const std::string& status) const;
-    /// Each loop: the watchdog is told of as often as it wants to be. Who does not come here is ended and started
-    /// again.
+    /// Call it in each loop: notifies the watchdog as often as it requires. systemd ends and restarts a service that
+    /// does not.
     void alive(std::chrono::nanoseconds now);
     void stopping() const;
 
 private:
     std::chrono::nanoseconds period_{};  // 0: there is no watchdog
-    std::chrono::nanoseconds told_{};
+    std::chrono::nanoseconds notified_{};
 };
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// A stretch of a file in memory, shared with all who have mapped it; it ends with the object.
+// A part of a memory file, shared with all processes that map it; the destructor unmaps it.
 #pragma once
 
 #include <sys/mman.h>
@@ -23,7 +23,7 @@ public:
         if (words_ != nullptr) { munmap(words_, bytes_); }
     }
 
-    /// Null: there is none; errno said why when it was made.
+    /// Null: mapping failed; errno gave the reason.
     std::uint64_t* words() const { return words_; }
     std::size_t bytes() const { return bytes_; }
 

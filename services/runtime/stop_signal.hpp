@@ -1,11 +1,11 @@
-// SIGINT and SIGTERM as a flag that loops look at, for as long as the object lives.
+// SIGINT and SIGTERM as a flag that loops check, while the object exists.
 #pragma once
 
 #include <csignal>
 
 namespace lockstep {
 
-/// One at a time in a process: the flag is the process's. The handlers of before come back on destruction.
+/// One at a time in a process: the flag is the process's. The destructor restores the previous handlers.
 class StopSignal {
 public:
     StopSignal();
@@ -14,7 +14,7 @@ public:
     StopSignal& operator=(const StopSignal&) = delete;
 
     bool requested() const;
-    /// As if the signal had come: for a service that ends by itself.
+    /// Acts as if the signal had arrived: for a service that ends itself.
     void request();
 
 private:

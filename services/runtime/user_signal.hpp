@@ -1,11 +1,11 @@
-// SIGUSR1 as a question that loops look at, for as long as the object lives.
+// SIGUSR1 as a request that loops check, while the object exists.
 #pragma once
 
 #include <csignal>
 
 namespace lockstep {
 
-/// One at a time in a process. The handler of before comes back on destruction.
+/// One at a time in a process. The destructor restores the previous handler.
 class UserSignal {
 public:
     UserSignal();
@@ -13,7 +13,7 @@ public:
     UserSignal(const UserSignal&) = delete;
     UserSignal& operator=(const UserSignal&) = delete;
 
-    /// Whether it has come since it was last asked for.
+    /// Whether it arrived since the last call.
     bool take();
 
 private:

@@ -17,7 +17,7 @@ std::string domain_of(const MachineConfig& machine) {
     return element("domains", element("id", std::to_string(machine.network.domain)));
 }
 
-/// Empty where nothing is granted: a rule without topics would not be valid.
+/// Empty if nothing is granted: a rule without topics would not be valid.
 std::string rule(const char* what, const Member& member, const std::vector<Role> TopicRights::*granted,
                  const std::vector<std::string>& partitions) {
     std::string topics;
@@ -52,7 +52,7 @@ std::string governance_xml(const MachineConfig& machine) {
 std::string allow_rule_xml(const MachineConfig& machine, const Member& member) {
     const std::string written =
         rule("publish", member, &TopicRights::writers, {partition_of(machine.name, member.axis)});
-    const std::string read = rule("subscribe", member, &TopicRights::readers, heard_partitions(machine.name));
+    const std::string read = rule("subscribe", member, &TopicRights::readers, read_partitions(machine.name));
     return element("allow_rule", domain_of(machine) + written + read);
 }
 

@@ -8,8 +8,8 @@
 
 namespace lockstep {
 
-/// What holds for everybody in the machine's domain: who is not proved is out; all is encrypted; what a reader is sent
-/// is sealed for that reader, so that one that may only listen cannot speak in another's name.
+/// The rules for everybody in the machine's domain: unauthenticated peers are excluded; all traffic is encrypted; a
+/// message to a reader is encrypted for that reader, so that a read-only member cannot publish in another's name.
 std::string governance_xml(const MachineConfig& machine);
 
 struct Validity {
@@ -17,10 +17,10 @@ struct Validity {
     std::string until;  // the same
 };
 
-/// The heart of the permissions: what one member may write and read.
+/// The core of the permissions: what one member may write and read.
 std::string allow_rule_xml(const MachineConfig& machine, const Member& member);
 
-/// With its grant; all else is denied. subject: its certificate's, as RFC 2253 writes it.
+/// With its grant; everything else is denied. subject: its certificate's, as RFC 2253 writes it.
 std::string permissions_xml(const MachineConfig& machine, const Member& member, const std::string& subject,
                             const Validity& validity);
 

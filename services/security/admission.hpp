@@ -1,4 +1,4 @@
-// Whether a process may join a machine: its files are there, kept from others, in date, and made for this machine.
+// Checks whether a process may join a machine: its files exist, are private, valid, and made for this machine.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ namespace lockstep {
 
 struct MemberCheck {
     std::vector<std::string> errors;    // each names the file and the remedy
-    std::vector<std::string> warnings;  // an end that is near
+    std::vector<std::string> warnings;  // an expiry that is near
     std::optional<CertificateFacts> certificate;
 };
 
@@ -29,8 +29,8 @@ struct Admission {
     std::vector<std::string> warnings;
 };
 
-/// As a member of this machine, by the files that its configuration names; without security, as anybody.
-/// Error: the first thing that is wrong.
+/// As a member of this machine, with the files that its configuration names; without security, without files.
+/// Error: the first problem.
 std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member);
 
 }  // namespace lockstep

@@ -65,7 +65,7 @@ bool add_extension(X509* certificate, X509* issuer, int kind, const char* value)
     return extension && X509_add_ext(certificate, extension.get(), -1) == 1;
 }
 
-/// 127 bits by chance: no two certificates of an authority are alike.
+/// 127 random bits: no two certificates of an authority are alike.
 bool set_serial(X509* certificate) {
     std::array<unsigned char, 16> bytes{};
     if (RAND_bytes(bytes.data(), bytes.size()) != 1) { return false; }
@@ -125,7 +125,7 @@ struct Signer::Parts {
 
 namespace {
 
-/// authority: none where the certificate is to be signed by itself.
+/// authority: none if the certificate is self-signed.
 std::expected<Signer, std::string> make(const Subject& subject, const Signer* authority, std::chrono::days valid) {
     auto parts = std::make_shared<Signer::Parts>();
     parts->key.reset(EVP_EC_gen("P-256"));
@@ -189,7 +189,7 @@ std::expected<std::string, std::string> signed_content(const std::string& signed
         return failed("the signature does not hold");
     }
     std::string text = text_of(out);
-    std::erase(text, '\r');  // S/MIME ends lines in its own way
+    std::erase(text, '\r');  // S/MIME uses its own line endings
     return text;
 }
 

@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// A certificate and its private key, as one who signs needs both. Copies share them.
+/// A certificate and its private key. Copies share them.
 class Signer {
 public:
     struct Parts;
@@ -28,7 +28,7 @@ struct Subject {
     std::string name;
 };
 
-/// Signed by itself; may sign others.
+/// Self-signed; may sign others.
 std::expected<Signer, std::string> make_authority(const Subject& subject, std::chrono::days valid);
 
 /// Signed by `authority`.
@@ -37,7 +37,7 @@ std::expected<Signer, std::string> issue(const Subject& subject, const Signer& a
 /// The document with its signature, as S/MIME text.
 std::expected<std::string, std::string> sign(const std::string& document, const Signer& signer);
 
-/// The document that was signed. Error: `authority_pem` did not sign it as it is.
+/// The document that was signed. Error: `authority_pem` did not sign it in this form.
 std::expected<std::string, std::string> signed_content(const std::string& signed_document,
                                                        const std::string& authority_pem);
 
@@ -49,7 +49,7 @@ struct CertificateFacts {
 };
 std::expected<CertificateFacts, std::string> read_certificate(const std::string& pem);
 
-/// Whether `authority_pem` signed the certificate, and the key is the certificate's. Error: which is not so.
+/// Whether `authority_pem` signed the certificate, and the key is the certificate's. Error: which check failed.
 std::expected<void, std::string> check_certificate(const std::string& pem, const std::string& authority_pem);
 std::expected<void, std::string> check_key(const std::string& certificate_pem, const std::string& key_pem);
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr mode_t kPublic = 0644;
 constexpr mode_t kPrivate = 0600;
 
-/// Never open to others, not for the moment between making and closing it.
+/// Never readable by others, not even between creation and closing.
 std::expected<void, std::string> write_file(const fs::path& path, const std::string& text, mode_t mode) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     const bool written =
@@ -89,13 +89,13 @@ std::expected<void, std::string> make_directory(const fs::path& path, fs::perms 
     return {};
 }
 
-/// Where what stands there goes. Two replacements within a second: the second is refused by the rename.
+/// Where the previous directory is moved. Two replacements within a second: the rename refuses the second.
 fs::path aside(const fs::path& directory) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     return directory.string() + ".replaced-" + time_text(now);
 }
 
-/// The new directory takes its place in one step, or in two where one is there.
+/// Puts the new directory in place in one step, or in two if there is one already.
 std::expected<MadeKeys, std::string> put_in_place(const fs::path& fresh, const fs::path& directory, bool is_occupied) {
     MadeKeys made;
     std::error_code error;
@@ -137,8 +137,8 @@ std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, con
     const bool is_occupied = fs::exists(directory, error) && !fs::is_empty(directory, error);
     if (is_occupied && !replace) {
         return std::unexpected(directory.string() +
-                               ": there are files here already; --force puts them aside and makes all anew, after "
-                               "which every process of the machine needs its new ones");
+                               ": there are files here already; --force moves them aside and makes new ones; after "
+                               "that every process of the machine needs its new files");
     }
     const fs::path fresh = directory.string() + ".unfinished-" + std::to_string(::getpid());
     auto done = make_directory(fresh, fs::perms(0755));

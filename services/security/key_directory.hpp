@@ -1,8 +1,8 @@
-// The directory of a machine's keys: what is in it, and how it is made.
+// The directory of a machine's keys: its content, and how it is made.
 //
 //   identity-ca.pem permissions-ca.pem governance.p7s   for all
 //   NAME.pem NAME.key NAME.p7s                          for one member: certificate, private key, permissions
-//   ca/identity-ca.key ca/permissions-ca.key            with these members are made: no process needs them
+// ca/identity-ca.key ca/permissions-ca.key            used to make members: no process needs them
 #pragma once
 
 #include <chrono>
@@ -23,11 +23,11 @@ Credentials credentials_in(const std::filesystem::path& directory, const Member&
 std::string time_text(std::chrono::sys_seconds time);
 
 struct MadeKeys {
-    std::string replaced;  // where what stood there before is now; empty: nothing stood there
+    std::string replaced;  // where the previous content is now; empty: there was none
 };
 
-/// Makes all that members_of(machine) need: whole, or not at all. Error: the directory is there and not empty, and
-/// `replace` was not said; or the file and the reason.
+/// Makes the keys of all members_of(machine): completely, or not at all. Error: the directory is not empty, and
+/// `replace` is not set; or the file and the reason.
 std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, const std::filesystem::path& directory,
                                                std::chrono::days valid, bool replace);
 

@@ -38,7 +38,7 @@ std::span<const TopicRights> rights() {
         of<MachineState>({Coordinator}, {Coordinator, Axis, Client, Viewer}),
         of<AxisState>({Axis}, {Coordinator, Axis, Client, Viewer}),
         of<AxisHealth>({Axis}, {Coordinator, Client, Viewer}),
-        of<Command>({Client}, {Coordinator, Axis}),  // axes hear an emergency stop themselves
+        of<Command>({Client}, {Coordinator, Axis}),  // axes receive an emergency stop directly
         of<ProgramChunk>({Client}, {Coordinator}),
         of<Reply>({Coordinator}, {Client}),
         of<ClockRequest>({Axis}, {Coordinator}),

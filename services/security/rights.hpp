@@ -1,7 +1,7 @@
-// Who may write and who may read each topic: the one source of every member's permissions.
+// The readers and writers of each topic: the one source of every member's permissions.
 //
-// DDS Security grants by topic and partition, not by key. So an axis writes in a partition of its own, and readers
-// believe what is said of an axis only if it comes from there (services/wire/bus/endpoints.hpp).
+// DDS Security grants by topic and partition, not by key. So each axis writes in its own partition, and readers accept
+// a message about an axis only from that axis's partition (services/wire/bus/endpoints.hpp).
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ enum class Role : std::uint8_t { Coordinator, Axis, Client, Viewer };
 
 std::string_view name_of(Role role);
 
-/// One that has a certificate of its own: "coordinator", "standby", "axis-X", "client", "viewer".
+/// A holder of a certificate: "coordinator", "standby", "axis-X", "client", "viewer".
 struct Member {
     std::string name;
     Role role = Role::Viewer;
-    std::optional<std::uint32_t> axis;  // of an axis: which
+    std::optional<std::uint32_t> axis;  // the axis's number, if it is an axis
 };
 
 inline Member coordinator_member() { return {"coordinator", Role::Coordinator, {}}; }
@@ -31,7 +31,7 @@ inline Member client_member() { return {"client", Role::Client, {}}; }
 inline Member viewer_member() { return {"viewer", Role::Viewer, {}}; }
 Member axis_member(const MachineConfig& machine, std::size_t axis);
 
-/// All that a machine can have.
+/// All possible members of a machine.
 std::vector<Member> members_of(const MachineConfig& machine);
 
 struct TopicRights {
@@ -40,7 +40,7 @@ struct TopicRights {
     std::vector<Role> readers;
 };
 
-/// Every topic there is.
+/// All topics.
 std::span<const TopicRights> rights();
 
 }  // namespace lockstep

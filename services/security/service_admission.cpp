@@ -7,7 +7,7 @@
 namespace lockstep {
 
 std::expected<Membership, std::string> admit_service(const MachineConfig& machine, const Member& member) {
-    hear_dds([](const std::string& text) { log_warning("DDS: " + text); });
+    forward_dds_log([](const std::string& text) { log_warning("DDS: " + text); });
     auto admission = admit(machine, member);
     if (!admission) { return std::unexpected(admission.error()); }
     for (const std::string& warning : admission->warnings) { log_warning(warning); }
@@ -15,8 +15,8 @@ std::expected<Membership, std::string> admit_service(const MachineConfig& machin
     return admission->membership;
 }
 
-void log_strangers(std::chrono::nanoseconds now) {
-    for (const std::string& text : unproved_newcomers(now)) { log_warning("DDS: " + text); }
+void log_unauthenticated_peers(std::chrono::nanoseconds now) {
+    for (const std::string& text : unauthenticated_peers(now)) { log_warning("DDS: " + text); }
 }
 
 }  // namespace lockstep

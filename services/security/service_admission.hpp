@@ -1,4 +1,4 @@
-// How a service joins: what is wrong with its keys is said at its start, and whom DDS refuses later goes to its log.
+// How a service joins: errors in its keys are reported at its start, and peers that DDS refuses later go to its log.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace lockstep {
 /// Call it after open_log. Error: as admit.
 std::expected<Membership, std::string> admit_service(const MachineConfig& machine, const Member& member);
 
-/// To be called in each loop: who has come and not proved to belong here goes to the log.
-void log_strangers(std::chrono::nanoseconds now);
+/// Call it in each loop: writes unauthenticated peers to the log.
+void log_unauthenticated_peers(std::chrono::nanoseconds now);
 
 }  // namespace lockstep

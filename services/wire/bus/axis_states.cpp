@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kShownEvery{100};
 
-/// Who acts on a job's end, or on a fault, must not find the axes as they were before.
+/// A process that acts on a job's end, or on a fault, must not use an older state of the axes.
 bool is_news(const AxisState& state, const AxisState& shown) {
     return state.phase != shown.phase || state.at_rest != shown.at_rest || state.homed != shown.homed ||
            state.fault != shown.fault || state.command_done != shown.command_done;
@@ -27,11 +27,11 @@ std::optional<Board> board_for(Participant& participant, Axis axis) {
 
 }  // namespace
 
-StateSaid::StateSaid(Participant& participant)
+AxisStateWriter::AxisStateWriter(Participant& participant)
     : network_(participant),
       board_(participant.axis() ? board_for<StateBoardWriter>(participant, *participant.axis()) : std::nullopt) {}
 
-bool StateSaid::write(const AxisState& state) {
+bool AxisStateWriter::write(const AxisState& state) {
     if (!board_) { return network_.write(state); }
     board_->write(state);
     const auto now = monotonic_now();
@@ -41,11 +41,11 @@ bool StateSaid::write(const AxisState& state) {
     return network_.write(state);
 }
 
-StatesHeard::StatesHeard(Participant& participant)
+AxisStatesReader::AxisStatesReader(Participant& participant)
     : board_(board_for<StateBoardReader>(participant, participant.axis())) {
     if (!participant.network().one_host) { network_.emplace(participant); }
 }
 
-std::string StatesHeard::place() const { return board_ ? "in " + board_->path().string() : "on the network"; }
+std::string AxisStatesReader::place() const { return board_ ? "in " + board_->path().string() : "on the network"; }
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// How an axis's state reaches the other processes of its machine each slot: by the network, or, where all of them run
-// on one host, by memory that they share. Who looks on hears it on the network in either case.
+// How an axis's state reaches the other processes of its machine each slot: by the network, or, if all of them run
+// on one host, by shared memory. Read-only observers receive it from the network in either case.
 #pragma once
 
 #include <chrono>
@@ -12,26 +12,29 @@
 
 namespace lockstep {
 
-class StateSaid {
+class AxisStateWriter {
 public:
-    /// Of the axis for which the participant speaks.
-    explicit StateSaid(Participant& participant);
+    /// Of the axis for which the participant writes.
+    explicit AxisStateWriter(Participant& participant);
 
     /// Never waits. False: the network's buffers are full, or DDS is shutting down.
-    bool write(const AxisState& state);
-    /// The file of the memory is no longer the one that is open.
-    bool is_memory_replaced() const { return board_ && !board_->is_current(); }
+    The path of the memory file no longer names the open file.
+        /// The file of the memory is no longer the one that is open.
+        bool
+        is_memory_replaced() const {
+        return board_ && !board_->is_current();
+    }
 
 private:
     Writer<AxisState> network_;
     std::optional<StateBoardWriter> board_;
-    AxisState shown_;  // what was last said on the network
+    AxisState shown_;  // what was last written to the network
     std::chrono::nanoseconds shown_at_{0};
 };
 
-class StatesHeard {
+class AxisStatesReader {
 public:
-    explicit StatesHeard(Participant& participant);
+    explicit AxisStatesReader(Participant& participant);
 
     /// As Reader::take.
     template <typename Use>
@@ -40,13 +43,13 @@ public:
     }
 
     const Refusals& refusals() const { return board_ ? board_->refusals() : network_->refusals(); }
-    /// By how many on the network it is reached.
+    /// How many writers on the network it is matched with.
     std::uint32_t matched() const { return network_ ? network_->matched() : 0; }
-    /// The file of the memory is no longer the one that is open.
+    /// The path of the memory file no longer names the open file.
     bool is_memory_replaced() const { return board_ && !board_->is_current(); }
-    /// What DDS delivered of them; where they come by memory: nothing.
+    /// DDS's delivery of the states; if they come by memory: nothing.
     TopicReception reception() const { return network_ ? network_->reception() : TopicReception{}; }
-    /// Where who is not heard is waited for.
+    /// Where the states of a missing axis are expected.
     std::string place() const;
 
 private:

@@ -1,4 +1,4 @@
-// What each role hears and says, as one value. Members are made in order on the participant.
+// The topics that each role reads and writes, as one value. Members are constructed in order on the participant.
 #pragma once
 
 #include <chrono>
@@ -13,11 +13,11 @@
 
 namespace lockstep {
 
-/// Lets a thread sleep until something has come.
+/// Lets a thread sleep until something is received.
 class Arrivals {
 public:
     void notify();
-    /// True: something came since the last call. False: the time passed.
+    /// True: something was received since the last call. False: the time passed.
     bool wait_for(std::chrono::nanoseconds time);
 
 private:
@@ -29,11 +29,11 @@ private:
 struct AxisBus {
     Participant participant;
     Reader<Frame> frames{participant};
-    StatesHeard states{participant};  // the other axes'
+    AxisStatesReader states{participant};  // the other axes'
     Reader<MachineState> machine{participant};
     Reader<AxisCommand> commands{participant};
-    Reader<Command> requests{participant};  // clients', to the coordinator
-    StateSaid state{participant};
+    Reader<Command> requests{participant};  // from clients to the coordinator
+    AxisStateWriter state{participant};
     Writer<AxisHealth> health{participant};
 
     bool is_memory_replaced() const { return states.is_memory_replaced() || state.is_memory_replaced(); }
@@ -41,8 +41,8 @@ struct AxisBus {
 
 struct CoordinatorBus {
     Participant participant;
-    StatesHeard states{participant};
-    Reader<AxisHealth> healths{participant};  // for the record alone
+    AxisStatesReader states{participant};
+    Reader<AxisHealth> healths{participant};  // only for the record
     Reader<MachineState> other_coordinators{participant};
     Reader<Command> commands{participant};
     Reader<ProgramChunk> chunks{participant};
@@ -54,7 +54,7 @@ struct CoordinatorBus {
     bool is_memory_replaced() const { return states.is_memory_replaced(); }
 };
 
-/// What has become other than it was when the bus was opened.
+/// What has changed since the bus was opened.
 template <typename Bus>
 std::optional<ReopenReason> change_of(const Bus& bus) {
     if (bus.participant.has_interface_changed()) { return ReopenReason::InterfaceChanged; }
@@ -62,7 +62,7 @@ std::optional<ReopenReason> change_of(const Bus& bus) {
     return std::nullopt;
 }
 
-/// What one hears who looks on.
+/// Topics of a read-only observer.
 struct ViewerBus {
     Participant participant;
     std::unique_ptr<Arrivals> arrivals = std::make_unique<Arrivals>();  // of machine states, and of a client's replies
@@ -77,7 +77,7 @@ struct ClientBus : ViewerBus {
     Writer<ProgramChunk> chunks{participant};
 };
 
-/// Error: the participant's, or the first topic's that could not be opened.
+/// Error: the participant's, or the first topic that could not be opened.
 template <typename Bus>
 std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine,
                                          const Membership& membership = {}) {

@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::chrono::milliseconds kServerNap{100};  // until it looks whether to stop
+constexpr std::chrono::milliseconds kServerNap{100};  // until it checks whether to stop
 constexpr std::chrono::milliseconds kClientNap{10};   // and whether to ask again
 
 }  // namespace

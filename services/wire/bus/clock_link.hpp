@@ -1,5 +1,5 @@
-// The two ends of a clock exchange over DDS. Each has a thread that sleeps until a message comes, so that what is
-// measured is the network's delay and not how often a loop looks.
+// The two ends of a clock exchange over DDS. Each has a thread that sleeps until a message comes, so that the exchange
+// measures the network's delay and not the loop's period.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace lockstep {
 
 using ReadClock = std::function<Tick()>;
 
-/// The coordinator's: answers at once, whatever its loop is doing. The participant outlives it.
+/// The coordinator's side: answers at once, independent of its loop. The participant outlives it.
 class ClockServer {
 public:
     ClockServer(Participant& participant, ReadClock machine_time);
@@ -30,7 +30,7 @@ private:
     std::jthread thread_;
 };
 
-/// An axis's: asks again and again, and keeps what it learns until it is taken. The participant outlives it.
+/// An axis's side: asks repeatedly, and keeps the exchanges until they are taken. The participant outlives it.
 class ClockClient {
 public:
     ClockClient(Participant& participant, ClockAsker asker, ReadClock own_clock);

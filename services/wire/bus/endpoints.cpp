@@ -17,11 +17,11 @@ Qos qos_for(const TopicSpec& spec) {
                          0);  // a loop never waits for the network
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, spec.depth);
     dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
-    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);  // an axis need not hear its own state
+    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);  // an axis need not receive its own state
     return qos;
 }
 
-/// Topics belong to the participant and go with it.
+/// Topics belong to the participant and are deleted with it.
 dds_entity_t make_topic(Participant& participant, const TopicSpec& spec) {
     return dds_create_topic(participant.handle(), spec.type, spec.name, nullptr, nullptr);
 }
@@ -35,8 +35,8 @@ Entity checked(Participant& participant, const TopicSpec& spec, dds_entity_t han
     return entity;
 }
 
-void on_data_available(dds_entity_t, void* told) {
-    Arrival& arrival = *static_cast<Arrival*>(told);
+void on_data_available(dds_entity_t, void* arrived) {
+    Arrival& arrival = *static_cast<Arrival*>(arrived);
     arrival.has_come = true;
     if (arrival.on_data) { arrival.on_data(); }
 }

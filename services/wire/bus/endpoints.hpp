@@ -1,5 +1,5 @@
-// Typed readers and writers of core's messages: what they send is translated, what they receive is checked first, and
-// what is said of an axis is believed from who speaks for it alone.
+// Typed readers and writers of core's messages: outgoing messages are translated, incoming ones are checked first, and
+// a message about an axis is accepted only from that axis's own writer.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <type_traits>
 
 #include "core/protocol/reception_watch.hpp"
-#include "services/wire/bus/speakers.hpp"
+#include "services/wire/bus/partition_check.hpp"
 #include "services/wire/dds/entity.hpp"
 #include "services/wire/dds/participant.hpp"
 #include "services/wire/dds/refusals.hpp"
@@ -22,26 +22,26 @@
 
 namespace lockstep {
 
-/// Called on a thread of DDS when samples have come: do little, and do not throw.
+/// Called on a thread of DDS when samples have arrived: it must be short, and must not throw.
 using OnData = std::function<void()>;
 
 namespace detail {
-/// What DDS tells a reader on a thread of its own.
+/// What DDS reports to a reader, on a thread of DDS.
 struct Arrival {
     explicit Arrival(OnData also) : on_data(std::move(also)) {}
     std::atomic<bool> has_come{false};
     OnData on_data;
 };
 
-/// On failure the participant notes it, and the entity is not good.
+/// On failure the participant notes it, and the entity is not valid.
 Entity make_writer(Participant& participant, const TopicSpec& spec);
 Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival);
 std::uint32_t matched_readers(const Entity& writer);
 std::uint32_t matched_writers(const Entity& reader);
-/// Bytes that DDS received for the reader and did not deliver, since it was made.
+/// Bytes that DDS received for the reader and did not deliver, since it was created.
 std::uint64_t discarded_bytes(const Entity& reader);
 
-/// The axis for which a message speaks; nothing: for none, and whoever may write the topic may say it.
+/// The axis that a message is about; nothing: none, and any permitted writer of the topic may send it.
 template <typename T>
 std::optional<std::uint32_t> spoken_for(const T& message) {
     constexpr bool kIsAnAxiss =
@@ -63,7 +63,7 @@ public:
         return dds_write(entity_.handle(), sample) == DDS_RETCODE_OK;
     }
 
-    /// How many readers listen. What is written to none is heard by none: a first command waits for one.
+    /// How many readers are matched. Nothing receives a message without a reader: a first command waits for one.
     std::uint32_t matched() const { return detail::matched_readers(entity_); }
 
 private:
@@ -76,14 +76,14 @@ public:
     explicit Reader(Participant& participant, OnData on_data = {})
         : arrival_(std::make_unique<detail::Arrival>(std::move(on_data))),
           entity_(detail::make_reader(participant, Topic<T>::kSpec, *arrival_)),
-          speakers_(participant.machine()) {}
+          partitions_(participant.machine()) {}
 
-    /// Calls use(T&&) for each message that came since the last call, oldest first per sender. Returns how many. A
-    /// message that is not moved away leaves its memory to the next.
+    /// Calls use(T&&) for each message received since the last call, oldest first per sender. Returns how many. A
+    /// message that is not moved from leaves its memory to the next.
     template <typename Use>
     std::size_t take(Use use) {
         std::size_t used = 0;
-        if (!arrival_->has_come.exchange(false)) { return used; }  // a loop asks often, and DDS's answer takes locks
+        if (!arrival_->has_come.exchange(false)) { return used; }  // a loop asks often, and a DDS call takes locks
         for (std::size_t batch = 0; batch < kMaxBatches; ++batch) {
             if (take_batch(use, used) < kBatch) { return used; }
         }
@@ -97,9 +97,9 @@ public:
 
 private:
     static constexpr std::size_t kBatch = 64;
-    static constexpr std::size_t kMaxBatches = 64;  // a flood is left for the next call
+    static constexpr std::size_t kMaxBatches = 64;  // in a flood, the rest is left for the next call
 
-    /// Samples lent by DDS, given back at the end of the scope.
+    /// Samples lent by DDS, returned at the end of the scope.
     struct Loan {
         dds_entity_t reader;
         std::array<void*, kBatch> samples{};
@@ -120,10 +120,10 @@ private:
         const Loan loan(entity_.handle());
         const auto count = static_cast<std::size_t>(std::max(0, loan.count));
         for (std::size_t i = 0; i < count; ++i) {
-            if (!loan.infos[i].valid_data) { continue; }  // a sender left
+            if (!loan.infos[i].valid_data) { continue; }  // a writer left
             ++received_;
             auto believed = from_wire(*static_cast<const typename Topic<T>::Wire*>(loan.samples[i]), value_);
-            if (believed) { believed = check_speaker(loan.infos[i].publication_handle); }
+            if (believed) { believed = check_writer(loan.infos[i].publication_handle); }
             if (believed) {
                 use(std::move(value_));
                 ++used;
@@ -134,17 +134,17 @@ private:
         return count;
     }
 
-    std::expected<void, std::string> check_speaker(dds_instance_handle_t writer) {
+    std::expected<void, std::string> check_writer(dds_instance_handle_t writer) {
         const auto axis = detail::spoken_for(value_);
-        if (!axis || speakers_.speaks_for(entity_.handle(), writer, *axis)) { return {}; }
-        return std::unexpected(std::string(Topic<T>::kSpec.name) + ": speaks for axis " + std::to_string(*axis) +
-                               ", which its writer is not");
+        if (!axis || partitions_.may_write_for(entity_.handle(), writer, *axis)) { return {}; }
+        return std::unexpected(std::string(Topic<T>::kSpec.name) + ": is about axis " + std::to_string(*axis) +
+                               ", but its writer is not that axis");
     }
 
-    std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address: it stays put and outlives the entity
+    std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address: it does not move and outlives the entity
     Entity entity_;
-    Speakers speakers_;
-    T value_{};  // the message at hand
+    PartitionCheck partitions_;
+    T value_{};  // the message being read
     std::uint64_t received_ = 0;
     Refusals refusals_;
 };

@@ -1,4 +1,4 @@
-// Texts that a message or a line of a log has no room for.
+// Cuts texts that are too long for a message or a log line.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// At most `most` bytes: cut between two words, never within a number or a UTF-8 character, and an ellipsis says so.
+/// At most `most` bytes: cut between two words, never within a number or a UTF-8 character, and marked by an ellipsis.
 inline std::string cut_text(std::string_view text, std::size_t most) {
     constexpr std::string_view kEllipsis = " ...";
     if (text.size() <= most) { return std::string(text); }

@@ -9,27 +9,27 @@
 
 #include "services/runtime/clock.hpp"
 #include "services/wire/dds/cut_text.hpp"
-#include "services/wire/dds/newcomers.hpp"
+#include "services/wire/dds/unauthenticated_peers.hpp"
 
 namespace lockstep {
 namespace {
 
-struct Ear {
+struct DdsLog {
     std::mutex mutex;
-    std::function<void(const std::string&)> say;
+    std::function<void(const std::string&)> to;
     RepeatFilter filter;
-    Newcomers newcomers;
+    UnauthenticatedPeers unauthenticated;
     std::string last;
     bool joined = false;
 };
 
 /// Never destroyed: threads of DDS may outlive main.
-Ear& the_ear() {
-    static auto* const ear = new Ear;
-    return *ear;
+DdsLog& dds_log() {
+    static auto* const log = new DdsLog;
+    return *log;
 }
 
-/// One line of a log: names in certificates, and packets, are whatever their maker wrote.
+/// One line of a log: names in certificates, and packets, may contain any bytes.
 std::string one_line(std::string text) {
     constexpr std::size_t kMaxLength = 400;
     text = cut_text(text, kMaxLength);
@@ -39,30 +39,30 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// Its lock is held.
-void pass_on(Ear& ear, const std::string& message) {
-    ear.last = message;
-    const auto text = ear.filter.pass(monotonic_now(), message);
-    if (text && ear.say) { ear.say(*text); }
+/// The caller holds its lock.
+void pass_on(DdsLog& log, const std::string& message) {
+    log.last = message;
+    const auto text = log.filter.pass(monotonic_now(), message);
+    if (text && log.to) { log.to(*text); }
 }
 
 void on_message(void*, const dds_log_data_t* data) {
     if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)) == 0) { return; }
-    Ear& ear = the_ear();
-    const std::lock_guard lock(ear.mutex);
+    DdsLog& log = dds_log();
+    const std::lock_guard lock(log.mutex);
     const std::string message = one_line(data->message);
-    if (!ear.joined && message.ends_with("not allowed")) { return; }
-    pass_on(ear, message);
+    if (!log.joined && message.ends_with("not allowed")) { return; }
+    pass_on(log, message);
 }
 
 void on_trace(void*, const dds_log_data_t* data) {
     if ((data->priority & DDS_LC_DISCOVERY) == 0) { return; }
-    Ear& ear = the_ear();
-    const std::lock_guard lock(ear.mutex);
-    if (const auto news = ear.newcomers.hear(monotonic_now(), data->message)) { pass_on(ear, *news); }
+    DdsLog& log = dds_log();
+    const std::lock_guard lock(log.mutex);
+    if (const auto text = log.unauthenticated.note_line(monotonic_now(), data->message)) { pass_on(log, *text); }
 }
 
-/// Its beginning, without what may be a part of an identity: DDS quotes damaged packets behind it.
+/// The beginning of a message, without possible parts of an identity: DDS appends damaged packets to it.
 std::string kind_of(std::string message) {
     constexpr std::size_t kLength = 60;
     std::erase_if(message, [](unsigned char c) { return std::isxdigit(c) || c == ':'; });
@@ -76,7 +76,7 @@ std::optional<std::string> RepeatFilter::pass(std::chrono::nanoseconds now, cons
     if (kinds_.size() >= kMaxKinds) { kinds_.clear(); }
     const auto [entry, is_new] = kinds_.try_emplace(kind_of(message), now);
     Kind& kind = entry->second;
-    if (!is_new && now - kind.said < kPeriod) {
+    if (!is_new && now - kind.reported < kPeriod) {
         ++kind.held_back;
         return std::nullopt;
     }
@@ -85,35 +85,35 @@ std::optional<std::string> RepeatFilter::pass(std::chrono::nanoseconds now, cons
     return message + more;
 }
 
-void hear_dds(std::function<void(const std::string&)> say) {
+void forward_dds_log(std::function<void(const std::string&)> to) {
     {
-        Ear& ear = the_ear();
-        const std::lock_guard lock(ear.mutex);
-        ear.say = std::move(say);
+        DdsLog& log = dds_log();
+        const std::lock_guard lock(log.mutex);
+        log.to = std::move(to);
     }
     dds_set_log_sink(on_message, nullptr);
 }
 
-void watch_newcomers() { dds_set_trace_sink(on_trace, nullptr); }
+void watch_unauthenticated_peers() { dds_set_trace_sink(on_trace, nullptr); }
 
-std::vector<std::string> unproved_newcomers(std::chrono::nanoseconds now) {
-    const std::lock_guard lock(the_ear().mutex);
-    return the_ear().newcomers.unproved(now);
+std::vector<std::string> unauthenticated_peers(std::chrono::nanoseconds now) {
+    const std::lock_guard lock(dds_log().mutex);
+    return dds_log().unauthenticated.due(now);
 }
 
-void tell(const std::string& text) {
-    const std::lock_guard lock(the_ear().mutex);
-    pass_on(the_ear(), text);
+void add_dds_message(const std::string& text) {
+    const std::lock_guard lock(dds_log().mutex);
+    pass_on(dds_log(), text);
 }
 
-std::string dds_said_last() {
-    const std::lock_guard lock(the_ear().mutex);
-    return the_ear().last;
+std::string last_dds_message() {
+    const std::lock_guard lock(dds_log().mutex);
+    return dds_log().last;
 }
 
 void note_joined() {
-    const std::lock_guard lock(the_ear().mutex);
-    the_ear().joined = true;
+    const std::lock_guard lock(dds_log().mutex);
+    dds_log().joined = true;
 }
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// What DDS itself has to say: peers that it refuses, files that it cannot use. It says so on threads of its own, and of
-// one stranger the same thing ten times a second.
+// The messages of DDS itself: peers that it refuses, files that it cannot use. DDS reports them on its own threads, and
+// repeats those about one unauthenticated peer ten times a second.
 #pragma once
 
 #include <chrono>
@@ -11,41 +11,41 @@
 
 namespace lockstep {
 
-/// Lets the first of each kind of message pass, and one of that kind in each period after; messages that differ in
-/// identities alone are of one kind. Pure.
+/// Passes the first of each kind of message, and one of that kind in each period after; messages that differ only in
+/// identities are of one kind. Pure.
 class RepeatFilter {
 public:
-    /// The message to say, with how many of its kind were held back; nothing: it is held back.
+    /// The message to report, with how many of its kind were held back; nothing: it is held back.
     std::optional<std::string> pass(std::chrono::nanoseconds now, const std::string& message);
 
 private:
     static constexpr std::chrono::seconds kPeriod{10};
-    static constexpr std::size_t kMaxKinds = 64;  // then all begins anew
+    static constexpr std::size_t kMaxKinds = 64;  // beyond it all kinds are new again
 
     struct Kind {
-        std::chrono::nanoseconds said;
+        std::chrono::nanoseconds reported;
         std::size_t held_back = 0;
     };
     std::map<std::string, Kind> kinds_;
 };
 
-/// From now on DDS's warnings and errors go there, filtered, on threads of DDS, one at a time; the process's only one.
-void hear_dds(std::function<void(const std::string&)> say);
+/// Sends DDS's warnings and errors to `to`, filtered, on threads of DDS, one at a time. One receiver per process.
+void forward_dds_log(std::function<void(const std::string&)> to);
 
-/// Says something there, as if DDS had.
-void tell(const std::string& text);
+/// Reports a text there, as if DDS had reported it.
+void add_dds_message(const std::string& text);
 
-/// What was said last; empty: nothing yet.
-std::string dds_said_last();
+/// The last message; empty: none yet.
+std::string last_dds_message();
 
-/// From now on who comes without proof is told as well; the domain's profile must trace discovery. It replaces any
-/// other trace of DDS.
-void watch_newcomers();
+/// Also report unauthenticated peers; the domain's profile must trace discovery. It replaces any other trace of
+/// DDS.
+void watch_unauthenticated_peers();
 
-/// Those who are to be told of by now (newcomers.hpp).
-std::vector<std::string> unproved_newcomers(std::chrono::nanoseconds now);
+/// The unauthenticated peers to report now (unauthenticated_peers.hpp).
+std::vector<std::string> unauthenticated_peers(std::chrono::nanoseconds now);
 
-/// This process takes part. Before that DDS refuses everybody whom it hears, which says nothing of them.
+/// This process has joined. Before that DDS refuses all peers, which is no error of theirs.
 void note_joined();
 
 }  // namespace lockstep

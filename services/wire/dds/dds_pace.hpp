@@ -1,6 +1,6 @@
-// How often the processes of a machine ask and answer each other below what they say: whether they are there, what was
-// lost, what has arrived. Each asks all others, so N processes ask N^2 times as often as one; where they are many,
-// hosts that start them all at once would be flooded by answers, and take each other for gone.
+// How often DDS in the processes of a machine asks and answers: for presence, for lost messages, for acknowledgements.
+// Each process asks all others, so N processes ask N^2 times as often as one. With many processes, hosts that start
+// them all at once would be flooded by answers, and regard each other as gone.
 #pragma once
 
 #include <chrono>
@@ -9,11 +9,11 @@
 
 namespace lockstep {
 
-/// Cyclone DDS's settings for so many processes, as XML: of its element Discovery, where multicast finds them.
+/// Cyclone DDS's settings for so many processes, as XML: of its element Discovery, if multicast is used for discovery.
 std::string discovery_pace(std::size_t processes);
-/// How long a process that has ended without a word is then taken for present.
+/// How long a process that ended without notice is regarded as present.
 std::chrono::milliseconds discovery_lease(std::size_t processes);
-/// Of its element Internal.
+/// The settings of its element Internal.
 std::string repair_pace(std::size_t processes);
 
 }  // namespace lockstep

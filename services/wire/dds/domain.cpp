@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kAddedProfile = "CYCLONEDDS_URI";
 
-// Messages that wait for their turn lie in receive buffers, each of which fills until none fits any more. DDS's default
-// of 1 MiB takes thousands of clients to fill for the first time, and until then looks like a leak.
+// Messages that wait for delivery stay in receive buffers, each of which is used until it is full. DDS's default of
+// 1 MiB takes thousands of clients to fill for the first time, and looks like a leak until then.
 constexpr const char* kReceiveBuffers = "<Sizing><ReceiveBufferSize>256 KiB</ReceiveBufferSize></Sizing>";
 
 // To the sink of dds_log.hpp, and to no file.
@@ -47,28 +47,28 @@ std::string cannot_open_domain(const NetworkConfig& network, const char* why) {
            "), that the domain is 0 to 230, and CYCLONEDDS_URI if it is set";
 }
 
-std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery told) {
+std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery discovery) {
     if (!is_interface_name(network.interface)) {
         return std::unexpected("'" + network.interface + "' is not a network interface's name; see: ip link");
     }
-    // lo does not say that it can multicast, but it can; a real interface says it itself.
+    // lo does not announce multicast, but supports it; a real interface announces it.
     const std::string multicast = network.interface == "lo" ? "true" : "default";
     const std::string by_multicast = "<Discovery>" + discovery_pace(network.processes) + "</Discovery>";
     std::string profile = "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface name=\"" +
                           network.interface + "\" multicast=\"" + multicast + "\"/></Interfaces></General>" +
                           (network.peers.empty() ? by_multicast : peer_discovery(network.peers)) + "<Internal>" +
                           repair_pace(network.processes) + "</Internal>" + kReceiveBuffers +
-                          (told == Discovery::Traced ? kTrace : "") + "</Domain></CycloneDDS>";
+                          (discovery == Discovery::Traced ? kTrace : "") + "</Domain></CycloneDDS>";
     const char* added = std::getenv(kAddedProfile);
     return added == nullptr ? profile : profile + "," + added;
 }
 
 std::expected<std::shared_ptr<const Domain>, std::string> Domain::make(const NetworkConfig& network, bool is_secured) {
     const bool is_added_to = std::getenv(kAddedProfile) != nullptr;
-    const bool watches = is_secured && !is_added_to;  // a trace that somebody asks for is his
+    const bool watches = is_secured && !is_added_to;  // a trace requested by the environment stays with its user
     const auto profile = dds_profile(network, watches ? Discovery::Traced : Discovery::Quiet);
     if (!profile) { return std::unexpected(profile.error()); }
-    if (watches) { watch_newcomers(); }
+    if (watches) { watch_unauthenticated_peers(); }
     give_back_large_blocks();
     const Descriptors before = udp_sockets();
     Entity entity(dds_create_domain(network.domain, profile->c_str()));

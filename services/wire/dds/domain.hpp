@@ -1,7 +1,7 @@
 // A process's DDS domain: its profile, and its sockets on one interface.
 //
 // The profile is built from the configuration, not read from the environment, so that every process of a machine has
-// the same. Where CYCLONEDDS_URI is set it is read after ours: it may add to it (tracing) or override it.
+// the same. CYCLONEDDS_URI, if set, is read after it, and may add to it (tracing) or override it.
 #pragma once
 
 #include <chrono>
@@ -15,18 +15,18 @@
 
 namespace lockstep {
 
-/// Made by the process's first participant in it, and gone with the last: by then all others have been told that this
-/// process leaves. One that ends without telling them is called on until they take it for gone.
+/// Created by the process's first participant in it, and deleted with the last: by then all peers have been notified
+/// that this process leaves. Without that notice, peers keep contacting it until its lease expires.
 class Domain {
 public:
-    /// DDS ends its receiving threads by sending packets to itself, again and again until each has come. On an
-    /// interface that is gone none does, so the sockets are shut first.
+    /// DDS ends its receiving threads by sending packets to itself, repeatedly until each has arrived. On an interface
+    /// that is gone none arrives, so the sockets are shut down first.
     ~Domain() { end_reception(sockets_); }
     Domain(const Domain&) = delete;
     Domain& operator=(const Domain&) = delete;
 
-    /// Error: the domain, the interface, what DDS said, and the remedy; also where this process has that domain on
-    /// another interface.
+    /// Error: the domain, the interface, DDS's error, and the remedy; also if this process has that domain on another
+    /// interface.
     static std::expected<std::shared_ptr<const Domain>, std::string> join(const NetworkConfig& network,
                                                                           bool is_secured);
 
@@ -42,13 +42,14 @@ private:
     Descriptors sockets_;
 };
 
-/// Whether DDS tells who comes and goes (dds_log.hpp).
+/// Whether DDS traces joining and leaving participants (dds_log.hpp).
 enum class Discovery { Quiet, Traced };
 
-/// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is none.
-std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery told = Discovery::Quiet);
+/// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is not valid.
+std::expected<std::string, std::string> dds_profile(const NetworkConfig& network,
+                                                    Discovery discovery = Discovery::Quiet);
 
-/// How long DDS takes a process for present that has ended without a word.
+/// How long DDS regards a process as present that ended without notice.
 std::chrono::nanoseconds lease_of(const NetworkConfig& network);
 
 /// "DDS domain 3 on interface eth0"

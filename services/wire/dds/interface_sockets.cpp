@@ -40,13 +40,13 @@ std::expected<void, std::string> tie_new_sockets(const Descriptors& before, cons
         const auto size = static_cast<socklen_t>(interface.size());
         if (::setsockopt(socket, SOL_SOCKET, SO_BINDTODEVICE, interface.data(), size) != 0) {
             return std::unexpected("cannot tie DDS's sockets to interface " + interface + ": " + std::strerror(errno) +
-                                   "; it takes Linux 5.7, or the capability CAP_NET_RAW");
+                                   "; it requires Linux 5.7, or the capability CAP_NET_RAW");
         }
     }
     return {};
 }
 
-/// The kernel says of a socket without a peer that it is not connected, and ends its reception all the same.
+/// The kernel reports that a socket without a peer is not connected, and ends its reception nevertheless.
 void end_reception(const Descriptors& sockets) {
     for (const int socket : sockets) { (void)::shutdown(socket, SHUT_RD); }
 }

@@ -17,7 +17,7 @@ std::string cannot_join(const NetworkConfig& network, const Membership& membersh
     if (!membership.credentials) { return cannot_open_domain(network, participant.why_not()); }
     return "DDS Security does not let this process into " + domain_place(network) + " by " +
            membership.credentials->certificate.string() + ": " + participant.why_not() +
-           "; see what DDS said before, and: lockstep keys check";
+           "; see the messages of DDS before this one, and: lockstep keys check";
 }
 
 Qos partition_qos(const std::vector<std::string>& partitions) {
@@ -57,9 +57,9 @@ std::expected<Participant, std::string> Participant::open(const NetworkConfig& n
     note_joined();
     watch_versions(made.handle(), machine);
     const Qos written = partition_qos({partition_of(machine, membership.axis)});
-    const Qos heard = partition_qos(heard_partitions(machine));
+    const Qos readable = partition_qos(read_partitions(machine));
     made.publisher_ = Entity(dds_create_publisher(made.handle(), written.get(), nullptr));
-    made.subscriber_ = Entity(dds_create_subscriber(made.handle(), heard.get(), nullptr));
+    made.subscriber_ = Entity(dds_create_subscriber(made.handle(), readable.get(), nullptr));
     if (!made.publisher_.good()) { return std::unexpected(cannot_open_domain(network, made.publisher_.why_not())); }
     if (!made.subscriber_.good()) { return std::unexpected(cannot_open_domain(network, made.subscriber_.why_not())); }
     if (membership.credentials) { made.sent_keys_ = std::make_unique<SentKeys>(made.handle(), made.subscriber()); }

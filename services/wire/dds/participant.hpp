@@ -1,4 +1,4 @@
-// A process's place in DDS: one domain, one interface, one machine, and who it is there.
+// A process's participant in DDS: one domain, one interface, one machine, and its identity there.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace lockstep {
 
-/// The files by which DDS Security knows a process and what it may: certificates and keys in PEM, documents signed.
+/// The files that identify a process to DDS Security and grant its rights: PEM certificates and keys, signed documents.
 struct Credentials {
     std::filesystem::path identity_ca;
     std::filesystem::path certificate;
@@ -26,33 +26,33 @@ struct Credentials {
     std::filesystem::path permissions;
 };
 
-/// As whom a process joins a machine.
+/// The identity with which a process joins a machine.
 struct Membership {
-    std::optional<std::uint32_t> axis;       // for which it speaks; none: for none
+    std::optional<std::uint32_t> axis;       // the axis for which it writes; none: for none
     std::optional<Credentials> credentials;  // none: without security
 };
 
 class Participant {
 public:
-    /// The machine's name is the DDS partition (partitions.hpp): machines in one domain do not hear each other.
-    /// Error: the domain, the interface, what DDS said, and the remedy. All participants of a process in one domain
+    /// The machine's name is the DDS partition (partitions.hpp): machines in one domain do not receive each other.
+    /// Error: the domain, the interface, DDS's error, and the remedy. All participants of a process in one domain
     /// use one interface.
     static std::expected<Participant, std::string> open(const NetworkConfig& network, const std::string& machine,
                                                         const Membership& membership = {});
 
     const std::string& machine() const { return machine_; }
     const NetworkConfig& network() const { return network_; }
-    const std::optional<std::uint32_t>& axis() const { return axis_; }  // for which its process speaks
+    const std::optional<std::uint32_t>& axis() const { return axis_; }  // the axis for which its process writes
 
     dds_entity_t handle() const { return participant_.handle(); }
     dds_entity_t publisher() const { return publisher_.handle(); }
     dds_entity_t subscriber() const { return subscriber_.handle(); }
 
-    /// Whether the interface is up again as another one, or with another address, since this was opened.
+    /// Whether the interface was replaced or got another address since this was opened.
     bool has_interface_changed() const;
 
-    /// The first failure of a reader or writer made on this participant: so that many can be made in a row and
-    /// looked at once.
+    /// The first failure of a reader or writer created on this participant: so that many can be created in a row and
+    /// checked once.
     const std::optional<std::string>& failure() const { return failure_; }
     void note_failure(std::string text);
 

@@ -1,6 +1,6 @@
-// Partitions of DDS: the machine's name keeps machines in one domain apart, the protocol's number keeps versions apart
-// that would misunderstand each other, and each axis writes in one of its own, so that permissions can tell the axes
-// apart.
+// Partitions of DDS: the machine's name separates machines in one domain, the protocol's number separates incompatible
+// versions, and each axis writes in its own, so that permissions can distinguish the
+// axes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-/// Where all but the axes write, such as "mill@2".
+/// Where all processes but the axes write, such as "mill@2".
 inline std::string partition_of(const std::string& machine) { return machine + "@" + std::to_string(kProtocol); }
 
 /// Where a process writes: "mill@2/0" for its axis 0.
@@ -20,8 +20,8 @@ inline std::string partition_of(const std::string& machine, std::optional<std::u
     return partition_of(machine) + (axis ? "/" + std::to_string(*axis) : "");
 }
 
-/// Where everybody reads.
-inline std::vector<std::string> heard_partitions(const std::string& machine) {
+/// Where all processes read.
+inline std::vector<std::string> read_partitions(const std::string& machine) {
     return {partition_of(machine), partition_of(machine) + "/*"};
 }
 

@@ -1,9 +1,9 @@
-// How processes find each other without multicast: each asks every peer, on the ports that DDS gives to one process of
-// a host after the other, again and again, whether or not somebody is there.
+// How processes discover each other without multicast: each contacts every peer, on the ports that DDS assigns to the
+// processes of a host in turn, repeatedly, whether or not a process is there.
 //
-// What goes to an address where nobody is waits in the kernel until ARP gives it up, after 3 to 4 s, and counts as sent
-// by the socket that carries motion too. A socket whose buffer is full makes whoever sends wait for that long: an axis
-// falls silent. So peers are asked at leisure, and the buffer holds what all of them but this one may leave there.
+// A packet to an address without a host waits in the kernel until ARP fails, after 3 to 4 s, and counts as queued in
+// the socket that carries motion too. If that socket's buffer is full, senders wait for that long: an axis falls
+// silent. So peers are contacted rarely, and the buffer has room for the packets to all absent peers.
 #pragma once
 
 #include <chrono>
@@ -13,17 +13,17 @@
 
 namespace lockstep {
 
-/// What DDS is told of its peers, as XML: of the domain's General, Discovery and Internal.
+/// The peer settings of DDS, as XML: of the domain's General, Discovery and Internal.
 std::string peer_discovery(const std::vector<std::string>& peers);
 
-/// How long a process that has ended without a word is taken for present: five chances to be heard.
+/// How long a process that ended without notice is regarded as present: five chances to be received.
 constexpr std::chrono::milliseconds kPeerLease{4000};
 
-/// The send buffer, in bytes as the kernel counts them, in which motion has room though no peer is there. The kernel
-/// gives twice net.core.wmem_max at most.
+/// The send buffer, in bytes as the kernel counts them, in which motion has room though all peers are absent. The
+/// kernel gives twice net.core.wmem_max at most.
 std::int64_t peer_send_buffer(std::size_t peers);
 
-/// Of that: what is left for motion.
+/// The part of it that is left for motion.
 constexpr std::int64_t kMotionSendBuffer = 64 * 1024;
 
 }  // namespace lockstep

@@ -43,7 +43,7 @@ std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_vie
     return error == std::errc{} && rest == end ? std::optional(axis) : std::nullopt;
 }
 
-/// The process behind a writer; nothing: it writes neither the machine's state nor one of its axes'.
+/// The process of a writer; nothing: it writes neither the machine's state nor an axis's.
 std::optional<PresentProcess> process_of(const dds_builtintopic_endpoint_t& writer, const std::string& machine) {
     const std::string topic = writer.topic_name;
     const std::string partition = only_partition(writer.qos);

@@ -13,11 +13,11 @@ namespace lockstep {
 
 struct PresentProcess {
     std::optional<std::uint32_t> axis;  // nothing: a coordinator
-    std::string host;                   // as its kernel has it; empty: it does not say
+    std::string host;                   // its name in the kernel; empty: not announced
     std::int64_t pid = 0;               // on that host
 };
 
-/// Writers say of which process they are, to those alone who may read them.
+/// Writers announce their process, only to those that may read them.
 void announce_process(dds_qos_t& writer);
 
 /// The coordinators and axes that write for the participant's machine, its protocol, and its domain.

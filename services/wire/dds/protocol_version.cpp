@@ -30,12 +30,14 @@ void on_participants(dds_entity_t reader, void* machine) {
         const bool alive = info.valid_data && info.instance_state == DDS_IST_ALIVE;
         const auto* participant = static_cast<const dds_builtintopic_participant_t*>(samples[0]);
         const std::string card = alive ? card_of(*participant) : "";
-        if (const auto text = other_version(card, *static_cast<const std::string*>(machine))) { tell(*text); }
+        if (const auto text = other_version(card, *static_cast<const std::string*>(machine))) {
+            add_dds_message(*text);
+        }
         (void)dds_return_loan(reader, samples.data(), 1);
     }
 }
 
-/// Never freed: it stays with a reader, and when that goes with its participant a callback may still run.
+/// Never freed: a reader keeps it, and when that is deleted with its participant a callback may still run.
 std::string* kept_name(const std::string& machine) {
     static std::mutex mutex;
     static auto& names = *new std::map<std::string, std::string>;
@@ -56,9 +58,9 @@ std::optional<std::string> other_version(std::string_view card, const std::strin
     const auto [end, error] = std::from_chars(card.data(), card.data() + card.size(), protocol);
     if (error != std::errc{} || protocol == kProtocol) { return std::nullopt; }
     if (std::string_view(end, card.data() + card.size()) != " " + machine) { return std::nullopt; }
-    return "a process of machine '" + machine + "' speaks protocol " + std::to_string(protocol) + ", this one " +
+    return "a process of machine '" + machine + "' uses protocol " + std::to_string(protocol) + ", this one " +
            std::to_string(kProtocol) +
-           ": they do not hear each other; install the same version of Lockstep on all hosts";
+           ": they do not receive each other's messages; install the same version of Lockstep on all hosts";
 }
 
 void announce_version(dds_qos_t& participant, int protocol, const std::string& machine) {
@@ -73,7 +75,7 @@ void watch_versions(dds_entity_t participant, const std::string& machine) {
     dds_lset_data_available(listener.get(), on_participants);
     const dds_entity_t reader =
         dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, listener.get());
-    if (reader > 0) { on_participants(reader, name); }  // who was there before
+    if (reader > 0) { on_participants(reader, name); }  // the processes present already
 }
 
 }  // namespace lockstep

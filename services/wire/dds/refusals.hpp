@@ -1,4 +1,4 @@
-// What a process was sent and did not believe.
+// Counts messages that a process received and refused, with the last reason.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What a process has open on the network, which it can open anew while its loop goes on: closing waits for DDS's
-// threads, and opening for the kernel and the peers' names, so both happen in a thread of their own.
+// A network link of a process that can be opened again while its loop goes on: closing waits for DDS's threads, and
+// opening for the kernel and for name lookups, so both happen in their own thread.
 #pragma once
 
 #include <atomic>
@@ -22,12 +22,12 @@ public:
     using Open = std::function<std::expected<std::unique_ptr<Link>, std::string>()>;
     using OnFailure = std::function<void(const std::string& why)>;
 
-    /// open: called in the thread, again after a pause where it fails, until it succeeds or this object ends.
+    /// open: called in the thread, again after a pause if it fails, until it succeeds or this object ends.
     /// on_failure: called there each time.
     Reopenable(std::unique_ptr<Link> first, Open open, OnFailure on_failure)
         : link_(std::move(first)), open_(std::move(open)), on_failure_(std::move(on_failure)) {}
 
-    /// Null while it is being opened anew.
+    /// Null while it is being opened again.
     Link* get() {
         if (!link_ && is_open_.exchange(false)) {
             thread_.join();
@@ -36,11 +36,11 @@ public:
         return link_.get();
     }
 
-    /// Closes it and opens another. Returns at once; what get() gave is gone. Nothing happens while it is not open.
+    /// Closes it and opens another. Returns at once; the pointer from get() is invalid. No effect while it is not open.
     void reopen() {
         if (!link_) { return; }
         thread_ = std::jthread([this, old = std::move(link_)](const std::stop_token& stop) mutable {
-            old.reset();  // first: DDS has one domain of a number in a process
+            old.reset();  // first: a process can have a DDS domain only once
             run(stop);
         });
     }

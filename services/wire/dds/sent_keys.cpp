@@ -12,8 +12,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kDepartures = 16;  // participants that left, until keys are exchanged again
-constexpr auto kPeriod = 1s;             // between two looks at who left
-constexpr auto kExchange = 2s;           // many times what the exchange takes
+constexpr auto kPeriod = 1s;             // between two checks for participants that left
+constexpr auto kExchange = 2s;           // many times the duration of the exchange
 
 Entity topic(dds_entity_t participant, const TopicSpec& spec) {
     return Entity(dds_create_topic(participant, spec.type, spec.name, nullptr, nullptr));

@@ -1,4 +1,4 @@
-// Lets DDS Security forget the keys that it sent to participants that have left.
+// Makes DDS Security drop the keys that it sent to participants that have left.
 //
 // Cyclone DDS sends keys to each participant that joins, by one writer, and keeps all of them until every participant
 // has acknowledged as many. But a participant acknowledges only what was sent to itself, and that is nothing after its
@@ -26,13 +26,13 @@ private:
     void serve(const std::stop_token& stop);
     std::size_t departures();
     void exchange_again(const std::stop_token& stop);
-    /// False: it is to stop.
+    /// False: it must stop.
     bool sleep(const std::stop_token& stop, std::chrono::seconds time);
 
     dds_entity_t subscriber_;
     Entity axes_;  // topics that every process of a machine may read, and every service writes one of
     Entity coordinators_;
-    Entity participants_;  // who comes and goes
+    Entity participants_;  // participants that join and leave
     std::mutex mutex_;
     std::condition_variable_any woken_;
     std::jthread thread_;  // ends first

@@ -1,19 +1,19 @@
-// Every topic: its name, its type on the wire, and how it is delivered. Nothing else sets a quality of service.
+// Every topic: its name, its type on the wire, and its delivery. No other file sets a quality of service.
 //
-// All are volatile: what was said before somebody listened is never replayed to him. A command from an hour ago must
+// All are volatile: a message sent before a reader joined is never replayed to it. A command from an hour ago must
 // not move a machine, and states and setpoints come again each slot.
 //
-// Setpoints are reliable: a frame is awaited. They are kept 64 deep and never "all": a reader that stops taking must
-// not stop the writer (Cyclone DDS never makes a keep-last writer wait), and 64 outlast a stall, after which the
-// coordinator repeats what is not held.
+// Setpoints are reliable: every frame is needed. Their history is 64 and never "all": a reader that stops taking must
+// not stop the writer (in Cyclone DDS a keep-last writer never waits), and 64 cover a stall, after which the
+// coordinator repeats the frames that are not held.
 //
-// States are best effort: each one contains all that the one before said and comes every slot, so a copy sent again
-// would only be late, and acknowledgements between all pairs of axes cost more than they give. They are kept
-// kStatesKept deep per axis: after a stall the arming rule looks for states by their stamps, not for the newest.
+// States are best effort: each one contains the content of the one before and comes every slot, so a copy sent again
+// would only be late, and acknowledgements between all pairs of axes would cost more than they give. Their history is
+// kStatesKept per axis: after a stall the arming rule selects states by their stamps, not the newest.
 //
-// Commands, program parts and replies are reliable and 64 deep: a client has fewer than 64 unanswered.
+// Commands, program parts and replies are reliable with a history of 64: a client has fewer than 64 unanswered.
 //
-// Health, clock requests and replies are best effort: a copy sent again would tell what was. Only the newest few
+// Health, clock requests and replies are best effort: a copy sent again would be out of date. Only the newest few
 // matter.
 #pragma once
 

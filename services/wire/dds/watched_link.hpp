@@ -1,4 +1,4 @@
-// A process's link to its peers, opened anew when it has ceased to deliver (core/protocol/reception_watch.hpp).
+// A process's link to its peers, opened again when it no longer delivers (core/protocol/reception_watch.hpp).
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ class WatchedLink {
 public:
     WatchedLink(const MachineConfig& machine, std::unique_ptr<Link> first, typename Reopenable<Link>::Open open)
         : watch_(Ticks{lease_of(machine.network).count() / machine.tick_ns}, machine.tick_ns),
-          link_(std::move(first), std::move(open), [](const std::string& why) { tell(why); }) {}
+          link_(std::move(first), std::move(open), [](const std::string& why) { add_dds_message(why); }) {}
 
-    /// Null while it is being opened anew.
+    /// Null while it is being opened again.
     Link* get() { return link_.get(); }
 
-    /// Once in every loop. look: gives, of the link, what the watch asks for, each time that is due. Why the link is
-    /// being opened anew from now on.
+    /// Call it in every loop. look: returns the input of the watch for a link, each time that is due. Returns why the
+    /// link is now opened again.
     template <typename Look>
     std::optional<ReopenReason> tend(Tick now, Look look) {
         Link* const link = get();

@@ -1,4 +1,4 @@
-// A file seen through a window in memory: any stretch of it, without holding all of it.
+// A view of a file: any part of it, without holding all of it in memory.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ class FileWindow {
 public:
     static constexpr std::size_t kWindowBytes = 1 << 20;
 
-    /// Error: not a file that can be read; the text names it and says why. Its size is that of this moment.
+    /// Error: the file cannot be read, with its name and the reason. Its size is that of this moment.
     static std::expected<FileWindow, std::string> open(const std::filesystem::path& path);
 
     std::uint64_t size() const { return size_; }
 
-    /// The bytes from offset on: `count` of them, or what is left of the file. Valid until the next call. None and
-    /// failed() where reading failed.
+    /// The bytes from offset on: `count` of them, or the rest of the file. Valid until the next call. None and
+    /// failed() if reading failed.
     std::span<const std::uint8_t> view(std::uint64_t offset, std::size_t count);
 
     bool failed() const { return failed_; }

@@ -5,7 +5,7 @@
 namespace lockstep::detail {
 namespace {
 
-/// What is left to be walked; nothing once a field did not fit.
+/// The part left to walk; nothing once a field did not fit.
 class Walk {
 public:
     explicit Walk(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -15,7 +15,7 @@ public:
         if (fits_) { rest_ = rest_.subspan(count); }
         return fits_;
     }
-    /// A number of elements: as a signed one, it is not negative.
+    /// A number of elements: not negative as a signed number.
     std::uint64_t count() {
         const auto field = rest_.first(std::min<std::size_t>(4, rest_.size()));
         const std::uint64_t value = big_endian(field);

@@ -1,4 +1,4 @@
-// Decodes the record's messages from bytes that may be damaged. What lcm-gen makes trusts the lengths inside: a wrong
+// Decodes the record's messages from bytes that may be damaged. The code of lcm-gen trusts the lengths inside: a wrong
 // one makes it allocate gigabytes or throw. So the bytes are walked first, by the message's layout.
 #pragma once
 
@@ -55,7 +55,7 @@ bool has_layout(std::span<const std::uint8_t> bytes, std::string_view layout);
 std::uint64_t big_endian(std::span<const std::uint8_t> bytes);
 }  // namespace detail
 
-/// Error: what is wrong with the bytes.
+/// Error: the fault in the bytes.
 template <typename Message>
 std::expected<Message, std::string> decode_lcm(std::span<const std::uint8_t> bytes) {
     const std::string name = Message::getTypeName();

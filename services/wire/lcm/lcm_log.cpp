@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kSync{0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kHeaderBytes = 28;
-constexpr int kMaxCandidates = 64;  // sync words looked at within one event: bounds the work a hostile file can ask for
+constexpr int kMaxCandidates = 64;  // sync words examined within one event: bounds the work for a hostile file
 
 bool starts_with_sync(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= kSync.size() && std::ranges::equal(bytes.first(kSync.size()), kSync);
@@ -54,7 +54,7 @@ std::optional<LogReader::Header> LogReader::header_at(std::uint64_t offset) {
     return header;
 }
 
-/// That a whole event begins here and another, or the end of the file, follows it.
+/// Whether a complete event begins here and another, or the end of the file, follows it.
 bool LogReader::begins_event(std::uint64_t offset) {
     const auto header = header_at(offset);
     if (!header) { return false; }
@@ -75,7 +75,7 @@ std::optional<std::uint64_t> LogReader::find_sync(std::uint64_t from, std::uint6
     return std::nullopt;
 }
 
-/// Whether this event's lengths are wrong, so that it swallows events that came after it.
+/// Whether this event's lengths are wrong, so that it contains later events.
 bool LogReader::hides_another(std::uint64_t offset, std::uint64_t end) {
     for (int i = 0; i < kMaxCandidates; ++i) {
         const auto candidate = find_sync(offset + 1, end);
@@ -99,7 +99,7 @@ void LogReader::skip_damage(LogDamage::Kind kind) {
 
 LogEvent LogReader::event_at(std::uint64_t offset, const Header& header) {
     const auto bytes = file_.view(offset, static_cast<std::size_t>(header.event_bytes()));
-    if (bytes.size() < header.event_bytes()) { return {}; }  // reading failed: next() says so
+    if (bytes.size() < header.event_bytes()) { return {}; }  // reading failed: next() reports it
     const auto channel = bytes.subspan(kHeaderBytes, header.channel_bytes);
     return {.offset = offset,
             .bytes = header.event_bytes(),

@@ -1,5 +1,5 @@
-// LCM's log files, read and written. liblcm's own reader stops without a word at the first damaged byte, as if the log
-// ended there; this one goes on after it and says what it left out.
+// Reads and writes LCM's log files. liblcm's own reader stops silently at the first damaged byte, as if the log ended
+// there; this one continues after it and reports what it left out.
 //
 // An event is a header of 28 bytes, big endian (sync word 0xEDA1DA01, event number 8, time in us 8, channel length 4,
 // data length 4), the channel's name and the data.
@@ -21,19 +21,19 @@ namespace lockstep {
 
 struct LogEvent {
     std::uint64_t offset = 0;  // in the file
-    std::uint64_t bytes = 0;   // there, its header included
+    std::uint64_t bytes = 0;   // in the file, with its header
     std::int64_t number = 0;
     std::int64_t utime = 0;  // microseconds, of the logger's clock
     std::string_view channel;
     std::span<const std::uint8_t> data;
 };
 
-/// A stretch of the file that is no event, or is half of one.
+/// A part of the file that is no event, or an incomplete one.
 struct LogDamage {
     enum class Kind : std::uint8_t {
         CutOff,       // the file ends within an event
         NoEvent,      // no event begins here
-        WrongLength,  // an event whose length takes in others
+        WrongLength,  // an event whose length includes others
     };
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
@@ -43,13 +43,13 @@ struct LogDamage {
 class LogReader {
 public:
     static constexpr std::uint32_t kMaxChannelBytes = 255;
-    static constexpr std::uint32_t kMaxDataBytes = 64 << 20;  // more is taken for damage: this bounds the memory
+    static constexpr std::uint32_t kMaxDataBytes = 64 << 20;  // more is treated as damage: this bounds the memory
     static constexpr std::size_t kMaxDamages = 1000;          // listed; all are counted
 
-    /// Error: the file cannot be read; the text names it and says why.
+    /// Error: the file cannot be read, with its name and the reason.
     static std::expected<LogReader, std::string> open(const std::filesystem::path& path);
 
-    /// The next event, or none at the end. What it points to is valid until the next call. Error: reading failed.
+    /// The next event, or none at the end. Its pointers are valid until the next call. Error: reading failed.
     std::expected<std::optional<LogEvent>, std::string> next();
 
     const std::vector<LogDamage>& damages() const { return damages_; }
@@ -83,13 +83,13 @@ private:
 
 class LogWriter {
 public:
-    /// Begins a new file. Error: it cannot be written; the text names it and says why.
+    /// Begins a new file. Error: it cannot be written, with its name and the reason.
     static std::expected<LogWriter, std::string> open(const std::filesystem::path& path);
 
-    /// What an event takes in the file.
+    /// The size of an event in the file.
     static std::uint64_t event_bytes(std::string_view channel, std::span<const std::uint8_t> data);
 
-    /// False: the disk is full or gone. utime: microseconds.
+    /// False: the disk is full or failed. utime: microseconds.
     bool write(std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> data);
 
     /// Message: a type that lcm-gen made.
@@ -100,7 +100,7 @@ public:
         return write(channel, utime, buffer_);
     }
 
-    /// False: what was written may not all be in the file.
+    /// False: the file may be incomplete.
     bool flush() { return static_cast<bool>(file_.flush()); }
 
 private:

@@ -1,4 +1,4 @@
-// Publishes the record. Nothing in control depends on it: what cannot be sent is counted, not waited for.
+// Publishes the record. Nothing in control depends on it: a message that cannot be sent is counted, not waited for.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
         return sent;
     }
 
-    /// The same for a message that is encoded already.
+    /// The same for an encoded message.
     bool publish_bytes(const std::string& channel, std::span<const std::uint8_t> bytes) {
         const bool sent = lcm_->publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) == 0;
         failures_ += sent ? 0 : 1;

@@ -1,4 +1,4 @@
-// What core knows, as the messages of the record (idl/lcm).
+// Core's values as messages of the record (idl/lcm).
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ namespace lockstep {
 /// Microseconds of machine time.
 std::int64_t utime_of(Tick machine, std::int64_t tick_ns);
 
-/// What tells a message of a channel from all others: the process that recorded it, and a number without gaps.
+/// Identifies a message of a channel: the process that recorded it, and a number without gaps.
 struct RecordNumber {
     Identity incarnation = 0;
     std::uint64_t sequence = 0;
 };
 
-/// Where an axis is. state.axis is an index into the machine's axes.
+/// The position of an axis. state.axis is an index into the machine's axes.
 axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, RecordNumber number);
 
-/// How well it is doing. health.axis is an index into the machine's axes.
+/// The health of an axis. health.axis is an index into the machine's axes.
 axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, RecordNumber number);
 
 /// One frame or tail that an axis's device has run.
@@ -44,17 +44,17 @@ struct RunRecord {
     bool tail = false;
     Tick start;
     Position from;                             // machine coordinates
-    std::optional<std::int64_t> cut_at_steps;  // where pulses ceased before the pieces' end; none: they ran whole
+    std::optional<std::int64_t> cut_at_steps;  // where pulses ceased before the pieces' end; none: they ran completely
     std::int64_t zero_count = 0;               // machine coordinates = device count - zero_count
     std::span<const Piece> pieces;
     Ticks ahead;                             // of `start`: the start commanded, in machine time
-    std::span<const Ticks> commanded_ticks;  // of each piece; empty: as it lasts
+    std::span<const Ticks> commanded_ticks;  // of each piece; empty: their duration
     Ticks clock_error;
 };
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);
 
-/// What a process is known to have published by then. An empty name is a coordinator's.
+/// The published counts of a process at a time. An empty name is a coordinator's.
 struct RecordMark {
     std::string machine;
     std::string witness;
@@ -66,7 +66,7 @@ struct RecordMark {
 
 record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns);
 
-/// What the coordinator says of a job: that it began, goes on in a new epoch, or ended. Fields as in job_t.
+/// A job's event from the coordinator: it began, continues in a new epoch, or ended. Fields as in job_t.
 struct JobRecord {
     std::string machine;
     Identity coordinator = 0;

@@ -25,14 +25,14 @@ constexpr std::size_t kPartWords = kPartBytes / sizeof(std::uint64_t);
 constexpr std::size_t kLineWords = 8;
 constexpr std::size_t kBytes = kMaxAxes * kPartBytes;
 
-// Words of a part, after a margin by which the parts' first lines fall into different sets of the cache: they are all
-// looked at in every loop.
+// Words of a part, after a margin by which the parts' first lines fall into different cache sets: every loop reads
+// all of them.
 constexpr std::size_t kRules = 0;
-constexpr std::size_t kSaid = 1;
+constexpr std::size_t kWritten = 1;
 constexpr std::size_t kSlots = kLineWords;
 static_assert((kMaxAxes - 1) * kLineWords + kSlots + kStatesKept * StateSlot::kWords <= kPartWords);
 
-/// What both must have in common to understand each other.
+/// The writer and the reader must have the same value.
 constexpr std::uint64_t kRulesHere = 0x4c53'5354'0000'0000U | std::uint64_t{kProtocol} << 16 | StateSlot::kWords;
 
 std::unexpected<std::string> cannot_share(const fs::path& path, const char* action) {
@@ -43,7 +43,7 @@ std::uint64_t* slot_of(std::uint64_t* part, std::uint64_t number) {
     return part + kSlots + number % kStatesKept * StateSlot::kWords;
 }
 
-/// Whatever was written, these bytes may be read as what they are.
+/// Whatever was written, these bytes may be read as booleans.
 bool has_booleans(const lockstep_wire_AxisState& state) {
     const auto is_one = [](const bool& field) {
         unsigned char byte = 0;
@@ -53,7 +53,7 @@ bool has_booleans(const lockstep_wire_AxisState& state) {
     return is_one(state.has_veto) && is_one(state.at_rest) && is_one(state.homed) && is_one(state.hears_owner);
 }
 
-/// For as long as the file is open, and no longer than its process lives.
+/// Held while the file is open, and at most while its process lives.
 bool lock_part(int file, std::uint32_t axis) {
     struct flock lock {};
     lock.l_type = F_WRLCK;
@@ -73,9 +73,9 @@ std::expected<StateBoardFile, std::string> StateBoardFile::open(const fs::path& 
         StateBoardFile opened(path, file);
         if (flock(file, LOCK_SH) != 0) { return cannot_share(path, "lock it"); }
         if (!is_still_named(path, file)) { continue; }
-        // Memory is had now or not at all: a page that is not there later would end the process.
+        // Reserves the memory now: a page that is missing later would end the process.
         errno = posix_fallocate(file, 0, kBytes);
-        if (errno != 0) { return cannot_share(path, "have its 4 MB of memory"); }
+        if (errno != 0) { return cannot_share(path, "reserve its 4 MB of memory"); }
         return opened;
     }
 }
@@ -102,16 +102,16 @@ std::expected<StateBoardWriter, std::string> StateBoardWriter::open(const fs::pa
     std::uint64_t* const words = part.words() + axis * kLineWords;
     if (shared_word(words + kRules).load() != kRulesHere) {  // new, or left by another version
         shared_word(words + kRules).store(0);
-        std::fill(words + kSaid, part.words() + kPartWords, 0);
+        std::fill(words + kWritten, part.words() + kPartWords, 0);
         shared_word(words + kRules).store(kRulesHere);
     }
     return StateBoardWriter(std::move(*file), std::move(part), words);
 }
 
 void StateBoardWriter::write(const AxisState& state) {
-    const std::uint64_t number = shared_word(words_ + kSaid).load(std::memory_order_relaxed) + 1;
+    const std::uint64_t number = shared_word(words_ + kWritten).load(std::memory_order_relaxed) + 1;
     StateSlot::write(slot_of(words_, number), number, to_wire(state));
-    shared_word(words_ + kSaid).store(number, std::memory_order_release);
+    shared_word(words_ + kWritten).store(number, std::memory_order_release);
 }
 
 bool StateBoardWriter::is_current() const {
@@ -129,33 +129,35 @@ std::expected<StateBoardReader, std::string> StateBoardReader::open(const fs::pa
 
 StateBoardReader::StateBoardReader(StateBoardFile file, SharedMapping parts, std::optional<std::uint32_t> own)
     : file_(std::move(file)), parts_(std::move(parts)), own_(own) {
-    for (std::uint32_t axis = 0; axis < kMaxAxes; ++axis) { heard_[axis] = shared_word(part_of(axis) + kSaid).load(); }
+    for (std::uint32_t axis = 0; axis < kMaxAxes; ++axis) {
+        read_[axis] = shared_word(part_of(axis) + kWritten).load();
+    }
 }
 
 std::uint64_t* StateBoardReader::part_of(std::uint32_t axis) const {
     return parts_.words() + axis * (kPartWords + kLineWords);
 }
 
-std::uint64_t StateBoardReader::said_by(std::uint32_t axis) {
-    const std::uint64_t said = shared_word(part_of(axis) + kSaid).load(std::memory_order_acquire);
-    std::uint64_t& heard = heard_[axis];
-    if (said == heard) { return said; }
+std::uint64_t StateBoardReader::written_by(std::uint32_t axis) {
+    const std::uint64_t written = shared_word(part_of(axis) + kWritten).load(std::memory_order_acquire);
+    std::uint64_t& read = read_[axis];
+    if (written == read) { return written; }
     if (shared_word(part_of(axis) + kRules).load(std::memory_order_relaxed) != kRulesHere) {
         refusals_.add("axis " + std::to_string(axis) + " writes to " + path().string() +
-                      " by the rules of another version; give all processes one version");
-        heard = said;
+                      " in the format of another version; give all processes one version");
+        read = written;
     }
-    const std::uint64_t kept_from = said - std::min<std::uint64_t>(said, kStatesKept);
-    heard = std::clamp(heard, kept_from, said);  // fewer than heard: its part was begun anew
-    return said;
+    const std::uint64_t kept_from = written - std::min<std::uint64_t>(written, kStatesKept);
+    read = std::clamp(read, kept_from, written);  // fewer than before: its part was initialized again
+    return written;
 }
 
 std::optional<AxisState> StateBoardReader::state_of(std::uint32_t axis, std::uint64_t number) {
     const auto read = StateSlot::read(slot_of(part_of(axis), number));
     if (!read || read->number != number) { return std::nullopt; }  // overwritten meanwhile
     if (read->record.axis != axis || !has_booleans(read->record)) {
-        refusals_.add(path().string() + ": what stands in the part of axis " + std::to_string(axis) +
-                      " is no state of that axis");
+        refusals_.add(path().string() + ": the content of the part of axis " + std::to_string(axis) +
+                      " is not a state of that axis");
         return std::nullopt;
     }
     auto state = from_wire(read->record);

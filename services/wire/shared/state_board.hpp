@@ -1,10 +1,10 @@
-// What the axes of a machine say of themselves, in memory that its processes share, for a machine that runs on one
-// host: each axis writes in a part of its own, which it alone has mapped for writing, and all read all. Nobody waits
-// for anybody, and a process that is killed while it writes has not said it.
+// The states of a machine's axes in shared memory, for a machine on one host: each axis writes in its own part, which
+// it alone has mapped for writing, and all processes read all parts. No process waits for another, and readers ignore
+// the state of a process that is killed during a write.
 //
-// The file has a part for each axis: a word that says by what rules it is written, a word that counts the states its
-// axis has ever said, and the newest kStatesKept of them, in the type of axis.idl. It goes with the last process that
-// uses it.
+// The file has a part for each axis: a word for the format version, a word that counts all states that the axis has
+// written, and the newest kStatesKept of them, in the type of axis.idl. The last process that uses the file deletes
+// it.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@
 
 namespace lockstep {
 
-/// The file, there for as long as anybody uses it.
+/// The file, there while any process uses it.
 class StateBoardFile {
 public:
     static std::expected<StateBoardFile, std::string> open(const std::filesystem::path& path);
@@ -34,7 +34,7 @@ public:
     StateBoardFile& operator=(StateBoardFile&&) = delete;
     ~StateBoardFile();
 
-    /// False: it was removed, or another took its place.
+    /// False: it was removed or replaced.
     bool is_current() const { return is_still_named(path_, file_); }
 
     int descriptor() const { return file_; }
@@ -53,7 +53,7 @@ public:
 
     /// Never waits, allocates nothing.
     void write(const AxisState& state);
-    /// False: the file was removed, or another took its place; or its part was overwritten, and nobody believes it.
+    /// False: the file was removed or replaced; or its part was overwritten, and readers refuse it.
     bool is_current() const;
 
 private:
@@ -66,19 +66,19 @@ private:
 
 class StateBoardReader {
 public:
-    /// own: whose states are not taken. What was said before is not heard.
+    /// own: this axis's own states are not read. States written before are not read either.
     static std::expected<StateBoardReader, std::string> open(const std::filesystem::path& path,
                                                              std::optional<std::uint32_t> own);
 
-    /// Calls use(AxisState&&) for each state said since the last call, oldest first per axis. Returns how many. Of an
-    /// axis that has said more than kStatesKept the oldest are gone.
+    /// Calls use(AxisState&&) for each state written since the last call, oldest first per axis. Returns how many. If
+    /// an axis has written more than kStatesKept, the oldest are lost.
     template <typename Use>
     std::size_t take(Use use) {
         std::size_t used = 0;
         for (std::uint32_t axis = 0; axis < kMaxAxes; ++axis) {
-            const std::uint64_t said = said_by(axis);
-            for (; axis != own_ && heard_[axis] < said; ++heard_[axis]) {
-                if (auto state = state_of(axis, heard_[axis] + 1)) {
+            const std::uint64_t written = written_by(axis);
+            for (; axis != own_ && read_[axis] < written; ++read_[axis]) {
+                if (auto state = state_of(axis, read_[axis] + 1)) {
                     use(std::move(*state));
                     ++used;
                 }
@@ -94,15 +94,15 @@ public:
 private:
     StateBoardReader(StateBoardFile file, SharedMapping parts, std::optional<std::uint32_t> own);
     std::uint64_t* part_of(std::uint32_t axis) const;
-    /// How many states the axis has said in all; what cannot be had any more counts as heard from then on.
-    std::uint64_t said_by(std::uint32_t axis);
-    /// Nothing: it is gone, or not believed.
+    /// How many states the axis has written in all; states that are lost count as read from then on.
+    std::uint64_t written_by(std::uint32_t axis);
+    /// Nothing: it is lost, or refused.
     std::optional<AxisState> state_of(std::uint32_t axis, std::uint64_t number);
 
     StateBoardFile file_;
     SharedMapping parts_;
     std::optional<std::uint32_t> own_;
-    std::array<std::uint64_t, kMaxAxes> heard_{};
+    std::array<std::uint64_t, kMaxAxes> read_{};
     Refusals refusals_;
 };
 

@@ -1,8 +1,8 @@
-// Questions asked of a sample from the wire before core sees it. The first wrong answer is the refusal.
+// Checks a sample from the wire before core uses it. The first failed check is the refusal.
 //
-// They keep core's arithmetic from overflowing, whatever a sender says: magnitudes of 2^62 leave room for sums, and
+// They keep core's arithmetic from overflowing, whatever a sender writes: magnitudes of 2^62 leave room for sums, and
 // pieces of less than 2^31 ticks keep a piece's displacement within 128 bits. Whether a motion is allowed is not
-// asked here: an axis checks that itself.
+// checked here: an axis checks that itself.
 #pragma once
 
 #include <algorithm>
@@ -29,14 +29,14 @@ public:
     }
     /// An instant, a slot or a count of steps.
     void far(const char* field, std::int64_t value) { within(field, value, -kFarthest, kFarthest); }
-    /// A velocity or acceleration: any but the one that cannot be negated.
+    /// A velocity or acceleration: any value but the one that cannot be negated.
     void rate(const char* field, std::int64_t value) { within(field, value, -kFastest, kFastest); }
     void same(const char* field, std::size_t count, std::size_t expected) { within(field, count, expected, expected); }
     void finite(const char* field, double value) {
         if (!std::isfinite(value)) { refuse(field, "not finite"); }
     }
 
-    /// Core's enumerator for a value on the wire, which has core's order: 0 ... last.
+    /// Core's enumerator for a value on the wire; both have the same order: 0 ... last.
     template <typename Enum, typename WireEnum>
     Enum choice(const char* field, const WireEnum& value, Enum last) {
         static_assert(sizeof value == sizeof(std::uint32_t));

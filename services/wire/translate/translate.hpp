@@ -1,6 +1,6 @@
-// Core's messages to their types on the wire and back: one function each way and type.
+// Core's messages to their types on the wire and back: one function for each direction and type.
 //
-// To the wire nothing can fail: core keeps its bounds. From the wire nothing is believed: counts must match, numbers be
+// To the wire nothing can fail: core keeps its bounds. A sample from the wire is checked: counts must match, numbers be
 // in range, and choices exist, or the sample is refused with the field, its value and why.
 #pragma once
 
@@ -25,7 +25,7 @@ inline constexpr std::size_t kMaxChunkBytes = lockstep_wire_MAX_CHUNK_BYTES;
 /// The most chunks a program may have: 128 MB.
 inline constexpr std::uint32_t kMaxChunks = 4096;
 
-/// A setpoint and what it points to. Movable, since vectors keep their elements' place; not copyable.
+/// A setpoint and the arrays it points to. Movable, since vectors keep their elements' place; not copyable.
 struct SetpointMessage : lockstep_wire_Setpoint {
     SetpointMessage() : lockstep_wire_Setpoint{} {}
     SetpointMessage(SetpointMessage&&) = default;
@@ -38,7 +38,7 @@ struct SetpointMessage : lockstep_wire_Setpoint {
     } storage;
 };
 
-/// A machine state and what it points to; not copyable either.
+/// A machine state and the arrays it points to; not copyable either.
 struct MachineStateMessage : lockstep_wire_MachineState {
     MachineStateMessage() : lockstep_wire_MachineState{} {}
     MachineStateMessage(MachineStateMessage&&) = default;
@@ -72,7 +72,7 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire);
 FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire);
 FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
 
-/// The same into a value that was used before; it keeps its content where the sample is refused.
+/// The same into a reused value; it keeps its content if the sample is refused.
 template <typename Wire, typename T>
 requires(!std::same_as<T, Frame>) std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
     auto value = from_wire(wire);
@@ -80,7 +80,7 @@ requires(!std::same_as<T, Frame>) std::expected<void, std::string> from_wire(con
     into = std::move(*value);
     return {};
 }
-/// A frame is large: where `into` has as many axes nothing is allocated and only what is used is written.
+/// A frame is large: if `into` has as many axes nothing is allocated and only the parts in use are written.
 std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into);
 
 }  // namespace lockstep

@@ -4,7 +4,7 @@
 namespace lockstep {
 
 constexpr std::int64_t kLongestClockError = std::int64_t{1} << 62;
-constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // there are numbers behind all that are believed
+constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // leaves room for later numbers
 
 // The enumerations on the wire have core's order.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));

@@ -10,7 +10,7 @@ namespace {
 static_assert(kMaxAxes == lockstep_wire_MAX_AXES);
 static_assert(kMaxAxes * (kMaxBodyPieces + kMaxTailPieces) <= lockstep_wire_MAX_FRAME_PIECES);
 
-/// Makes a sequence of the IDL show a vector's elements.
+/// Points a sequence of the IDL at a vector's elements.
 template <typename Sequence, typename T>
 void show(Sequence& sequence, std::vector<T>& items) {
     sequence._buffer = items.data();
@@ -47,7 +47,7 @@ void append(SetpointMessage::Storage& storage, const AxisTrack& axis) {
     for (const Piece& piece : axis.tail) { append_piece(piece); }
 }
 
-/// That the counts tell the truth: after this every index below is within its sequence.
+/// The counts must match: after this every index below is within its sequence.
 void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
     const std::size_t axes = wire.from_count._length;
     check.within<std::size_t>("the number of axes", axes, 1, kMaxAxes);
@@ -76,7 +76,7 @@ void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {
     for (const auto acceleration : elements(wire.acceleration)) { check.rate("acceleration", acceleration); }
 }
 
-/// Copies `count` pieces from place `at` of the sequences on, and moves `at`. The target has room: the shape was
+/// Copies `count` pieces from index `at` of the sequences on, and advances `at`. The target has room: the shape was
 /// checked.
 template <typename Pieces>
 void read_pieces(const lockstep_wire_Setpoint& wire, std::size_t& at, std::size_t count, Pieces& pieces) {

@@ -108,7 +108,7 @@ int ping(const NetworkConfig& network, bool many_axes, std::size_t count, const 
 
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    lockstep::hear_dds([](const std::string&) {});  // standard error is the script's
+    lockstep::forward_dds_log([](const std::string&) {});  // standard error is the script's
     lockstep::NetworkConfig network;
     if (words == std::vector<std::string>{"profile"}) { return std::puts(lockstep::dds_profile(network)->c_str()) < 0; }
     if (words.size() < 2) { return 2; }

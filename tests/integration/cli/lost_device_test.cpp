@@ -84,7 +84,7 @@ TEST_F(LostDevice, RegistersThatAreCutShortCrashNobody) {
     expect_fault_of_y();
     EXPECT_EQ(process("axis-Y"), axis);
     EXPECT_EQ(process("fpga-Y"), device);
-    EXPECT_THAT(text_of_log("fpga-Y"), HasSubstr("powers up anew"));
+    EXPECT_THAT(text_of_log("fpga-Y"), HasSubstr("powers up again"));
     expect_usable();
 }
 

@@ -90,7 +90,7 @@ TEST_F(OneHost, WhoDoesNotShareItsMemoryIsWaitedForThere) {
     const Command y("/usr/bin/unshare", {"--mount", "sh", "-c", "mount -t tmpfs none /dev/shm && exec " + axis + "Y"});
     EXPECT_TRUE(eventually([&] {
         const std::string log = tail_of(folder() / "c.log", 100);
-        return log.contains("axis X is heard") && log.contains("waits for axis Y in " + board.string());
+        return log.contains("receives axis X") && log.contains("waits for axis Y in " + board.string());
     }));
 }
 

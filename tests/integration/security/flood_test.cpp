@@ -77,7 +77,7 @@ TEST_F(Flooded, TheMachineIsReadyAgainWithinTenSecondsAfterThePacketsStop) {
                   report.axes(1).health().participant_reopened(),
               0U);
     const std::string logs = text_of_log("coordinator") + text_of_log("axis-X") + text_of_log("axis-Y");
-    EXPECT_NE(logs.find("opens its DDS participant anew: "), logs.npos) << "so there was something to recover from";
+    EXPECT_NE(logs.find("opens its DDS participant again: "), logs.npos) << "so there was something to recover from";
 }
 
 /// Each on a machine of its own: packets of a participant that was opened again since do no harm any more.

@@ -93,7 +93,7 @@ int speak_another_protocol(const std::vector<std::string>& words) {
 }
 
 int intrude(const std::vector<std::string>& words) {
-    hear_dds([](const std::string& text) { std::cout << "dds: " << text << std::endl; });
+    forward_dds_log([](const std::string& text) { std::cout << "dds: " << text << std::endl; });
     const NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(words[0]))};
     Membership membership;
     if (words[2] != "-") { membership.axis = static_cast<std::uint32_t>(std::stoul(words[2])); }

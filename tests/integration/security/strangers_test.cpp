@@ -58,8 +58,8 @@ TEST_F(Strangers, WhoCannotProveToBelongIsShutOutAndSeen) {
     const auto self_signed = begin_stranger("-", keys_with_own_permissions("viewer", "client"), "viewer");
     for (const auto& each : {without.get(), forger.get(), self_signed.get()}) { expect_shut_out(each->wait().out); }
     for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
-        EXPECT_TRUE(is_logged(process, "has no certificate and is shut out")) << process;
-        EXPECT_TRUE(is_logged(process, "has not proved to belong to this machine and is shut out")) << process;
+        EXPECT_TRUE(is_logged(process, "has no certificate and is excluded")) << process;
+        EXPECT_TRUE(is_logged(process, "did not authenticate and is excluded")) << process;
     }
 }
 

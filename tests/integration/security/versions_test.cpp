@@ -27,7 +27,7 @@ TEST_F(Versions, OfTheProtocolAreNamedByEveryoneWhoMeetsAnother) {
     const Command other(LOCKSTEP_STRANGER,
                         {std::to_string(machine.network.domain), machine.name, "protocol", newer, "-"});
     for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
-        EXPECT_TRUE(is_logged(process, "speaks protocol " + newer + ", this one " + std::to_string(kProtocol)));
+        EXPECT_TRUE(is_logged(process, "uses protocol " + newer + ", this one " + std::to_string(kProtocol)));
     }
     EXPECT_EQ(status().phase(), "Idle");
 }

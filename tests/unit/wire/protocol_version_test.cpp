@@ -12,7 +12,7 @@ using testing::HasSubstr;
 TEST(ProtocolVersion, OfAnotherIsToldWithBothNumbers) {
     const auto text = other_version(calling_card(kProtocol + 1, "mill"), "mill");
     ASSERT_TRUE(text);
-    EXPECT_THAT(*text, HasSubstr("machine 'mill' speaks protocol " + std::to_string(kProtocol + 1) + ", this one " +
+    EXPECT_THAT(*text, HasSubstr("machine 'mill' uses protocol " + std::to_string(kProtocol + 1) + ", this one " +
                                  std::to_string(kProtocol)));
 }
 

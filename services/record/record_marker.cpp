@@ -1,4 +1,4 @@
-#include "services/record/record_witness.hpp"
+#include "services/record/record_marker.hpp"
 
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
@@ -13,7 +13,7 @@ bool same_motion(const RecordCounts& a, const RecordCounts& b) {
 
 }  // namespace
 
-void RecordWitness::note(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
+void RecordMarker::note(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
     if (known_.size() == kMostProcesses) { known_.clear(); }
     const auto [found, is_new] = known_.try_emplace({process, incarnation}, Known{counts, then, counts, then});
     Known& known = found->second;
@@ -25,21 +25,21 @@ void RecordWitness::note(const std::string& process, Identity incarnation, const
     mark(process, incarnation, counts, then, false);
 }
 
-void RecordWitness::note_end(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
+void RecordMarker::note_end(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
     known_.erase({process, incarnation});
     mark(process, incarnation, counts, then, true);
 }
 
-bool RecordWitness::is_due(const Known& known, Tick then) const {
+bool RecordMarker::is_due(const Known& known, Tick then) const {
     const bool has_settled = (then - known.grown).value * tick_ns_ >= kSettled_ns;
     return (then - known.marked_at).value * tick_ns_ >= kPeriod_ns ||
            (has_settled && !same_motion(known.counts, known.marked));
 }
 
-void RecordWitness::mark(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then,
-                         bool ended) {
+void RecordMarker::mark(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then,
+                        bool ended) {
     const RecordMark mark{.machine = machine_,
-                          .witness = witness_,
+                          .witness = writer_,
                           .process = process,
                           .incarnation = incarnation,
                           .counts = counts,

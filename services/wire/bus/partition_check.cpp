@@ -1,4 +1,4 @@
-#include "services/wire/bus/speakers.hpp"
+#include "services/wire/bus/partition_check.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-/// Empty: it is in none or in several, or it has left.
+/// Empty: it is in none or in several partitions, or it has left.
 std::string only_partition(const dds_builtintopic_endpoint_t* publication) {
     std::uint32_t count = 0;
     char** names = nullptr;
@@ -21,7 +21,7 @@ std::string only_partition(const dds_builtintopic_endpoint_t* publication) {
 
 }  // namespace
 
-const std::string& Speakers::partition_of_writer(dds_entity_t reader, dds_instance_handle_t writer) {
+const std::string& PartitionCheck::partition_of_writer(dds_entity_t reader, dds_instance_handle_t writer) {
     const auto known = std::ranges::find(known_, writer, &Known::writer);
     if (known != known_.end()) { return known->partition; }
     if (known_.size() == kMaxKnown) { known_.erase(known_.begin()); }
@@ -30,7 +30,7 @@ const std::string& Speakers::partition_of_writer(dds_entity_t reader, dds_instan
     return known_.emplace_back(writer, only_partition(publication.get())).partition;
 }
 
-bool Speakers::speaks_for(dds_entity_t reader, dds_instance_handle_t writer, std::uint32_t axis) {
+bool PartitionCheck::may_write_for(dds_entity_t reader, dds_instance_handle_t writer, std::uint32_t axis) {
     return partition_of_writer(reader, writer) == partition_of(machine_, axis);
 }
 

@@ -1,5 +1,5 @@
-// Who may speak for an axis: a writer in that axis's own partition, and in no other. DDS Security's permissions keep
-// everybody else out of it; without security it keeps honest mistakes apart.
+// Which writer may publish for an axis: one in that axis's own partition, and in no other. DDS Security's permissions
+// keep all others out of it; without security it separates processes only against mistakes.
 #pragma once
 
 #include <dds/dds.h>
@@ -10,12 +10,12 @@
 
 namespace lockstep {
 
-class Speakers {
+class PartitionCheck {
 public:
-    explicit Speakers(std::string machine) : machine_(std::move(machine)) {}
+    explicit PartitionCheck(std::string machine) : machine_(std::move(machine)) {}
 
-    /// writer: what a sample says of where it comes from. One that has left speaks for nobody.
-    bool speaks_for(dds_entity_t reader, dds_instance_handle_t writer, std::uint32_t axis);
+    /// writer: the sample's publication handle. A writer that has left is accepted for no axis.
+    bool may_write_for(dds_entity_t reader, dds_instance_handle_t writer, std::uint32_t axis);
 
 private:
     struct Known {
