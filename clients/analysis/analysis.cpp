@@ -21,11 +21,11 @@ std::expected<void, std::string> make_directory(const std::optional<std::filesys
     return {};
 }
 
-/// Why what there is was not understood.
+/// Why the content could not be read.
 std::string first_reason(const Analysis& analysis) {
     if (analysis.damages.empty()) { return ""; }
     const Damage& first = analysis.damages.front();
-    return ", or not so that it can be read: " + first.what + ", at byte " + std::to_string(first.first_byte);
+    return ", or not in a readable form: " + first.what + ", at byte " + std::to_string(first.first_byte);
 }
 
 std::string of_machine(const std::optional<std::string>& machine) { return machine ? " of machine " + *machine : ""; }
@@ -90,7 +90,7 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
     Analysis analysis = recorder.finish(sorter);
     analysis.step_skew = std::move(skew);
     if (analysis.axes.empty() && analysis.jobs.empty()) {
-        return std::unexpected(log.string() + ": nothing in it is recorded by Lockstep" + of_machine(options.machine) +
+        return std::unexpected(log.string() + ": it contains no record of Lockstep" + of_machine(options.machine) +
                                first_reason(analysis));
     }
     analysis.log = log;

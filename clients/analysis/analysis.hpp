@@ -1,7 +1,7 @@
-// What a log recorded by lcm-logger, or written by the simulator, holds: of each axis and of each job.
+// The content of a log of lcm-logger or of the simulator: of each axis and of each job.
 //
-// The log is read once, in bounded memory, however long it is. What is damaged or missing is named and the rest is
-// read all the same.
+// The log is read once, in bounded memory, however long it is. Damaged or missing messages are reported, and the rest
+// is read.
 #pragma once
 
 #include <algorithm>
@@ -36,20 +36,20 @@ struct JobLog {
     std::optional<std::int64_t> begun_us;
     std::optional<std::int64_t> ended_us;
     std::string name;                        // of the program; empty for homing
-    std::int64_t epochs = 0;                 // stretches from rest to rest that its axes ran together
-    std::int64_t legs = 0;                   // as many as its program has; where it is more, it was interrupted
-    std::optional<std::string> unplannable;  // why what it asked for is not known
+    std::int64_t epochs = 0;                 // motions from rest to rest that its axes ran together
+    std::int64_t legs = 0;                   // as many as its program has; more epochs than that are interruptions
+    std::optional<std::string> unplannable;  // why the commanded motion is not known
     std::int64_t move_count = 0;
     std::vector<MoveLog> moves;    // the first, as many as are kept
     std::optional<Ticks> planned;  // as programmed
-    bool overridden = false;       // it went by other feeds and rapids than programmed
+    bool overridden = false;       // it ran with other feeds and rapids than programmed
     std::int64_t asked_steps = 0;  // of all axes, whatever moves are kept
     std::int64_t made_steps = 0;
-    std::int64_t unasked_steps = 0;  // that no move asked for
+    std::int64_t unasked_steps = 0;  // that belong to no move
     std::int64_t moves_not_whole = 0;
-    std::optional<double> largest_distance_mm;  // from the line asked, where that is known
-    std::int64_t moves_without_distance = 0;    // for steps that are not in the log, or come too late in it
-    std::vector<std::string> axes_not_known;    // they lack steps, and the log does not have all that they did
+    std::optional<double> largest_distance_mm;  // from the commanded line, if known
+    std::int64_t moves_without_distance = 0;    // since steps are missing from the log, or come too late in it
+    std::vector<std::string> axes_not_known;    // the log lacks steps of these axes
     TickHistogram late;                         // of its steps
 
     bool is_on_a_line() const { return kind != "own-move"; }  // its axes move together
@@ -66,12 +66,12 @@ struct Analysis {
 
     std::filesystem::path log;
     std::string machine;
-    std::optional<MachineConfig> config;         // of the last job that tells
+    std::optional<MachineConfig> config;         // of the last job that has one
     std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
     std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
     std::uint64_t jobs_not_kept = 0;
     std::int64_t missing_job_events = 0;           // between the first and the last of each coordinator
-    RecordEnd end;                                 // what is missing behind the last messages there
+    RecordEnd end;                                 // messages missing after the last ones in the log
     std::uint64_t events = 0;                      // read, of every kind
     std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
     std::int64_t steps_of_no_job = 0;              // made before any job begins in the log
@@ -80,14 +80,14 @@ struct Analysis {
     std::vector<Event> happened;                   // in the order of time
     std::uint64_t events_not_kept = 0;
     std::vector<PairSkew> step_skew;                         // between axes that ran frames together
-    std::optional<double> largest_distance_mm;               // of any step from the line asked, all axes together
+    std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the one before
     std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
     /// The configured axis of that name, or null.
     const AxisConfig* axis_config(const std::string& name) const;
-    /// From the configuration, or else from the axis's own messages; none where neither tells.
+    /// From the configuration, or else from the axis's own messages; none if neither has it.
     std::optional<double> steps_per_mm(const AxisLog& axis) const;
     /// Axes of the configuration without any message in the log.
     std::vector<std::string> absent_axes() const;
@@ -108,13 +108,13 @@ struct Analysis {
 };
 
 struct AnalysisOptions {
-    std::optional<std::filesystem::path> csv_dir;  // made where it is missing
+    std::optional<std::filesystem::path> csv_dir;  // created if missing
     std::optional<std::filesystem::path> svg_dir;
-    std::optional<std::string> machine;    // which, where the log holds several; else the first
+    std::optional<std::string> machine;    // which, if the log holds several; else the first
     std::function<void(double)> progress;  // 0 ... 1, now and then
 };
 
-/// The error is a sentence for the user: the file is missing, a directory, empty or not a log; a file or directory
+/// The error is a sentence for the user: the file is missing, a directory, empty or not a log; or a file or directory
 /// cannot be written.
 std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& log, const AnalysisOptions& options = {});
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "clients/analysis/verdict.hpp"
+#include "clients/analysis/findings.hpp"
 #include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
 
@@ -24,7 +24,7 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
 
-/// The log lacks all that they did, or some of it.
+/// Axes of which the log lacks steps.
 std::vector<std::string> axes_not_known(const Analysis& analysis) {
     std::vector<std::string> names = analysis.absent_axes();
     for (const JobLog& job : analysis.jobs) {
@@ -54,7 +54,7 @@ double seconds(const Analysis& analysis) {
     return first ? analysis.seconds(*analysis.last_tick() - *first) : 0;
 }
 
-/// A position, speed or acceleration in mm, or in steps where mm are not known.
+/// A position, speed or acceleration in mm, or in steps if mm are not known.
 struct Lengths {
     double per_step = 1;
     double ticks_per_s = 1;
@@ -112,7 +112,7 @@ std::string skew_table(const Analysis& analysis) {
     return text;
 }
 
-std::string verdict_text(const Analysis& analysis) {
+std::string findings_text(const Analysis& analysis) {
     std::string text;
     for (const Finding& finding : findings(analysis)) {
         text += fmt::format("{:<9} {}\n", name_of(finding.grade), finding.text);
@@ -144,10 +144,10 @@ std::string break_sentence(const std::string& axis, const Break& what) {
     const std::string moved = plural(std::abs(what.position_change), "step");
     const std::string batches = plural(what.missing_batches, "message");
     switch (what.kind) {
-        case Break::Kind::Restart: return axis + ": its process started anew between " + between + "\n";
+        case Break::Kind::Restart: return axis + ": its process restarted between " + between + "\n";
         case Break::Kind::Jump:
             if (what.missing_batches == 0) {
-                return axis + ": its position was set anew, by " + moved + ", between " + between + "\n";
+                return axis + ": its position was set again, by " + moved + ", between " + between + "\n";
             }
             break;
         case Break::Kind::Missing: break;
@@ -188,7 +188,7 @@ std::string axis_notes(const AxisLog& axis) {
 std::string log_notes(const Analysis& analysis) {
     std::string text;
     for (const auto& [channel, events] : analysis.foreign) {
-        text += "not looked at: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
+        text += "ignored: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
     }
     return text;
 }
@@ -206,7 +206,7 @@ std::vector<std::string> notes(const Analysis& analysis) {
     for (const auto& axis : analysis.axes) {
         const Ticks error = axis->statistics().clock_error();
         if (error == Ticks{}) { continue; }
-        text += fmt::format("{}: its clock is its own; in machine time its steps are known within {:.0f} us\n",
+        text += fmt::format("{}: it has its own clock; its steps are known in machine time within {:.0f} us\n",
                             axis->name(), analysis.microseconds(error));
     }
     for (const auto& axis : analysis.axes) { text += axis_notes(*axis); }
@@ -223,7 +223,7 @@ std::vector<std::string> notes(const Analysis& analysis) {
 std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
-    text += verdict_text(analysis) + "\n";
+    text += findings_text(analysis) + "\n";
     text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
     auto lines = notes(analysis);
     for (std::string& line : open_sentences(analysis.end)) { lines.push_back(std::move(line)); }

@@ -8,9 +8,9 @@
 
 namespace lockstep::analysis {
 
-/// The remedy where a log lacks messages: its writer may have missed them, while their sender has them.
+/// The remedy if a log lacks messages: its writer may have missed them, while their sender has them.
 inline constexpr const char* kWhereTheRestIs =
-    "what was not heard is in the processes' own logs: lockstep log merge puts them together";
+    "missing messages are in the processes' own logs: lockstep log merge combines them";
 
 /// "3 axes · 128 450 steps · 12.4 s · nothing missing"
 std::string in_a_line(const Analysis& analysis);

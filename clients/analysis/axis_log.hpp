@@ -1,4 +1,4 @@
-// Everything a log says of one axis.
+// The content of a log for one axis.
 #pragma once
 
 #include <cstdint>
@@ -50,37 +50,37 @@ public:
     AxisLog(const AxisLog&) = delete;
     AxisLog& operator=(const AxisLog&) = delete;
 
-    /// From here on every step and position goes to `steps_<axis>.csv` and `positions_<axis>.csv` too.
+    /// From now on every step and position is also written to `steps_<axis>.csv` and `positions_<axis>.csv`.
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
-    /// The steps to come are told to this object too, which must outlive the log's end.
-    void tell(MeasuredListener& listener, std::size_t lane) { statistics_.tell(listener, lane); }
+    /// Later steps also go to this object, which must outlive the log's end.
+    void set_listener(MeasuredListener& listener, std::size_t lane) { statistics_.set_listener(listener, lane); }
     void take(StepBatch batch);
     void take(const PositionSample& sample);
     void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     MessageNumbers& position_numbers() { return position_numbers_; }
     MessageNumbers& figure_numbers() { return figure_numbers_; }
-    /// Call once, at the end. The error is that of a file that was not written whole.
+    /// Call once, at the end. The error is that of a file that was not written completely.
     std::expected<void, std::string> finish();
 
     const std::string& name() const { return name_; }
     const StreamCounts& counts() const { return stream_.counts(); }
     const AxisStatistics& statistics() const { return statistics_; }
-    /// How far its steps were from the ticks commanded, and over time, signed: ticks.
+    /// How far its steps were from the commanded ticks, and over time, signed: ticks.
     const TickHistogram& late() const { return late_.amounts; }
     std::vector<Sample> late_course() const { return late_.course.samples(); }
-    /// The least time before its start at which a frame came, over time: ms.
+    /// The minimum time between a frame's arrival and its start, over time: ms.
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
     /// Messages between the first and the last in the log.
     std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
     std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
-    /// As the axis's own messages have it; none where they do not tell.
+    /// From the axis's own messages; none if they do not contain it.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
-    /// How far the last position message is from the last step recorded before it, or a message between them where the
-    /// axis came back: what the log ends too early for, or what its end has lost. 0 where they agree.
+    /// The distance of the last position message from the last step recorded before it, or of a message between them
+    /// after a return of the axis: the log ends too early for these steps, or its end is lost. 0 if they agree.
     std::int64_t unrecorded_steps() const;
 
 private:
@@ -103,7 +103,7 @@ private:
     StepStream stream_{{&statistics_, &trace_}};
 };
 
-/// At least so many of an axis's steps were made and are not in the log.
+/// The minimum number of an axis's steps that were made and are not in the log.
 std::int64_t missing_steps_of(const AxisLog& axis);
 
 }  // namespace lockstep::analysis

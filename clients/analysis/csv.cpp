@@ -65,7 +65,7 @@ std::expected<void, std::string> CsvFile::close() {
     flush();
     errno = 0;
     out_.close();
-    if (!out_) { return std::unexpected(path_.string() + ": not written whole: " + std::strerror(errno)); }
+    if (!out_) { return std::unexpected(path_.string() + ": not written completely: " + std::strerror(errno)); }
     return {};
 }
 

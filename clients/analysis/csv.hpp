@@ -1,4 +1,4 @@
-// Lines of whole numbers and decimals to a file, fast.
+// Writes lines of whole numbers and decimals to a file, fast.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace lockstep::analysis {
 
-/// As a cell: in quotes where it has a comma, a quote or a line's end in it (RFC 4180).
+/// As a cell: in quotes if it contains a comma, a quote or a line end (RFC 4180).
 std::string csv_text(std::string_view text);
 
 /// A CSV file. Numbers are written exactly, decimals in their shortest form that reads back the same.
 class CsvFile {
 public:
-    /// Makes the file anew with its header line. The error names the file and the reason.
+    /// Creates or replaces the file with its header line. The error names the file and the reason.
     static std::expected<CsvFile, std::string> create(const std::filesystem::path& path, std::string_view header);
 
     CsvFile& cell(std::int64_t value);
@@ -26,7 +26,7 @@ public:
     CsvFile& cell(std::string_view text);
     CsvFile& empty_cell();
     void end_line();
-    /// Writes what is left. The error names the file and the reason.
+    /// Writes what is buffered. The error names the file and the reason.
     std::expected<void, std::string> close();
 
 private:

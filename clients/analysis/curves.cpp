@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// An axis's curve without its points yet, and how its ticks and steps become seconds and lengths.
+/// An axis's curve without its points, and the factors from its ticks and steps to seconds and lengths.
 struct Scaled {
     drawing::AxisCurve curve;
     double length_per_step = 1;

@@ -1,5 +1,5 @@
-// What each axis did over time, as curves to draw. Seconds after the log's first step; mm, or steps where steps per mm
-// are not known. Where steps are missing a curve is broken.
+// The motion of each axis over time, as curves. Seconds after the log's first step; mm, or steps if steps per mm
+// are not known. A curve is broken where steps are missing.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace lockstep::analysis {
 
-/// Speeds and positions go from the first step of any axis to the last: an axis rests before its own first and after
-/// its last.
+/// Speeds and positions range from the first step of any axis to the last: an axis rests before its own first step and
+/// after its last.
 std::vector<drawing::AxisCurve> speed_curves(const Analysis& analysis);  // per s
 std::vector<drawing::AxisCurve> position_curves(const Analysis& analysis);
 std::vector<drawing::AxisCurve> acceleration_curves(const Analysis& analysis);  // per s^2
-/// How late the steps were against the ticks commanded, in microseconds.
+/// How late the steps were against the commanded ticks, in microseconds.
 std::vector<drawing::AxisCurve> lateness_curves(const Analysis& analysis);
-/// How long before its start the latest frame of each second came, in milliseconds.
+/// The time between the arrival of the latest frame of each second and its start, in milliseconds.
 std::vector<drawing::AxisCurve> slack_curves(const Analysis& analysis);
 
 }  // namespace lockstep::analysis

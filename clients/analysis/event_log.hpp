@@ -1,4 +1,4 @@
-// What interrupted motion, and where the axes were then: faults, stops, tails run, restarts.
+// Events that interrupted motion, with the positions of the axes: faults, stops, tails, restarts.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct Event {
     bool is_fault = false;
     std::optional<std::uint64_t> job;              // in motion then
     std::optional<std::int32_t> line;              // of its program
-    std::map<std::string, std::int64_t> at_steps;  // of each axis, as last heard
+    std::map<std::string, std::int64_t> at_steps;  // of each axis, as last received
 };
 
 class EventLog {
@@ -39,7 +39,7 @@ public:
 
 private:
     std::map<std::string, std::int64_t> at_steps_;
-    std::map<std::string, std::int32_t> faults_;  // of each axis, as last heard
+    std::map<std::string, std::int32_t> faults_;  // of each axis, as last received
     std::optional<std::pair<Epoch, FrameNumber>> latest_tail_;
     std::vector<Event> events_;
     std::uint64_t not_kept_ = 0;

@@ -27,7 +27,8 @@ drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlaneP
     if (!plane) { return position_figure(analysis); }
     std::string subtitle = in_a_line(analysis);
     if (analysis.largest_distance_mm) {
-        subtitle = fmt::format("stepped is at most {:.4f} mm from asked · ", *analysis.largest_distance_mm) + subtitle;
+        subtitle =
+            fmt::format("stepped is at most {:.4f} mm from commanded · ", *analysis.largest_distance_mm) + subtitle;
     }
     return drawing::path_figure(title(analysis, "path in the X\u2013Y plane"), subtitle, {}, plane->asked,
                                 plane->stepped);

@@ -1,4 +1,4 @@
-// What an analysis looks like: `speed.svg`, `position.svg` and `xy.svg`.
+// The figures of an analysis: `speed.svg`, `position.svg` and `xy.svg`.
 #pragma once
 
 #include <expected>

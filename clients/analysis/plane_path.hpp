@@ -1,4 +1,4 @@
-// The path in the X-Y plane, as the jobs' programs asked for it and as the axes stepped it.
+// The path in the X-Y plane, as the jobs' programs commanded it and as the axes stepped it.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace lockstep::analysis {
 
-/// In mm. Stepped is what was stepped during the jobs that have a program, or ever, where no job has one; parted where
+/// In mm. Stepped contains the steps of the jobs that have a program, or all steps if no job has one; broken where
 /// steps are missing.
 struct PlanePaths {
     drawing::PlanePath asked;

@@ -1,4 +1,4 @@
-// Whether the record in a log is complete, in words: what is missing, and what nobody can know.
+// Whether the record in a log is complete, as text: what is missing, and what is unknown.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace lockstep::analysis {
 
 struct RecordState {
     std::vector<std::string> missing;
-    std::vector<std::string> not_known;  // up to when the record is known to be whole; empty: to its end
+    std::vector<std::string> not_known;  // up to when the record is known to be complete; empty: to its end
 
     bool is_complete() const { return missing.empty(); }
 };

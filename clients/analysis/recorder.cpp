@@ -13,7 +13,7 @@
 namespace lockstep::analysis {
 namespace {
 
-/// An axis tells where it is in every slot: one that is silent for so long has ended, or is not in the log.
+/// An axis reports its position in every slot: one that is silent for so long has ended, or is not in the log.
 constexpr std::int64_t kSilence_us = 500'000;
 
 }  // namespace
@@ -71,14 +71,14 @@ void Recorder::on_job(const job_t& message, LogPlace place) {
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
 
-/// Null: it is one more than are kept.
+/// Null: more jobs than are kept.
 JobLog* Recorder::job(const job_t& message) {
     const auto number = static_cast<std::uint64_t>(message.job);
     const auto known = std::ranges::find_if(analysis_.jobs.rbegin(), analysis_.jobs.rend(), [&](const JobLog& job) {
         return job.coordinator == message.coordinator && job.job == number;
     });
     if (known != analysis_.jobs.rend()) { return &*known; }
-    if (message.event != "begun") {  // after a takeover another goes on with the job
+    if (message.event != "begun") {  // after a takeover another coordinator continues the job
         const auto open = std::ranges::find_if(analysis_.jobs.rbegin(), analysis_.jobs.rend(), [&](const JobLog& job) {
             return job.job == number && job.begun_us && !job.ended_us;
         });
@@ -93,7 +93,7 @@ JobLog* Recorder::job(const job_t& message) {
 }
 
 void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
-    if (record.begun_us) { return; }  // it came twice
+    if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
     const auto program = read_documents(message, place);
     if (!has_whole_program(message)) { record.unplannable = program_of(message).error(); }
@@ -136,7 +136,7 @@ void Recorder::keep_asked_way(const Program& program) {
     }
 }
 
-/// The program; none where there is none, or it cannot be read.
+/// The program; none if there is none, or it cannot be read.
 std::optional<Program> Recorder::read_documents(const job_t& message, LogPlace place) {
     auto config = parse_machine(message.config);
     if (config) {
@@ -151,7 +151,7 @@ std::optional<Program> Recorder::read_documents(const job_t& message, LogPlace p
     return std::nullopt;
 }
 
-/// Of which axes the log does not have all that they did in the job.
+/// Notes the axes of whose motion in the job the log lacks steps.
 void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const {
     const Tick begun = analysis_.tick_at(*job.begun_us + kSilence_us);
     for (std::size_t axis = 0; axis < moves.asked().axes(); ++axis) {

@@ -1,4 +1,4 @@
-// Finds what happened to a machine as a whole: its jobs and their moves, its axes beside each other, what went wrong.
+// Collects what concerns a machine as a whole: its jobs and their moves, relations between axes, and errors.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ public:
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
-    /// Call once, at the end of the log. Gives everything away, with what the sorter has of each axis.
+    /// Call once, at the end of the log. Moves all results out, with the sorter's results for each axis.
     Analysis finish(Sorter& sorter);
 
 private:

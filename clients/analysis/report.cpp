@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "clients/analysis/analysis_text.hpp"
-#include "clients/analysis/verdict.hpp"
+#include "clients/analysis/findings.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -131,7 +131,7 @@ void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report)
 
 void fill_findings(const Analysis& analysis, proto::AnalysisReport& report) {
     const auto found = findings(analysis);
-    report.set_verdict(std::string(name_of(verdict(found))));
+    report.set_verdict(std::string(name_of(worst_grade(found))));
     for (const Finding& finding : found) {
         proto::Finding& out = *report.add_findings();
         out.set_grade(std::string(name_of(finding.grade)));

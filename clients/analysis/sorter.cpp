@@ -20,7 +20,7 @@ void Sorter::on_position(const axis_position_t& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
     if (!is_countable(message.tick) || !is_countable(message.position_steps) || !is_message_number(message.sequence)) {
-        return on_damage(place, "a position with numbers that no machine counts to");
+        return on_damage(place, "a position with impossible numbers");
     }
     end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->position_numbers().add(message.incarnation, message.sequence);
@@ -33,7 +33,7 @@ void Sorter::on_health(const axis_health_t& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
     if (!is_countable(message.tick) || !is_message_number(message.sequence)) {
-        return on_damage(place, "figures with numbers that no machine counts to");
+        return on_damage(place, "figures with impossible numbers");
     }
     end_.saw(RecordKind::Health, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->figure_numbers().add(message.incarnation, message.sequence);
@@ -53,7 +53,7 @@ void Sorter::on_run(const run_t& message, LogPlace place) {
 void Sorter::on_job(const job_t& message, LogPlace place) {
     if (!is_ours(message.machine)) { return; }
     if (!is_countable(message.utime) || !is_countable(message.start_tick) || !is_message_number(message.sequence)) {
-        return on_damage(place, "a job with numbers that no machine counts to");
+        return on_damage(place, "a job with impossible numbers");
     }
     job_numbers_.add(message.coordinator, message.sequence);
     end_.saw(RecordKind::Job, message.machine, "", message.coordinator, message.sequence);
@@ -73,7 +73,7 @@ void Sorter::on_foreign(std::string_view channel) { ++foreign_[std::string(chann
 
 void Sorter::on_damage(LogPlace place, std::string what) { listener_.on_damage(place, what); }
 
-/// Whether the message is of the machine analysed; the first message says which that is where nobody asked for one.
+/// Whether the message is of the analysed machine; if none was chosen, the first message selects it.
 bool Sorter::is_ours(const std::string& machine) {
     if (!machine_) { machine_ = machine; }
     if (machine == *machine_) { return true; }
@@ -81,10 +81,10 @@ bool Sorter::is_ours(const std::string& machine) {
     return false;
 }
 
-/// Null: it is none of ours, or none that can be.
+/// Null: it is of another machine, or impossible.
 Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, LogPlace place) {
     if (!is_axis_name(axis)) {
-        on_damage(place, "an axis's name is none");
+        on_damage(place, "an axis's name is not valid");
         return nullptr;
     }
     if (!is_ours(machine)) { return nullptr; }
@@ -95,7 +95,7 @@ Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, 
         return nullptr;
     }
     Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis)};
-    lane.log->tell(listener_, lane.number);
+    lane.log->set_listener(listener_, lane.number);
     if (options_.csv_dir) { note_error(lane.log->write_csv(*options_.csv_dir)); }
     listener_.on_axis(axis);
     return &(lanes_[axis] = std::move(lane));

@@ -1,5 +1,5 @@
-// Sorts a log's messages: which are of the machine analysed, and of which of its axes. Each axis's own figures are made
-// here; what concerns several of them, or jobs, is told on.
+// Sorts a log's messages by machine and axis. Measures each axis's own figures, and passes on what concerns several
+// axes, or jobs.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +34,10 @@ public:
     void on_foreign(std::string_view channel) override;
     void on_damage(LogPlace place, std::string what) override;
 
-    /// Tells what still waits. Call once, at the end of the log. The error is that of the first file that could not be
-    /// written.
+    /// Delivers the waiting steps. Call once, at the end of the log. The error is that of the first file that could not
+    /// be written.
     std::expected<void, std::string> finish();
-    /// Gives the axes away, by name, and what was counted.
+    /// Moves the axes out, by name, with the counts.
     void give(Analysis& analysis);
 
 private:
@@ -52,7 +52,7 @@ private:
 
     const AnalysisOptions& options_;
     SortedListener& listener_;
-    std::optional<std::string> machine_;  // the one analysed: as asked, or the first heard
+    std::optional<std::string> machine_;  // the analysed one: as chosen, or the first received
     std::map<std::string, Lane> lanes_;
     std::map<std::string, std::uint64_t> foreign_;
     std::uint64_t runs_ = 0;

@@ -34,8 +34,8 @@ void StageThread::on_late(const std::string& axis, const SharedLate& steps) {
     add([axis, steps](SortedListener& to) { to.on_late(axis, steps); });
 }
 
-void StageThread::add(Tell tell) {
-    batch_.push_back(std::move(tell));
+void StageThread::add(Call call) {
+    batch_.push_back(std::move(call));
     if (batch_.size() == kTogether) { hand_over(); }
 }
 
@@ -69,7 +69,7 @@ StageThread::Batch StageThread::next() {
 
 void StageThread::run(SortedListener& listener) {
     for (Batch batch = next(); !batch.empty(); batch = next()) {
-        for (Tell& tell : batch) { tell(listener); }
+        for (Call& call : batch) { call(listener); }
     }
 }
 

@@ -1,5 +1,5 @@
-// Tells a listener all that is told to this object, in the same order, on a thread of its own: who tells does not wait
-// for what is made of it. One of these between two stages lets both work at once.
+// Passes all calls of a listener on to another, in the same order, on its own thread: the caller does not wait for
+// the work. One of these between two stages makes both work in parallel.
 #pragma once
 
 #include <condition_variable>
@@ -16,7 +16,7 @@ namespace lockstep::analysis {
 
 class StageThread final : public SortedListener {
 public:
-    /// So many messages are handed over at once, and so many times that may wait: this bounds the memory.
+    /// So many calls are handed over at once, and the queue holds so many batches: this bounds the memory.
     static constexpr std::size_t kTogether = 16;
     static constexpr std::size_t kMaxWaiting = 4;
 
@@ -34,14 +34,14 @@ public:
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
-    /// Waits until everything was told.
+    /// Waits until all calls were passed on.
     void finish();
 
 private:
-    using Tell = std::move_only_function<void(SortedListener&)>;
-    using Batch = std::vector<Tell>;
+    using Call = std::move_only_function<void(SortedListener&)>;
+    using Batch = std::vector<Call>;
 
-    void add(Tell tell);
+    void add(Call call);
     void hand_over();
     Batch next();  // empty: no more will come
     void run(SortedListener& listener);

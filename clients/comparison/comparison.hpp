@@ -1,6 +1,6 @@
-// One move through the published methods of step generation, and what came of it against the continuous ideal.
+// One move by the published methods of step generation, and its errors against the continuous ideal.
 //
-// Errors are step times minus the ideal's, in us, each in the method's own convention of where a step falls. Peaks are
+// Errors are step times minus the ideal's, in us, each in the method's own convention for a step's place. Peaks are
 // measured from the steps as `lockstep analyze` measures them (clients/analysis/measure/speed_meter.hpp), in whole us.
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace lockstep::comparison {
 
-/// What a method made of the move.
+/// The result of a method for the move.
 struct Outcome {
     methods::StepTrain train;
     std::vector<double> errors_us;  // of each step
     double duration_s = 0;          // until the last step
     double ratio = 0;               // to the ideal's last step
-    double largest_error_us = 0;    // signed: below 0, before its time
+    double largest_error_us = 0;    // signed: below 0, early
     double rms_error_us = 0;
     double peak_speed = 0;                    // steps/s
-    std::optional<double> peak_acceleration;  // steps/s^2, either way; nothing where the move is too short to tell
+    std::optional<double> peak_acceleration;  // steps/s^2, either way; nothing if the move is too short
 
     /// Speed over time, for a picture.
     std::vector<double> speed_time_s;
@@ -33,7 +33,7 @@ struct Outcome {
 
 struct Row {
     methods::Method method;
-    std::expected<Outcome, std::string> outcome;  // or why the method cannot make even a near move
+    std::expected<Outcome, std::string> outcome;  // or why the method cannot make even a similar move
 };
 
 struct Comparison {

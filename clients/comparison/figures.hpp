@@ -1,4 +1,4 @@
-// What a comparison looks like.
+// The figures of a comparison.
 #pragma once
 
 #include "clients/comparison/comparison.hpp"
@@ -9,7 +9,7 @@ namespace lockstep::comparison {
 /// Speed over time of all methods and of the ideal, then the error of each method's step times.
 drawing::Figure comparison_figure(const Comparison& comparison);
 
-/// The six lines without and with the DDA (lines.hpp), few pulses to a unit so that they can be seen.
+/// The six lines without and with the DDA (lines.hpp), with few pulses to a unit so that they are visible.
 drawing::Figure lines_figure();
 
 }  // namespace lockstep::comparison

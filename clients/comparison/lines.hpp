@@ -14,7 +14,7 @@ namespace lockstep::comparison {
 inline constexpr std::int64_t kLines = 6;
 inline constexpr std::int64_t kPulsesPerUnit = 100;
 
-/// One line: the farthest it is left by, and the fastest that pulses of one axis follow each other.
+/// One line: the maximum distance from it, and the maximum pulse rate of one axis.
 struct LineDeviation {
     std::int64_t from_x = 0;  // units
     double with_dda = 0;      // pulses, at a right angle

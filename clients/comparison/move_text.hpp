@@ -1,4 +1,4 @@
-// A planned move as it is written on a command line.
+// A planned move in the notation of the command line.
 #pragma once
 
 #include <expected>

@@ -1,4 +1,4 @@
-// A comparison as `lockstep compare --json` says it.
+// A comparison as the JSON report of `lockstep compare`.
 #pragma once
 
 #include "clients/comparison/comparison.hpp"

@@ -1,4 +1,4 @@
-// What the doctor says of one thing.
+// One result of the doctor.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 
 namespace lockstep::doctor {
 
-enum class Verdict { Good, Doubtful, Bad };
+enum class Rating { Good, Doubtful, Bad };
 
 struct Finding {
-    Verdict verdict = Verdict::Good;
-    std::string what;    // was looked at, in a word or two
-    std::string found;   // and what it costs where it is not good
-    std::string remedy;  // the command or the key that mends it; empty: nothing needs to be done
-    std::string host;    // of which this is said; empty: not known
+    Rating rating = Rating::Good;
+    std::string what;    // the checked property, in a word or two
+    std::string found;   // its state, and the consequence if it is not good
+    std::string remedy;  // the command or the key that corrects it; empty: nothing needs to be done
+    std::string host;    // the host concerned; empty: not known
 };
 
 using Findings = std::vector<Finding>;

@@ -30,7 +30,7 @@ using std::chrono::nanoseconds;
 
 std::string cause() { return std::strerror(errno); }
 
-/// In a thread of its own: what is granted ends with it.
+/// In its own thread: the granted scheduling ends with it.
 std::string try_scheduler() {
     std::string why;
     std::jthread([&] {
@@ -81,21 +81,21 @@ std::int64_t receive_buffer_given(std::int64_t asked) {
 
 std::int64_t send_buffer_given(std::int64_t asked) { return buffer_given(SO_SNDBUF, asked); }
 
-std::optional<bool> hears_itself(const std::string& lcm_url) {
+std::optional<bool> receives_own_message(const std::string& lcm_url) {
     lcm::LCM lcm(lcm_url);
     if (!lcm.good()) { return std::nullopt; }
     const std::string channel = "LOCKSTEP_DOCTOR_" + std::to_string(getpid());
-    bool heard = false;
+    bool received = false;
     lcm.subscribeFunction(
-        channel, +[](const lcm::ReceiveBuffer*, const std::string&, bool* done) { *done = true; }, &heard);
+        channel, +[](const lcm::ReceiveBuffer*, const std::string&, bool* done) { *done = true; }, &received);
     constexpr int kTries = 5;
     constexpr int kPatience_ms = 200;
-    for (int tries = 0; tries < kTries && !heard; ++tries) {
+    for (int tries = 0; tries < kTries && !received; ++tries) {
         const char nothing = 0;
         (void)lcm.publish(channel, &nothing, 1);
         (void)lcm.handleTimeout(kPatience_ms);
     }
-    return heard;
+    return received;
 }
 
 RealTimeFacts look_at_real_time() { return {.scheduler = try_scheduler(), .memory = try_memory()}; }

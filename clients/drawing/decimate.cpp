@@ -7,7 +7,7 @@
 namespace lockstep::drawing {
 namespace {
 
-/// Places of a column's four points in the curve.
+/// Indices of a column's four points in the curve.
 struct Column {
     std::size_t first = 0;
     std::size_t lowest = 0;
@@ -22,7 +22,7 @@ void keep(const Column& column, const std::vector<Point>& from, std::vector<Poin
     for (auto place = places.begin(); place != end; ++place) { to.push_back(from[*place]); }
 }
 
-/// Above 0 where b is to the left of a: turned from it by less than half a circle.
+/// Above 0 if b is to the left of a: turned from it by less than half a circle.
 double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
 /// The directions in which a line from `anchor` may leave and still pass every point since within the tolerance:
@@ -31,7 +31,7 @@ class Sleeve {
 public:
     Sleeve(Point anchor, double tolerance) : anchor_(anchor), tolerance_(tolerance) {}
 
-    /// False where `point` is out of the sleeve, or nearer to the anchor than the path has been: it turned back.
+    /// False if `point` is out of the sleeve, or nearer to the anchor than the path has been: it reversed.
     bool takes(Point point) {
         const Point to{point.x - anchor_.x, point.y - anchor_.y};
         const double square = to.x * to.x + to.y * to.y;
@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    /// The point's own sleeve lies between the tangents from the anchor to the circle around it. `tangent`: how long.
+    /// The point's own sleeve lies between the tangents from the anchor to its circle. `tangent`: their length.
     bool narrow(Point to, double tangent) {
         const Point right{to.x * tangent + to.y * tolerance_, to.y * tangent - to.x * tolerance_};
         const Point left{to.x * tangent - to.y * tolerance_, to.y * tangent + to.x * tolerance_};

@@ -1,4 +1,4 @@
-// Fewer points, the same picture.
+// Reduces the number of points without changing the picture.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 namespace lockstep::drawing {
 
 /// For a curve whose x never falls: of each pixel column the first, lowest, highest and last point, in their order.
-/// What a line through them paints is what a line through all paints. Source: Jugel et al., M4, VLDB 2014.
+/// A line through them paints the same pixels as a line through all. Source: Jugel et al., M4, VLDB 2014.
 std::vector<Point> decimate_columns(const std::vector<Point>& points);
 
 /// For any path: leaves out points while a straight line from the last one kept passes each within `tolerance`
-/// pixels. A turn back on the same line is kept. One pass. Source: Zhao and Saalfeld, sleeve fitting, 1997.
+/// pixels. A reversal on the same line is kept. One pass. Source: Zhao and Saalfeld, sleeve fitting, 1997.
 std::vector<Point> decimate_path(const std::vector<Point>& points, double tolerance);
 
 }  // namespace lockstep::drawing

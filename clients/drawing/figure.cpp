@@ -83,7 +83,7 @@ void draw_levels(Svg& svg, const Chart& chart, const Panel& panel) {
     }
 }
 
-/// What the dashed lines are, above the chart's right end, where no curve runs through the words.
+/// The labels of the dashed lines, above the chart's right end, where no curve crosses the text.
 void draw_level_labels(Svg& svg, const Chart& chart, const Panel& panel) {
     std::string words;
     for (const Level& level : chart.levels) {
@@ -99,7 +99,7 @@ void draw_level_labels(Svg& svg, const Chart& chart, const Panel& panel) {
     svg.text({panel.box.right(), y}, words, style);
 }
 
-/// The word stands at the dot's right, or at its left where it would run out of the chart.
+/// The text is at the dot's right, or at its left if it would exceed the chart.
 void draw_marks(Svg& svg, const Chart& chart, const Panel& panel) {
     for (const Mark& mark : chart.marks) {
         const Point at = panel.at(mark.x, mark.y);

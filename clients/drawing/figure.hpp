@@ -1,6 +1,6 @@
-// Charts that people look at: rows of line charts over one shared x axis, as one self-contained SVG.
+// Charts for people: rows of line charts over one shared x axis, as one self-contained SVG.
 //
-// Data are plain arrays in the units their labels name. A figure stays small whatever it is given: a curve over a
+// Data are plain arrays in the units of their labels. A figure stays small for any input: a curve over a
 // rising x keeps its first, lowest, highest and last value in every pixel column, so that no peak is lost; any other
 // path is thinned to within a fifth of a pixel.
 #pragma once
@@ -19,7 +19,7 @@ struct Stroke {
     bool dashed = false;
 };
 
-/// One curve. x and y are of one length. A value that is not finite breaks the curve there.
+/// One curve. x and y have the same length. A value that is not finite breaks the curve.
 struct Series {
     std::string label;  // in the legend, once per label and figure; empty: not in the legend
     std::vector<double> x;
@@ -27,20 +27,20 @@ struct Series {
     Stroke stroke;
 };
 
-/// A named level across a chart, such as a limit. It is drawn where it is within the chart's range, and does not
+/// A named level across a chart, such as a limit. It is drawn if it is within the chart's range, and does not
 /// widen it.
 struct Level {
     double y = 0;
     std::string label;
 };
 
-/// A shaded stretch of x, such as one whose data are missing.
+/// A shaded range of x, such as one with missing data.
 struct Span {
     double from = 0;
     double to = 0;
 };
 
-/// A dot with a word beside it.
+/// A dot with a text beside it.
 struct Mark {
     double x = 0;
     double y = 0;
@@ -57,7 +57,7 @@ struct Chart {
     std::vector<Mark> marks;
 };
 
-/// `equal_aspect`: a millimetre is as long upwards as sideways.
+/// `equal_aspect`: a millimetre has the same length in both directions.
 struct Figure {
     std::string title;
     std::string subtitle;    // the figures that matter, in a line
@@ -67,7 +67,7 @@ struct Figure {
     bool equal_aspect = false;
 };
 
-/// The figure as an SVG document. Without any finite value the axes stand empty from 0 to 1.
+/// The figure as an SVG document. Without any finite value the axes range from 0 to 1.
 std::string to_svg(const Figure& figure);
 
 }  // namespace lockstep::drawing

@@ -100,7 +100,7 @@ double widest(const std::vector<AxisTick>& ticks) {
 
 int wanted_ticks(double pixels, double apart) { return std::max(2, static_cast<int>(pixels / apart)); }
 
-/// Both ranges widened around their middles so that a unit is as long upwards as sideways in the box; the box is
+/// Both ranges widened around their middles so that a unit has the same length in both directions; the box is
 /// made as small as the data allow.
 void equalise(Panel& panel) {
     const double room = panel.box.width;
@@ -142,7 +142,7 @@ double stack(std::vector<Panel>& panels, double top, bool equal_aspect) {
     return top - kRowGap;
 }
 
-/// As wide as its widest part asks for.
+/// As wide as its widest part requires.
 double width_of(const Figure& figure, const std::vector<Panel>& panels) {
     double width = std::max(text_width(figure.title, kTitleText), text_width(figure.subtitle, kSubtitleText)) + kMargin;
     for (const Panel& panel : panels) { width = std::max(width, kAxisRoom + panel.box.width); }

@@ -1,4 +1,4 @@
-// Where everything of a figure stands, in pixels, and which part of the data each chart shows.
+// The layout of a figure in pixels, and the range of data in each chart.
 #pragma once
 
 #include <string>

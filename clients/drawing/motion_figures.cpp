@@ -23,7 +23,7 @@ Chart row(const AxisCurve& curve, std::size_t place, std::string label) {
     return chart;
 }
 
-/// The number as a person writes it: "150", "12.5".
+/// The number in short form: "150", "12.5".
 std::string short_number(double value) {
     std::string text = std::to_string(value);
     text.erase(text.find_last_not_of('0') + 1);

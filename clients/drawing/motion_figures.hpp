@@ -1,4 +1,4 @@
-// The figures of a motion, planned or made: speed and position of each axis over time, and the path in a plane.
+// The figures of a planned or recorded motion: speed and position of each axis over time, and the path in a plane.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lockstep::drawing {
 
-/// One quantity of one axis over time. time_s and value are of one length; a value that is not finite breaks the curve.
+/// One quantity of one axis over time. time_s and value have the same length; a value that is not finite breaks the
 struct AxisCurve {
     std::string axis;
     std::vector<double> time_s;
@@ -24,20 +24,20 @@ Figure speed_figure(std::string title, std::string subtitle, const std::vector<A
 /// A row for each axis: its position.
 Figure position_figure(std::string title, std::string subtitle, const std::vector<AxisCurve>& axes);
 
-/// A way through a plane, point by point; a value that is not finite parts it.
+/// A path in a plane, point by point; a value that is not finite breaks it.
 struct PlanePath {
     std::vector<double> x;
     std::vector<double> y;
 };
 
-/// What the plane's axes are called, and their unit of length.
+/// The names of the plane's axes, and their unit of length.
 struct Plane {
     std::string x = "X";
     std::string y = "Y";
     std::string unit = "mm";
 };
 
-/// The path as stepped, wide and coloured, under the path as asked, thin and dark. Either may be empty.
+/// The stepped path, wide and coloured, under the commanded path, thin and dark. Either may be empty.
 Figure path_figure(std::string title, std::string subtitle, const Plane& plane, const PlanePath& asked,
                    const PlanePath& stepped);
 

@@ -18,7 +18,7 @@ inline constexpr std::string_view kAlarm = "#c8323c";
 inline constexpr std::array<std::string_view, 7> kSeries = {"#1f6fb4", "#e07b00", "#1a9367", "#b5559b",
                                                             "#3aa6d8", "#a8710f", "#6b5fc7"};
 
-/// The colour of the i-th of several curves; they come round after seven.
+/// The colour of the i-th of several curves; they repeat after seven.
 inline std::string series(std::size_t i) { return std::string(kSeries[i % kSeries.size()]); }
 
 }  // namespace lockstep::drawing::palette

@@ -1,4 +1,4 @@
-// Where an axis is marked: at round numbers, 1, 2 or 5 times a power of ten, written with the digits they need.
+// The tick marks of an axis: round numbers, 1, 2 or 5 times a power of ten, with the digits they need.
 #pragma once
 
 #include <string>

@@ -37,7 +37,7 @@ struct TextStyle {
 /// `text` with the characters XML reserves written as entities, and those it forbids as '?'.
 std::string escape_xml(std::string_view text);
 
-/// About how wide a text is drawn in a common sans-serif font.
+/// The approximate width of a text in a common sans-serif font.
 double text_width(std::string_view text, const TextStyle& style);
 
 class Svg {
@@ -51,7 +51,7 @@ public:
     void dot(Point at, double radius, std::string_view colour);
     void text(Point at, std::string_view content, const TextStyle& style);
 
-    /// The whole document.
+    /// The complete document.
     std::string finish() &&;
 
 private:

@@ -7,7 +7,7 @@
 namespace lockstep::exporting {
 namespace {
 
-/// "/mill/X/position" and "position_mm" make "mill/X/position_mm": names of signals tell what they are of.
+/// "/mill/X/position" and "position_mm" make "mill/X/position_mm".
 std::string column_name(const Topic& topic, std::string_view signal) {
     return topic.substr(1, topic.rfind('/')) + std::string(signal);
 }

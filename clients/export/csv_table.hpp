@@ -1,6 +1,6 @@
-// One table for the whole log, as PlotJuggler and spreadsheets open it: a row for each instant at which something was
-// said, time_s first, then one column for each signal ("mill/X/position_mm"); empty where nothing was said then.
-// time_s counts from the first sample of the log and rises strictly from row to row.
+// One table for the whole log, for PlotJuggler and spreadsheets: a row for each instant with a message, time_s first,
+// then one column for each signal ("mill/X/position_mm"); empty if there was no value at that instant. time_s
+// counts from the first sample of the log and rises strictly from row to row.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace lockstep::exporting {
 
-/// The columns there will be, found in a first reading of the log.
+/// The columns of the table, found in a first reading of the log.
 class Columns {
 public:
     static constexpr std::size_t kMaxTopics = 1024;
@@ -34,7 +34,7 @@ private:
 
 class CsvTable final : public SampleWriter {
 public:
-    /// Samples may come so much later than others of their time; what comes later still is left out.
+    /// The maximum delay of samples against others of their time; later ones are left out.
     static constexpr std::int64_t kPatience_us = 2'000'000;
     static constexpr std::size_t kMaxRowsHeld = 1 << 16;
 

@@ -15,7 +15,7 @@ namespace {
 
 using analysis::LogPlace;
 
-/// Every message that is exported, as a sample.
+/// Converts every exported message to a sample.
 class Samples final : public analysis::LogListener {
 public:
     using OnSample = std::function<void(const Sample&)>;
@@ -83,7 +83,7 @@ std::expected<Exported, std::string> export_log(const std::filesystem::path& log
     Samples samples([&](const Sample& sample) { (*writer)->write(sample); });
     if (const auto read = analysis::read_log(log, samples, progress); !read) { return std::unexpected(read.error()); }
     if (samples.samples() == 0) {
-        return std::unexpected(log.string() + ": no position, no health and no job is in it that could be exported");
+        return std::unexpected(log.string() + ": it contains no position, health or job to export");
     }
     if (const auto closed = (*writer)->close(); !closed) { return std::unexpected(closed.error()); }
     if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }

@@ -1,5 +1,5 @@
-// A log's positions, health and jobs in a format that other people's tools open. The log is read in one pass (CSV:
-// two), in memory that does not grow with it.
+// A log's positions, health and jobs in a format for other tools. The log is read in one pass (CSV: two), in memory
+// that does not grow with it.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct Exported {
     analysis::RecordState record;
 };
 
-/// `to` is made anew, and has its name only once it is whole. `progress` hears 0 ... 1 now and then. Error: the log
-/// cannot be read or has nothing of these in it, or the file cannot be written.
+/// `to` is created or replaced, and gets its name when it is complete. `progress` is called with 0 ... 1 now and then.
+/// Error: the log cannot be read or has no data to export, or the file cannot be written.
 std::expected<Exported, std::string> export_log(const std::filesystem::path& log, const std::filesystem::path& to,
                                                 Format format, const std::function<void(double)>& progress = {});
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 enum Opcode : std::uint8_t { kHeader = 1, kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kDataEnd = 15 };
 
-/// A record's fields: numbers little-endian, texts behind their length.
+/// A record's fields: numbers little-endian, texts after their length.
 class Fields {
 public:
     template <typename Number>
@@ -69,7 +69,7 @@ std::string schema_of(const Sample& sample) {
     return to_json(schema);
 }
 
-/// What is no number is left out: JSON has none such.
+/// Values that are not numbers are left out: JSON cannot represent them.
 std::string message_of(const Sample& sample) {
     Struct message;
     for (const auto& [name, value] : sample.signals) {
@@ -105,7 +105,7 @@ void McapFile::record(std::uint8_t opcode, const std::string& content) {
     out_ << head << content;
 }
 
-/// A channel's number is its schema's as well. Null: there are too many.
+/// A channel's number is also its schema's. Null: there are too many.
 McapFile::Channel* McapFile::channel(const Sample& sample) {
     if (const auto known = channels_.find(sample.topic); known != channels_.end()) { return &known->second; }
     if (channels_.size() == kMaxTopics) { return nullptr; }
@@ -133,7 +133,7 @@ std::expected<void, std::string> McapFile::close() {
     out_ << kMagic;
     errno = 0;
     out_.close();
-    if (!out_) { return std::unexpected(path_.string() + ": not written whole: " + std::strerror(errno)); }
+    if (!out_) { return std::unexpected(path_.string() + ": not written completely: " + std::strerror(errno)); }
     return {};
 }
 

@@ -1,4 +1,4 @@
-// Whether the log that is exported has the whole record: by the numbers of its messages, and by its processes' marks.
+// Whether the exported log has the complete record: from the numbers of its messages, and its processes' marks.
 #pragma once
 
 #include <map>

@@ -13,9 +13,9 @@ class SampleWriter {
 public:
     virtual ~SampleWriter() = default;
     virtual void write(const Sample& sample) = 0;
-    /// Writes what is left. The error names the file and the reason.
+    /// Writes what is buffered. The error names the file and the reason.
     virtual std::expected<void, std::string> close() = 0;
-    /// Samples that the format has no place for.
+    /// Samples that the format cannot hold.
     virtual std::int64_t left_out() const { return 0; }
 };
 

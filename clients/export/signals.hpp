@@ -1,4 +1,4 @@
-// What of each recorded message is exported: signals by name, units last. One table for all formats.
+// The exported signals of each recorded message: by name, units last. One table for all formats.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Signal {
     Value value;
 };
 
-/// Where a sample is from: "/mill/X/position", "/mill/job".
+/// The source of a sample: "/mill/X/position", "/mill/job".
 using Topic = std::string;
 
 /// All signals of a message, always the same ones in the same order.

@@ -12,7 +12,7 @@
 namespace lockstep::incident {
 namespace {
 
-/// What shows first that something is wrong.
+/// Whether the event shows that something is wrong.
 bool is_symptom(const FlightEvent& event) {
     switch (event.kind) {
         case FlightKind::Vetoed: return static_cast<VetoReason>(event.detail) != VetoReason::Own;
@@ -29,7 +29,7 @@ bool is_symptom(const FlightEvent& event) {
     }
 }
 
-/// That a process was gone: it may come back, and all is well.
+/// Whether the event reports an absent process: it may return without harm.
 bool may_heal(const FlightEvent& event) {
     if (event.kind == FlightKind::PeerRestarted) { return true; }
     const auto reason = static_cast<IncidentReason>(event.detail);
@@ -37,7 +37,7 @@ bool may_heal(const FlightEvent& event) {
            (reason == IncidentReason::AxisLost || reason == IncidentReason::OwnerLost);
 }
 
-/// Whether whoever was gone was there again before `by`.
+/// Whether the absent process had returned before `by`.
 bool has_healed(const Incident& incident, const Entry& symptom, Tick by) {
     if (symptom.event.kind == FlightKind::PeerRestarted) { return symptom.tick < by; }
     return std::ranges::any_of(incident.timeline, [&](const Entry& entry) {
@@ -48,7 +48,7 @@ bool has_healed(const Incident& incident, const Entry& symptom, Tick by) {
     });
 }
 
-/// The first of what went wrong. Somebody who was gone and came back before that, frames earlier, did no harm.
+/// The first symptom. A process that was absent and returned frames earlier did no harm.
 const Entry* first_symptom(const Incident& incident) {
     const auto grave = std::ranges::find_if(incident.timeline,
                                             [](const Entry& e) { return is_symptom(e.event) && !may_heal(e.event); });
@@ -61,7 +61,7 @@ const Entry* first_symptom(const Incident& incident) {
     return found == incident.timeline.end() ? nullptr : &*found;
 }
 
-/// Whose doing the symptom may be; the process itself where it names nobody.
+/// The processes that may have caused the symptom; the process itself if it names none.
 std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& symptom) {
     const FlightEvent& event = symptom.event;
     const FlightPeer self = incident.processes[symptom.process].who;
@@ -79,7 +79,7 @@ std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& sympt
     return lacking;
 }
 
-/// A fault that an axis or the machine notices in itself is its own cause, but for these: somebody is missing.
+/// A fault that an axis or the machine notices in itself is its own cause, except for those of a missing peer.
 bool is_own_fault(const FlightEvent& event) {
     const bool is_fault = event.kind == FlightKind::Fault || event.kind == FlightKind::PeerFault;
     return is_fault && event.fault != FaultCode::AxisLost && event.fault != FaultCode::FramesDiffer &&
@@ -117,10 +117,10 @@ std::string who_left_nothing(const Incident& incident, const std::vector<FlightP
 Cause unknown(const Incident& incident, const Entry& symptom) {
     const std::string left_nothing = who_left_nothing(incident, suspects_of(incident, symptom));
     const std::string why = left_nothing.empty()
-                                ? "why is in none of the files"
+                                ? "none of the files shows why"
                                 : left_nothing +
-                                      " left no file here: lockstep flight on its host reads what it noted, "
-                                      "also where its process is stopped or dead";
+                                      " left no file here: lockstep flight on its host reads its notes, "
+                                      "even if its process is stopped or dead";
     return {CauseKind::Unknown, std::nullopt, why, std::nullopt, {}};
 }
 
@@ -134,12 +134,12 @@ Cause cause_of(const Incident& incident, const Entry& symptom) {
     return unknown(incident, symptom);
 }
 
-/// Where nobody noticed anything: somebody ended, or nothing was wrong.
+/// For an incident without symptoms: a process ended, or nothing was wrong.
 Cause cause_without_symptom(const Incident& incident) {
     for (const Process& process : incident.processes) {
         if (process.ended) { return {CauseKind::Ended, process.who, end_text(incident, process), process.last, {}}; }
     }
-    return {CauseKind::Asked, std::nullopt, "nothing was wrong: what was noted was asked for", std::nullopt, {}};
+    return {CauseKind::Asked, std::nullopt, "nothing was wrong: the notes were requested", std::nullopt, {}};
 }
 
 std::string noticed_text(const Incident& incident, const Entry& symptom, const Cause& cause) {
@@ -152,9 +152,9 @@ std::string noticed_text(const Incident& incident, const Entry& symptom, const C
     return text + ", " + duration(incident.seconds(symptom.tick - *cause.at)) + " later";
 }
 
-std::string rest_text(const Incident& incident, const Verdict& verdict) {
-    if (!verdict.rest) { return "no axis was moving"; }
-    const Ticks after = *verdict.rest - verdict.noticed;
+std::string rest_text(const Incident& incident, const Evaluation& evaluation) {
+    if (!evaluation.rest) { return "no axis was moving"; }
+    const Ticks after = *evaluation.rest - evaluation.noticed;
     if (after < Ticks{}) { return "all axes had come to rest " + duration(-incident.seconds(after)) + " before that"; }
     return "all axes at rest " + duration(incident.seconds(after)) + " after that";
 }
@@ -168,19 +168,21 @@ std::string_view name_of(CauseKind kind) {
     return kNames[static_cast<std::size_t>(kind)];
 }
 
-Verdict judge(const Incident& incident) {
+Evaluation evaluate(const Incident& incident) {
     const Entry* symptom = first_symptom(incident);
     if (symptom == nullptr) {
-        Verdict verdict{.cause = cause_without_symptom(incident), .noticed = {}, .rest = {}, .story = {}};
+        Evaluation evaluation{.cause = cause_without_symptom(incident), .noticed = {}, .rest = {}, .story = {}};
         const Tick last = incident.timeline.empty() ? Tick{} : incident.timeline.back().tick;
-        verdict.noticed = verdict.cause.at.value_or(last);
-        verdict.story = {verdict.cause.text};
-        return verdict;
+        evaluation.noticed = evaluation.cause.at.value_or(last);
+        evaluation.story = {evaluation.cause.text};
+        return evaluation;
     }
-    Verdict verdict{cause_of(incident, *symptom), symptom->tick, {}, {}};
-    verdict.rest = all_at_rest(incident, std::min(verdict.noticed, verdict.cause.at.value_or(verdict.noticed)));
-    verdict.story = {verdict.cause.text, noticed_text(incident, *symptom, verdict.cause), rest_text(incident, verdict)};
-    return verdict;
+    Evaluation evaluation{cause_of(incident, *symptom), symptom->tick, {}, {}};
+    evaluation.rest =
+        all_at_rest(incident, std::min(evaluation.noticed, evaluation.cause.at.value_or(evaluation.noticed)));
+    evaluation.story = {evaluation.cause.text, noticed_text(incident, *symptom, evaluation.cause),
+                        rest_text(incident, evaluation)};
+    return evaluation;
 }
 
 }  // namespace lockstep::incident

@@ -12,11 +12,12 @@ using analysis::LogPlace;
 
 std::string no_incident(const std::filesystem::path& path) {
     return path.string() +
-           ": holds nothing that a flight recorder wrote; an incident file is named STAMP-PROCESS-NUMBER.flight.lcm, "
-           "and lies where lockstep status says. A log of a run goes behind it, or to lockstep analyze alone";
+           ": contains no notes of a flight recorder; an incident file is named STAMP-PROCESS-NUMBER.flight.lcm, "
+           "and is in the directory that lockstep status shows. A log of a run goes after it, or to lockstep analyze "
+           "alone";
 }
 
-/// The machine as its process had it. Where that cannot be read, what the head alone says.
+/// The machine in its process's configuration. If that cannot be read, the data of the head alone.
 MachineConfig machine_of(const FlightSource& source) {
     auto machine = parse_machine(source.config);
     return machine ? *std::move(machine) : MachineConfig{.name = source.machine, .tick_ns = source.tick_ns};
@@ -69,7 +70,8 @@ std::expected<FlightFile, std::string> read_flight_file(const std::filesystem::p
         if (!*event) { break; }
         reading.take(**event);
     }
-    analysis::tell_damages(*reader, [&](LogPlace place, std::string what) { reading.damage(place, std::move(what)); });
+    analysis::report_damages(*reader,
+                             [&](LogPlace place, std::string what) { reading.damage(place, std::move(what)); });
     if (!reading.has_head()) { return std::unexpected(no_incident(path)); }
     return std::move(reading).take();
 }

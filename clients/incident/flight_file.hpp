@@ -1,4 +1,4 @@
-// One incident file, read as far as it goes.
+// One incident file, read as far as possible.
 #pragma once
 
 #include <expected>
@@ -16,11 +16,11 @@ struct FlightFile {
     FlightHead head;
     MachineConfig machine;  // as its process had it
     std::vector<NumberedEvent> events;
-    std::string note;  // why its process ended by itself; empty: unknown
+    std::string note;  // why its process ended itself; empty: unknown
     std::vector<analysis::Damage> damages;
 };
 
-/// Error, for the user: the file is missing or no incident file, and what to give instead.
+/// Error, for the user: the file is missing or not an incident file, and what to give instead.
 std::expected<FlightFile, std::string> read_flight_file(const std::filesystem::path& path);
 
 }  // namespace lockstep::incident

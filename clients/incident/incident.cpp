@@ -9,7 +9,7 @@ namespace lockstep::incident {
 namespace {
 
 constexpr double kApart_s = 10;                              // of machine time: another incident
-constexpr std::int64_t kApart_us = 24LL * 3600 * 1'000'000;  // of wall time: machine time began anew between them
+constexpr std::int64_t kApart_us = 24LL * 3600 * 1'000'000;  // of wall time: machine time restarted between them
 
 using Group = std::vector<const FlightFile*>;
 
@@ -46,7 +46,7 @@ std::string name_of(const MachineConfig& machine, FlightPeer who) {
     return who.kind == FlightPeer::Kind::Coordinator ? "coordinator" : "axis " + machine.axes[who.axis].name;
 }
 
-/// All that is kept of one life of a process, from however many files.
+/// All notes of one life of a process, from any number of files.
 struct Life {
     FlightPeer who;
     std::map<std::uint64_t, FlightEvent> events;  // by number
@@ -81,7 +81,7 @@ void add(const Life& life, Incident& incident) {
                     .was_asked = life.was_asked,
                     .files = life.files};
     const auto before = std::ranges::count(incident.processes, life.who, &Process::who);
-    if (before > 0 && life.who.kind == FlightPeer::Kind::Axis) { process.name += ", started anew"; }
+    if (before > 0 && life.who.kind == FlightPeer::Kind::Axis) { process.name += ", restarted"; }
     if (before > 0 && life.who.kind == FlightPeer::Kind::Coordinator) {
         process.name += " (" + std::to_string(before + 1) + ")";
     }

@@ -1,4 +1,4 @@
-// An incident: what all processes noted around one fault, in one order, by machine time.
+// An incident: the notes of all processes around one fault, in one order, by machine time.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace lockstep::incident {
 
-/// One life of a process, of which something was kept.
+/// One life of a process with notes.
 struct Process {
-    std::string name;  // "axis X", "coordinator"; "axis X, started anew"
+    std::string name;  // "axis X", "coordinator"; "axis X, restarted"
     FlightPeer who;
     Identity incarnation = 0;
     Tick first;              // noted
     Tick last;               // noted
-    bool ended = false;      // unasked, after `last`
-    std::string note;        // why it ended by itself; empty: unknown
-    bool was_asked = false;  // its notes were read when somebody asked, whether it ran or not
-    Ticks clock_error;       // its times are machine time within
+    bool ended = false;      // without being asked to, after `last`
+    std::string note;        // why it ended itself; empty: unknown
+    bool was_asked = false;  // its notes were read on request, whether it ran or not
+    Ticks clock_error;       // uncertainty of its times in machine time
     std::vector<std::string> files;
 };
 
@@ -35,8 +35,8 @@ struct Incident {
     std::int64_t wall_us = 0;         // when its first file was written
     std::vector<Process> processes;   // the coordinators, then the axes as configured; each in the order of its lives
     std::vector<Entry> timeline;      // in the order of time
-    std::vector<std::string> unread;  // what could not be read, by file and place
-    std::vector<std::string> absent;  // processes of which there is no file
+    std::vector<std::string> unread;  // errors in reading, by file and place
+    std::vector<std::string> absent;  // processes without a file
 
     double seconds(Ticks ticks) const { return machine.microseconds(ticks) * 1e-6; }
     Ticks slots(std::int64_t count) const { return machine.slot_ticks() * count; }

@@ -19,8 +19,8 @@ std::expected<void, std::string> read_directory(const fs::path& directory, Files
     const auto found = incident_files(directory);
     if (found.empty()) {
         return std::unexpected(directory.string() +
-                               ": no incident file in it; lockstep status says where a machine's are, and lockstep "
-                               "flight has some written");
+                               ": no incident file in it; lockstep status shows a machine's directory, and lockstep "
+                               "flight writes some");
     }
     for (const fs::path& path : found) {
         auto file = incident::read_flight_file(path);

@@ -1,4 +1,4 @@
-// The incident files that a user names: by themselves, or by the directory that they are in.
+// The incident files that a user names: each one, or their directory.
 #pragma once
 
 #include <expected>
@@ -12,10 +12,10 @@ namespace lockstep {
 
 struct IncidentInput {
     std::vector<incident::Incident> incidents;  // the oldest first; at least one
-    std::vector<std::string> left_out;          // files of a directory that are no incident files after all, and why
+    std::vector<std::string> left_out;          // files of a directory that are not incident files, and why
 };
 
-/// Error: what is named is not there, or holds no incident; files are of several machines.
+/// Error: a named file does not exist or holds no incident; or the files are of several machines.
 std::expected<IncidentInput, std::string> read_incidents(const std::vector<std::filesystem::path>& named);
 
 }  // namespace lockstep

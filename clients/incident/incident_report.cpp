@@ -43,19 +43,19 @@ void add(const Incident& incident, const Entry& entry, Tick zero, proto::Inciden
 
 }  // namespace
 
-proto::IncidentReport to_report(const Incident& incident, const Verdict& verdict) {
+proto::IncidentReport to_report(const Incident& incident, const Evaluation& evaluation) {
     proto::IncidentReport report;
     report.set_machine(incident.machine.name);
     report.set_written(wall_time(incident.wall_us));
-    report.set_cause(std::string(name_of(verdict.cause.kind)));
-    if (verdict.cause.who) { report.set_culprit(peer_name(incident.machine, *verdict.cause.who)); }
-    if (verdict.cause.at) { report.set_cause_at_s(incident.seconds(*verdict.cause.at - verdict.noticed)); }
-    if (verdict.cause.lasts > Ticks{}) { report.set_cause_lasts_s(incident.seconds(verdict.cause.lasts)); }
-    if (verdict.rest) { report.set_rest_s(incident.seconds(*verdict.rest - verdict.noticed)); }
-    report.set_noticed_tick(verdict.noticed.value);
-    for (const std::string& sentence : verdict.story) { report.add_story(sentence); }
-    for (const Process& process : incident.processes) { add(incident, process, verdict.noticed, report); }
-    for (const Entry& entry : incident.timeline) { add(incident, entry, verdict.noticed, report); }
+    report.set_cause(std::string(name_of(evaluation.cause.kind)));
+    if (evaluation.cause.who) { report.set_culprit(peer_name(incident.machine, *evaluation.cause.who)); }
+    if (evaluation.cause.at) { report.set_cause_at_s(incident.seconds(*evaluation.cause.at - evaluation.noticed)); }
+    if (evaluation.cause.lasts > Ticks{}) { report.set_cause_lasts_s(incident.seconds(evaluation.cause.lasts)); }
+    if (evaluation.rest) { report.set_rest_s(incident.seconds(*evaluation.rest - evaluation.noticed)); }
+    report.set_noticed_tick(evaluation.noticed.value);
+    for (const std::string& sentence : evaluation.story) { report.add_story(sentence); }
+    for (const Process& process : incident.processes) { add(incident, process, evaluation.noticed, report); }
+    for (const Entry& entry : incident.timeline) { add(incident, entry, evaluation.noticed, report); }
     for (const std::string& note : notes_of(incident)) { report.add_notes(note); }
     return report;
 }

@@ -6,6 +6,6 @@
 
 namespace lockstep::incident {
 
-proto::IncidentReport to_report(const Incident& incident, const Verdict& verdict);
+proto::IncidentReport to_report(const Incident& incident, const Evaluation& evaluation);
 
 }  // namespace lockstep::incident

@@ -22,8 +22,7 @@ std::vector<std::string> notes_of(const Incident& incident) {
     Ticks error;
     for (const Process& process : incident.processes) { error = std::max(error, process.clock_error); }
     if (error > Ticks{}) {
-        notes.push_back("times of different processes are known against each other within " +
-                        duration(2 * incident.seconds(error)));
+        notes.push_back("times of different processes are comparable within " + duration(2 * incident.seconds(error)));
     }
     if (!incident.absent.empty()) { notes.push_back(fmt::format("no file of: {}", fmt::join(incident.absent, ", "))); }
     for (const std::string& unread : incident.unread) { notes.push_back("not read: " + unread); }

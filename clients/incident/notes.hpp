@@ -1,4 +1,4 @@
-// What is to be known of an incident besides what was noted.
+// Remarks on an incident besides the notes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace lockstep::incident {
 /// "2026-11-21 10:01:36 UTC"
 std::string wall_time(std::int64_t wall_us);
 
-/// A sentence each: within what times are known, processes without a file, what could not be read.
+/// A sentence each: the uncertainty of times, processes without a file, parts that could not be read.
 std::vector<std::string> notes_of(const Incident& incident);
 
 }  // namespace lockstep::incident

@@ -54,7 +54,7 @@ private:
 
 }  // namespace
 
-/// Of a process that ended, what its device then did is not known: another life of it says nothing of this.
+/// If a process ended, its device's later motion is not known: another life of it does not show this.
 std::optional<Tick> all_at_rest(const Incident& incident, Tick since) {
     std::optional<Tick> all;
     for (std::size_t process = 0; process < incident.processes.size(); ++process) {

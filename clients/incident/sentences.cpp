@@ -14,53 +14,54 @@ namespace {
 
 using Kind = FlightKind;
 
-std::string fault_words(FaultCode code) {
+std::string fault_text_of(FaultCode code) {
     const FaultText* fault = find_fault(code);
     return fault == nullptr ? std::string(lockstep::name_of(code)) : fmt::format("{} ({})", fault->name, fault->cause);
 }
 
-std::string veto_words(const Incident& incident, const FlightEvent& event) {
+std::string veto_text(const Incident& incident, const FlightEvent& event) {
     switch (static_cast<VetoReason>(event.detail)) {
-        case VetoReason::TooLate: return "it looked too late itself";
-        case VetoReason::NotHeld: return "it has not got it";
-        case VetoReason::Own: return "it is at fault or stopped";
+        case VetoReason::TooLate: return "its own check was too late";
+        case VetoReason::NotHeld: return "it does not hold it";
+        case VetoReason::Own: return "it is in Fault or stopped";
         case VetoReason::NoEvidence:
-            return "nothing fresh from " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
-                   " says that it is held there";
+            return "no recent state of " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
+                   " reports that it is held";
     }
     return "for a reason that is not known";
 }
 
-std::string homing_words(std::int64_t stage) {
+std::string homing_text(std::int64_t stage) {
     constexpr std::array<std::string_view, 6> kStages{"ended",   "searches the switch", "pulls off", "latches", "parks",
                                                       "releases"};
     const bool is_known = stage >= 0 && stage < static_cast<std::int64_t>(kStages.size());
     return "homing: " + std::string(is_known ? kStages[static_cast<std::size_t>(stage)] : "a stage that is not known");
 }
 
-std::string phase_words(const Incident& incident, const Entry& entry) {
+std::string phase_text(const Incident& incident, const Entry& entry) {
     const bool is_axis = incident.processes[entry.process].who.kind == FlightPeer::Kind::Axis;
     const auto phase = is_axis ? name_of(static_cast<AxisPhase>(entry.event.detail))
                                : name_of(static_cast<MachinePhase>(entry.event.detail));
     return (is_axis ? "is in " : "machine is ") + std::string(phase);
 }
 
-/// Of what was heard.
-std::string heard_words(const Incident& incident, const FlightEvent& event) {
+/// The text of a received message.
+std::string reception_text(const Incident& incident, const FlightEvent& event) {
     const std::string who = peer_name(incident.machine, event.about);
     const double lasts = incident.seconds(event.lasts);
     switch (event.kind) {
-        case Kind::PeerSilent: return fmt::format("has heard nothing of {} for {}", who, duration(lasts));
+        case Kind::PeerSilent: return fmt::format("has received nothing from {} for {}", who, duration(lasts));
         case Kind::PeerHeard:
-            return event.lasts == Ticks{} ? "hears " + who
-                                          : fmt::format("hears {} again, after {}", who, duration(lasts));
-        case Kind::PeerVeto: return fmt::format("hears {}'s veto of frame {}", who, event.frame);
-        case Kind::PeerFault: return fmt::format("hears of {}'s fault: {}", who, lockstep::name_of(event.fault));
-        case Kind::PeerRestarted: return fmt::format("hears another process speak for {}", who);
-        case Kind::CommandHeard: return fmt::format("is asked to {}", name_of(static_cast<CommandKind>(event.detail)));
+            return event.lasts == Ticks{} ? "receives " + who
+                                          : fmt::format("receives {} again, after {}", who, duration(lasts));
+        case Kind::PeerVeto: return fmt::format("receives {}'s veto of frame {}", who, event.frame);
+        case Kind::PeerFault: return fmt::format("receives {}'s fault: {}", who, lockstep::name_of(event.fault));
+        case Kind::PeerRestarted: return fmt::format("receives another process as {}", who);
+        case Kind::CommandHeard:
+            return fmt::format("receives the command {}", name_of(static_cast<CommandKind>(event.detail)));
         case Kind::OrderHeard:
-            return fmt::format("is ordered to {}", name_of(static_cast<AxisCommandKind>(event.detail)));
-        default: return "hears that the machine is " + std::string(name_of(static_cast<MachinePhase>(event.detail)));
+            return fmt::format("receives the order {}", name_of(static_cast<AxisCommandKind>(event.detail)));
+        default: return "receives that the machine is " + std::string(name_of(static_cast<MachinePhase>(event.detail)));
     }
 }
 
@@ -68,21 +69,21 @@ bool is_end(const FlightEvent& event) {
     return event.kind == Kind::Incident && event.detail == static_cast<std::uint8_t>(IncidentReason::Ended);
 }
 
-std::string incident_words(const Incident& incident, const FlightEvent& event) {
+std::string incident_text(const Incident& incident, const FlightEvent& event) {
     if (is_end(event)) { return "notes nothing more: its process ended"; }
     const std::string who = event.about == FlightPeer{} ? "" : ", " + peer_name(incident.machine, event.about);
-    return fmt::format("keeps what came before ({}{})", name_of(static_cast<IncidentReason>(event.detail)), who);
+    return fmt::format("keeps its earlier notes ({}{})", name_of(static_cast<IncidentReason>(event.detail)), who);
 }
 
-/// Of what concerns frames and epochs.
-std::string frame_words(const Incident& incident, const FlightEvent& event) {
+/// The text of an event about frames and epochs.
+std::string frame_text(const Incident& incident, const FlightEvent& event) {
     const double lasts = incident.seconds(event.lasts);
     switch (event.kind) {
         case Kind::FrameHeld: return fmt::format("holds frame {}, {} before its start", event.frame, duration(lasts));
-        case Kind::FrameRefused: return fmt::format("refuses frame {}: {}", event.frame, fault_words(event.fault));
+        case Kind::FrameRefused: return fmt::format("refuses frame {}: {}", event.frame, fault_text_of(event.fault));
         case Kind::FrameArmed: return fmt::format("arms frame {}", event.frame);
         case Kind::FrameSent: return fmt::format("sends frame {}, {} before its start", event.frame, duration(lasts));
-        case Kind::Vetoed: return fmt::format("vetoes frame {}: {}", event.frame, veto_words(incident, event));
+        case Kind::Vetoed: return fmt::format("vetoes frame {}: {}", event.frame, veto_text(incident, event));
         case Kind::TailRun:
             return fmt::format("runs the tail of frame {}, at rest {} later", event.frame, duration(lasts));
         case Kind::EpochBegun: return "begins an epoch, from rest to rest";
@@ -90,19 +91,17 @@ std::string frame_words(const Incident& incident, const FlightEvent& event) {
     }
 }
 
-std::string coordinator_words(const Incident& incident, const FlightEvent& event) {
+std::string coordinator_text(const Incident& incident, const FlightEvent& event) {
     const std::string who = peer_name(incident.machine, event.about);
     switch (event.kind) {
-        case Kind::AxisSeen: return who + " is there";
-        case Kind::AxisGone: return who + " is gone";
+        case Kind::AxisSeen: return who + " is present";
+        case Kind::AxisGone: return who + " is absent";
         case Kind::Interrupted:
             return fmt::format("all rest together after frame {}; it goes on from there", event.frame);
         case Kind::Claimed: return "owns the machine from now on";
-        case Kind::StoodDown: return "stands down: another owns the machine";
-        case Kind::JobCutShort:
-            return fmt::format("the job of the owner before was cut short near line {}", event.count);
-        case Kind::JobContinued:
-            return fmt::format("goes on with the job of the owner before, near line {}", event.count);
+        case Kind::StoodDown: return "gives up the machine: another owns it";
+        case Kind::JobCutShort: return fmt::format("the previous owner's job ended early near line {}", event.count);
+        case Kind::JobContinued: return fmt::format("continues the previous owner's job near line {}", event.count);
         case Kind::JobBegun: return fmt::format("begins job {}", event.count);
         case Kind::JobEnded:
             return fmt::format(
@@ -115,7 +114,7 @@ std::string coordinator_words(const Incident& incident, const FlightEvent& event
 std::string fault_sentence(const Incident& incident, const FlightEvent& event) {
     const bool has_axis = event.about.kind == FlightPeer::Kind::Axis;
     return "fault" + (has_axis ? " of " + peer_name(incident.machine, event.about) : "") + ": " +
-           fault_words(event.fault);
+           fault_text_of(event.fault);
 }
 
 }  // namespace
@@ -158,20 +157,20 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
 std::string sentence(const Incident& incident, const Entry& entry) {
     const FlightEvent& event = entry.event;
     const double lasts = incident.seconds(event.lasts);
-    if (event.kind <= Kind::MachinePhaseHeard) { return heard_words(incident, event); }
+    if (event.kind <= Kind::MachinePhaseHeard) { return reception_text(incident, event); }
     switch (event.kind) {
         case Kind::PulsesStopped: return "stops its pulses at once";
         case Kind::OwnerFollowed: return "follows an owner of the machine";
-        case Kind::HomingStage: return homing_words(event.count);
+        case Kind::HomingStage: return homing_text(event.count);
         case Kind::Homed: return "is homed and parked";
         case Kind::Fault: return fault_sentence(incident, event);
         case Kind::Reset: return "is reset";
         case Kind::PositionClaimed:
-            return event.fault == FaultCode::None ? "is homed by the position that was kept"
-                                                  : "is not homed: " + fault_words(event.fault);
-        case Kind::CommandRefused: return "refuses what it was asked: " + fault_words(event.fault);
+            return event.fault == FaultCode::None ? "is homed by the kept position"
+                                                  : "is not homed: " + fault_text_of(event.fault);
+        case Kind::CommandRefused: return "refuses a command: " + fault_text_of(event.fault);
         case Kind::State:
-        case Kind::Phase: return phase_words(incident, entry);
+        case Kind::Phase: return phase_text(incident, entry);
         case Kind::Started: return "starts";
         case Kind::Reopened:
             return fmt::format("opens its DDS participant again: {}", text_of(static_cast<ReopenReason>(event.detail)));
@@ -179,7 +178,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::LoopStuck: return fmt::format("its loop has not run for {}: it ends itself", duration(lasts));
         case Kind::Loops:
             return fmt::format("{} loops in a second, at most {} from one to the next", event.count, duration(lasts));
-        case Kind::Incident: return incident_words(incident, event);
+        case Kind::Incident: return incident_text(incident, event);
         case Kind::FrameHeld:
         case Kind::FrameRefused:
         case Kind::FrameArmed:
@@ -187,14 +186,14 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::Vetoed:
         case Kind::TailRun:
         case Kind::EpochBegun:
-        case Kind::EpochEnded: return frame_words(incident, event);
-        default: return coordinator_words(incident, event);
+        case Kind::EpochEnded: return frame_text(incident, event);
+        default: return coordinator_text(incident, event);
     }
 }
 
 std::string peer_name(const MachineConfig& machine, FlightPeer peer) {
     if (peer.kind == FlightPeer::Kind::Coordinator) { return "the coordinator"; }
-    if (peer.kind == FlightPeer::Kind::Nobody) { return "nobody"; }
+    if (peer.kind == FlightPeer::Kind::Nobody) { return "no process"; }
     return "axis " + (peer.axis < machine.axes.size() ? machine.axes[peer.axis].name : std::to_string(peer.axis));
 }
 
@@ -203,7 +202,7 @@ std::string axes_named(const MachineConfig& machine, AxisSet axes) {
     for (std::size_t i = 0; i < kMaxAxes; ++i) {
         if (has_axis(axes, i)) { names.push_back(peer_name(machine, flight_axis(i))); }
     }
-    if (names.size() < 2) { return names.empty() ? "nobody" : names.front(); }
+    if (names.size() < 2) { return names.empty() ? "no axis" : names.front(); }
     const std::string last = names.back();
     names.pop_back();
     return fmt::format("{} and {}", fmt::join(names, ", "), last);
@@ -218,9 +217,9 @@ std::string duration(double seconds) {
 std::string end_text(const Incident& incident, const Process& process) {
     const std::string name = peer_name(incident.machine, process.who);
     if (process.note.empty()) {
-        return fmt::format("the process of {} ended without a word: killed, or crashed", name);
+        return fmt::format("the process of {} ended without a note: killed, or crashed", name);
     }
-    return fmt::format("the process of {} ended by itself: {}", name, process.note);
+    return fmt::format("the process of {} ended itself: {}", name, process.note);
 }
 
 }  // namespace lockstep::incident

@@ -11,7 +11,7 @@ bool is_silence(const FlightEvent& event) {
     return event.kind == FlightKind::PeerSilent || (event.kind == FlightKind::PeerHeard && event.lasts > Ticks{});
 }
 
-/// Whoever has part in all of them.
+/// The processes that are part of all of them.
 std::vector<FlightPeer> common(const std::vector<Silence>& silences) {
     std::vector<FlightPeer> in_all;
     for (const FlightPeer who : {silences.front().observer, silences.front().about}) {
@@ -22,12 +22,12 @@ std::vector<FlightPeer> common(const std::vector<Silence>& silences) {
 }
 
 std::string cut_text(const Incident& incident, FlightPeer who, const std::vector<Silence>& silences) {
-    const auto heard_nobody = std::ranges::count(silences, who, &Silence::observer);
-    const auto unheard = std::ranges::count(silences, who, &Silence::about);
+    const auto receives_none = std::ranges::count(silences, who, &Silence::observer);
+    const auto unreceived = std::ranges::count(silences, who, &Silence::about);
     const std::string name = peer_name(incident.machine, who);
-    if (heard_nobody == 0) { return name + " was cut off: nobody heard it, though it ran"; }
-    if (unheard == 0) { return name + " was cut off: it heard nobody, though all ran"; }
-    return name + " was cut off: it heard nobody, and nobody heard it, though all ran";
+    if (receives_none == 0) { return name + " was cut off: no process received it, though it ran"; }
+    if (unreceived == 0) { return name + " was cut off: it received no process, though all ran"; }
+    return name + " was cut off: it received no process, and no process received it, though all ran";
 }
 
 std::string link_text(const Incident& incident, const std::vector<Silence>& silences) {

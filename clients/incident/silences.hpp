@@ -1,4 +1,4 @@
-// Who did not hear whom around an incident, and what that says of the network between them.
+// Which process did not receive which around an incident, and the conclusion about the network between them.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lockstep::incident {
 
-/// `observer` heard nothing of `about`, which was not because it did not run itself.
+/// `observer` received nothing from `about`, although it ran itself.
 struct Silence {
     FlightPeer observer;
     FlightPeer about;
@@ -17,17 +17,17 @@ struct Silence {
     Ticks lasts;  // as far as it is known
 };
 
-/// Those that touch the stretch of time, one of each pair.
+/// Those that overlap the time span, one of each pair.
 std::vector<Silence> silences(const Incident& incident, Tick from, Tick to);
 
-/// What was cut, if these are due to the network alone.
+/// The cut part of the network, if the silences have no other cause.
 struct CutOff {
     std::optional<FlightPeer> who;  // of one process to or from all others; nothing: one link, or no pattern
     Tick from;
     Ticks lasts;
-    std::string text;  // "axis Y was cut off: it heard nobody, and nobody heard it"
+    std::string text;  // "axis Y was cut off: it received no process, and no process received it"
 };
-/// Nothing where there are none.
+/// Nothing if there are none.
 std::optional<CutOff> cut_off(const Incident& incident, const std::vector<Silence>& silences);
 
 }  // namespace lockstep::incident

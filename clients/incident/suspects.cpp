@@ -13,7 +13,7 @@ namespace {
 
 Ticks hop(const Incident& incident) { return incident.slots(rules::kHopSlots); }
 
-/// The longest that a process stood still around `at`, of what the machine does not bear.
+/// The longest standstill of a process around `at` that exceeds the machine's allowance.
 const Entry* standstill(const Incident& incident, FlightPeer who, Tick at) {
     const Entry* longest = nullptr;
     for (const Entry& entry : incident.timeline) {
@@ -33,7 +33,7 @@ Ticks overlap(const Entry& a, const Entry& b) {
     return std::max(Ticks{}, std::min(a.tick, b.tick) - from);
 }
 
-/// Another process had taken its place long before.
+/// Another process had replaced it long before.
 bool has_successor_since(const Incident& incident, FlightPeer who, Tick ended, Tick by) {
     return std::ranges::any_of(incident.processes, [&](const Process& process) {
         return process.who == who && process.first > ended && process.first < by;
@@ -77,19 +77,19 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
     }
     if (together > 1 && 2 * together >= looked_at.size()) {
         return Cause{CauseKind::HostStalled, std::nullopt,
-                     fmt::format("{} processes stood still at the same time, for up to {}, {} among them: look at "
+                     fmt::format("{} processes stood still at the same time, for up to {}, {} among them: check "
                                  "their host",
                                  together, duration(incident.seconds(lasts)), axes_named(incident.machine, axes)),
                      from, lasts};
     }
     return Cause{CauseKind::Stalled, suspect,
-                 fmt::format("{} stood still: its loop did not run for {}; the machine bears {}",
+                 fmt::format("{} stood still: its loop did not run for {}; the machine allows {}",
                              peer_name(incident.machine, suspect), duration(incident.seconds(lasts)),
                              duration(incident.seconds(incident.slots(incident.machine.timing.stall_slots)))),
                  from, lasts};
 }
 
-/// One whose notes were read from outside, and end long before the others'.
+/// A process whose notes were read from outside, and end long before the others'.
 std::optional<Cause> explain_by_hanging(const Incident& incident, FlightPeer suspect, Tick at) {
     const Ticks quiet = incident.slots(incident.machine.timing.freshness_slots);
     for (const Process& process : incident.processes) {

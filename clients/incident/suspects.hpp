@@ -1,4 +1,4 @@
-// Why a process did not do its part: by what it noted itself, and by what others did.
+// Explains the absence of a process: from its own notes, and from those of others.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 
 namespace lockstep::incident {
 
-/// From when a frame is sent until it is decided, and a frame more: what is earlier has no part in a frame's fate.
+/// From when a frame is sent until it is decided, plus a frame: earlier events cannot affect a frame.
 Ticks reach(const Incident& incident);
 
-/// `at`: when another process missed its word. Nothing: nothing was wrong with it, as far as the files tell.
+/// `at`: when another process missed its message. Nothing: nothing was wrong with it, as far as the files show.
 std::optional<Cause> explain(const Incident& incident, FlightPeer suspect, Tick at);
 
-/// What no process can be blamed for. Nothing: the network was well.
+/// A cause outside of any process. Nothing: the network was in order.
 std::optional<Cause> explain_by_network(const Incident& incident, Tick at);
 
 }  // namespace lockstep::incident

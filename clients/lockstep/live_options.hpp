@@ -1,4 +1,4 @@
-// What is common to the verbs' command lines.
+// Options that are common to several verbs.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace lockstep {
 
 struct AllHosts;
 
-/// What every verb that speaks to a machine takes.
+/// The options of every verb that connects to a machine.
 struct LiveOptions {
     std::string machine_file;
     bool json = false;
@@ -26,7 +26,7 @@ CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);
 /// --detach: for a verb that otherwise waits for its job's end.
 void add_detach(CLI::App& verb, bool& detach);
 
-/// What becomes of such a verb's job when the verb is interrupted.
+/// The effect of an interrupt on such a verb's job.
 inline constexpr const char* kInterrupted =
     "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: go on with\n"
     "lockstep resume. With --detach, or under nohup, it goes on by itself.\n";

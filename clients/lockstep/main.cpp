@@ -39,7 +39,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_scenario(app, action);
 }
 
-/// What CLI11 says, but for a verb that there is not: it would only miss one. And whose help to read.
+/// CLI11's message, except for an unknown verb: CLI11 would report a missing one. Adds which help to read.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
     const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
     const bool known = std::ranges::any_of(verbs, [&](const CLI::App* verb) { return verb->get_name() == first; });
@@ -48,8 +48,8 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, con
     return (is_verb ? "there is no verb '" + first + "'" : error.what()) + std::string("; see: lockstep --help");
 }
 
-/// Help and version are what was asked for; anything else is bad usage, said as JSON where JSON was asked for.
-int say_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first, bool json) {
+/// Help and version go to standard output; anything else is bad usage, reported as JSON if JSON was requested.
+int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first, bool json) {
     if (error.get_exit_code() == 0) { return app.exit(error); }
     return Output(json).fail(bad_input(what_is_wrong(app, error, first)));
 }
@@ -70,6 +70,6 @@ int main(int argc, char** argv) {
         std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
     try {
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) { return say_usage(app, error, argc > 1 ? argv[1] : "", json); }
+    } catch (const CLI::ParseError& error) { return report_usage(app, error, argc > 1 ? argv[1] : "", json); }
     return action();
 }

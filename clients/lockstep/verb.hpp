@@ -1,4 +1,4 @@
-// One verb of the command: its options on the command line, and what it does. One file per verb adds it.
+// One verb of the command: its options, and its action. One file per verb adds it.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ class App;
 
 namespace lockstep {
 
-/// What the parsed command line asks for; the verb that was named sets it.
+/// The action of the parsed command line; the verb sets it.
 using Action = std::function<ExitCode()>;
 
 void add_plan(CLI::App& app, Action& action);

@@ -1,5 +1,5 @@
 // The parts of the one program that a merged job runs. They may have been recorded long before the job: a program is
-// recorded as it comes, and may be run again later.
+// recorded when it is received, and may be run again later.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class JobProgram {
 public:
     explicit JobProgram(std::optional<ProgramInParts> program) : program_(program) {}
 
-    /// Whether the message is a part of it that has not come before.
+    /// Whether the message is a part of it that is new.
     bool takes(const HeldMessage& message);
     /// Parts that are in no log.
     std::int64_t missing() const;

@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// Logs that begin later than all that is held are not open yet: of a log in many files, only those in progress
+    /// Logs that begin later than all messages held are not open yet: of a log in many files, only those in progress
     /// are.
     std::expected<void, std::string> begin_due() {
         while (!waiting_.empty()) {
@@ -89,12 +89,12 @@ private:
         return inputs_[i].fill(options_.window_us, kMostBytesHeld - std::min(kMostBytesHeld, others));
     }
 
-    /// A log that holds nothing is looked at first: what is wrong with it is worth knowing.
+    /// A log without messages is opened first: its errors should be reported.
     std::int64_t begins(std::size_t i) const {
         return inputs_[i].begins_utime().value_or(std::numeric_limits<std::int64_t>::min());
     }
 
-    /// The input whose next message is the first of all; as many as there are inputs: none has one.
+    /// The input whose next message is the first of all; the number of inputs: none has one.
     std::size_t lowest() const {
         std::size_t lowest = inputs_.size();
         for (std::size_t i = 0; i < inputs_.size(); ++i) {

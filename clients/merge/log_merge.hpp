@@ -1,6 +1,6 @@
-// Several logs of the same machine made one: every message that any of them has, once, in the order of machine time.
+// Combines several logs of the same machine: every message of any of them, once, in the order of machine time.
 //
-// Messages are told apart by channel, process and sequence number; what has none, a log's own losses, by time and
+// Messages are identified by channel, process and sequence number; those without one, a log's own losses, by time and
 // content. Messages of channels that are not of the record are kept from each log, at the time of the message before.
 // Memory is bounded by the window, kMostBytesHeld, and a few bytes for each gap in the sequence numbers.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace lockstep::merge {
 
-/// A run is recorded when it has ended, with the time of its start: frames are shorter than this.
+/// A run is recorded at its end, with the time of its start: frames are shorter than this.
 inline constexpr std::int64_t kWindow_us = 2'000'000;
 inline constexpr std::uint64_t kMostBytesHeld = 256 << 20;  // of all logs together; beyond it the window shrinks
 
@@ -41,13 +41,13 @@ struct Merged {
     std::vector<MergedInput> inputs;
     std::uint64_t messages = 0;    // written
     std::uint64_t duplicates = 0;  // left out
-    std::uint64_t differing = 0;   // of those: with the number, but not the content, of one written
-    std::uint64_t late = 0;        // written behind younger ones: later than the window
+    std::uint64_t differing = 0;   // of those: with the number of a written message, but other content
+    std::uint64_t late = 0;        // written after younger ones: later than the window
     std::uint64_t foreign = 0;     // written, of channels that are not of the record
     std::vector<AxisRecord> axes;
     std::int64_t missing_job_events = 0;
     std::int64_t missing_program_parts = 0;
-    analysis::RecordEnd end;  // what is missing behind the last messages there, and from when on nobody can know
+    analysis::RecordEnd end;  // messages missing after the last ones, and from when on the rest is unknown
     ChosenLogs chosen;        // by the caller: which logs were left out
 
     /// No message is known to be missing.

@@ -72,7 +72,7 @@ void MergeInput::hold(const LogEvent& event) {
 }
 
 void MergeInput::end() {
-    analysis::tell_damages(*reader_, [this](analysis::LogPlace place, std::string what) {
+    analysis::report_damages(*reader_, [this](analysis::LogPlace place, std::string what) {
         analysis::note_damage(damages_, place, std::move(what));
     });
     has_ended_ = true;

@@ -1,8 +1,8 @@
-// One log to be merged, read a little ahead of what is taken from it, so that it comes out in the order of machine
+// One log to be merged, read a little ahead of the merge, so that its messages come out in the order of machine
 // time.
 //
-// A log is nearly in order: a message is at most so late that one which is `window_us` younger has not been read before
-// it. What is later still comes out late.
+// A log is nearly in order: no message comes after one that is `window_us` younger. A message that is later still
+// comes out late.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct HeldMessage {
 
 class MergeInput {
 public:
-    /// Error: the file cannot be read; the text names it and says why.
+    /// Error: the file cannot be read, with its name and the reason.
     static std::expected<MergeInput, std::string> open(const std::filesystem::path& path);
 
     const std::filesystem::path& path() const { return path_; }
@@ -40,15 +40,15 @@ public:
     std::uint64_t bytes_read() const { return bytes_read_; }
     std::uint64_t bytes_held() const { return bytes_held_; }
     std::uint64_t messages() const { return messages_; }
-    /// By reason; whole once the input is at its end.
+    /// By reason; complete when the input is at its end.
     const std::vector<analysis::Damage>& damages() const { return damages_; }
 
-    /// Of its first message of the record; none where it holds none. The file is open only from the first fill on.
+    /// The time of its first message of the record; none if it has none. The file is open only from the first fill on.
     std::optional<std::int64_t> begins_utime() const { return begins_utime_; }
 
     /// Reads until the window is full, or `most_bytes` are held, or the log ends. Error: reading failed.
     std::expected<void, std::string> fill(std::int64_t window_us, std::uint64_t most_bytes);
-    /// The next to be taken; null: none is left.
+    /// The next message; null: none is left.
     const HeldMessage* front() const { return held_.empty() ? nullptr : &*held_.begin(); }
     HeldMessage take();
 

@@ -89,8 +89,8 @@ std::string oddities(const Merged& merged) {
     return text;
 }
 
-std::string verdict_of(const Merged& merged) {
-    if (!merged.is_complete()) { return "incomplete: what is listed as missing is in none of the logs"; }
+std::string result_of(const Merged& merged) {
+    if (!merged.is_complete()) { return "incomplete: the listed messages are in none of the logs"; }
     std::string text = merged.end.is_closed() ? "complete: no message of the record is missing"
                                               : "complete as far as is known: no message is known to be missing";
     for (const std::string& line : analysis::open_sentences(merged.end)) { text += "; " + line; }
@@ -101,9 +101,9 @@ std::string verdict_of(const Merged& merged) {
 
 std::string to_text(const Merged& merged, const std::filesystem::path& written) {
     return inputs_table(merged) + left_out_text(merged.chosen) + "\n" + axes_table(merged) + "\n" + oddities(merged) +
-           fmt::format("{}: {} written, {} left out that came again\n{}\n", written.string(),
+           fmt::format("{}: {} written, {} repeats left out\n{}\n", written.string(),
                        plural(static_cast<std::int64_t>(merged.messages), "message"),
-                       grouped(static_cast<std::int64_t>(merged.duplicates)), verdict_of(merged));
+                       grouped(static_cast<std::int64_t>(merged.duplicates)), result_of(merged));
 }
 
 }  // namespace lockstep::merge

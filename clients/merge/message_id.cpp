@@ -24,13 +24,13 @@ Identified identify_as(const LogEvent& event) {
     if constexpr (requires { message->sequence; }) {
         id.number = MessageNumber{process_of(*message), message->sequence};
         if (!analysis::is_message_number(message->sequence)) {
-            return std::unexpected("a message with a number that no machine counts to");
+            return std::unexpected("a message with an impossible number");
         }
     }
     if constexpr (std::is_same_v<Message, step_batch_t>) {
         if (const auto batch = analysis::to_batch(*message); !batch) { return std::unexpected(batch.error()); }
     }
-    if (!analysis::is_countable(id.utime)) { return std::unexpected("a message of a time that no machine counts to"); }
+    if (!analysis::is_countable(id.utime)) { return std::unexpected("a message with an impossible time"); }
     return id;
 }
 

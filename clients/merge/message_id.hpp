@@ -1,4 +1,4 @@
-// What tells a message of the record from every other, and where it belongs among them.
+// The identity of a message of the record, and its order among others.
 #pragma once
 
 #include <compare>
@@ -26,7 +26,7 @@ struct MessageId {
     auto operator<=>(const MessageId&) const = default;
 };
 
-/// None: the channel is not of the record. Error: why the message cannot be one.
+/// None: the channel is not of the record. Error: why the message is impossible.
 std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& event);
 
 }  // namespace lockstep::merge

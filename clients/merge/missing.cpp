@@ -36,7 +36,7 @@ analysis::RecordingProcess publisher_of(RecordKind kind, const std::vector<std::
 
 }  // namespace
 
-/// Hears an axis's steps in order, and where they break off.
+/// Receives an axis's steps in order, with their gaps.
 class MissingWatch::Axis final : public analysis::StepListener {
 public:
     Axis(const std::string& machine, const std::string& name, bool begins_late)

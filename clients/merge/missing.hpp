@@ -1,4 +1,4 @@
-// What is missing of a record, found out as it goes by: steps and runs, by the numbers of their messages.
+// Finds what is missing of a record while it is merged: steps and runs, by the numbers of their messages.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 namespace lockstep::merge {
 
 /// Steps that are in no log: those after the step at from_tick, which led to from_step, up to the one at to_tick,
-/// before which the axis stood at to_step. Ticks of machine time; steps in machine coordinates. Where from_* are none,
-/// the log lacks what the axis did first.
+/// before which the axis stood at to_step. Ticks of machine time; steps in machine coordinates. If from_* are none,
+/// the log lacks the axis's first steps.
 struct MissingSteps {
     std::string axis;
     std::int64_t messages = 0;
@@ -30,14 +30,14 @@ struct MissingSteps {
     std::optional<Tick> to_tick;
 };
 
-/// Frames and tails of which no log tells.
+/// Frames and tails that are in no log.
 struct MissingRuns {
     std::string axis;
     std::int64_t incarnation = 0;  // of the axis's process
     analysis::Numbers numbers;
 };
 
-/// What there is of one axis. Its name is that of its channel where logs of several machines are merged.
+/// The record of one axis. Its name is that of its channel if logs of several machines are merged.
 struct AxisRecord {
     std::string machine;
     std::string axis;
@@ -60,13 +60,13 @@ class MissingWatch {
 public:
     static constexpr std::size_t kListed = 1000;  // of each axis; all are counted
 
-    /// `begins_late`: what is in no log before the first message of a process was not asked for.
+    /// `begins_late`: messages before the first one of a process do not count as missing.
     explicit MissingWatch(bool begins_late);
     ~MissingWatch();
 
-    /// Whether it has not come before; what has no number never has. Messages of a channel come nearly in order.
+    /// Whether it is new; a message without a number always is. Messages of a channel come nearly in order.
     bool is_new(const MessageId& id);
-    /// To be told of each message that is new.
+    /// Call it with each new message.
     void take(const MessageId& id, const std::vector<std::uint8_t>& data);
     /// By axis. Call once, at the end.
     std::vector<AxisRecord> finish();
@@ -87,7 +87,7 @@ private:
 
     std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
-    std::map<Whose, analysis::RecordingProcess> processes_;                      // that published the numbered messages
+    std::map<Whose, analysis::RecordingProcess> processes_;                      // the process of each numbered message
     analysis::RecordEndCheck marks_;
 };
 

@@ -1,4 +1,4 @@
-// The logs that a user names: by themselves, or by the directory that they are in.
+// The logs that a user names: each one, or their directory.
 #pragma once
 
 #include <expected>

@@ -1,4 +1,4 @@
-// What a merge found, for a person and as the report that `lockstep log merge --json` prints.
+// The result of a merge, as text and as the report of `lockstep log merge --json`.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lockstep::merge {
 
-/// A table of logs, a table of axes, and a line for all that is missing or could not be read.
+/// A table of logs, a table of axes, and a line for everything that is missing or could not be read.
 std::string to_text(const Merged& merged, const std::filesystem::path& written);
 proto::MergeReport to_report(const Merged& merged, const std::filesystem::path& written);
 

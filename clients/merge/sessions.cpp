@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::RecordingProcess;
 
-/// What a log says of who was there, and of jobs.
+/// The processes and jobs in a log.
 struct Contents {
     std::set<RecordingProcess> processes;
     std::vector<job_t> jobs;               // beginnings and ends, without their documents

@@ -1,5 +1,5 @@
-// Which of many logs belong together: processes that published their record at the same time know of each other, and
-// their logs say so by marks (record_mark_t). A directory keeps the logs of all earlier sessions as well.
+// Finds logs that belong together: processes that published their record at the same time know each other, and their
+// logs show it by marks (record_mark_t). A directory also keeps the logs of all earlier sessions.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct ChosenLogs {
     std::vector<JobSpan> jobs;  // in the chosen logs, by time
 };
 
-/// The sessions of the logs that are named; where none is, the one whose logs were written last. Logs without marks are
-/// always chosen: nothing says what they belong to. `all`: every log.
+/// The sessions of the named logs; if none is named, the one whose logs were written last. Logs without marks are
+/// always chosen: their session is unknown. `all`: every log.
 std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& given, bool all);
 
 /// A program that was recorded in parts: its coordinator, and its number there.
@@ -44,14 +44,14 @@ struct ProgramInParts {
     std::int64_t program = 0;
 };
 
-/// A stretch of machine time, in microseconds; none: without that limit.
+/// A range of machine time, in microseconds; none: without that limit.
 struct TimeSpan {
     std::optional<std::int64_t> from_us;
     std::optional<std::int64_t> until_us;   // not in it
     std::optional<ProgramInParts> program;  // with all its parts, also those recorded before
 };
 
-/// The newest job of that number, with the program it runs, and the rest behind it. None: there is none.
+/// The newest job of that number, with its program, and the rest after it. None: there is none.
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job);
 
 }  // namespace lockstep::merge

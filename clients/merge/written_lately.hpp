@@ -1,4 +1,4 @@
-// The messages written of late, by time and content: what tells a message that comes again from one that is new.
+// The recently written messages, by time and content: distinguishes a repeated message from a new one.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class WrittenLately {
 public:
     explicit WrittenLately(std::int64_t span_us) : span_us_(span_us) {}
 
-    /// False: it was there already.
+    /// False: it is a repeat.
     bool add(const HeldMessage& message) {
         written_.erase(written_.begin(), written_.lower_bound({message.id.utime - span_us_, 0}));
         return written_.emplace(message.id.utime, hash_of(message)).second;

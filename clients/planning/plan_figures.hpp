@@ -1,4 +1,4 @@
-// What a plan looks like: the path in the plane of its first two axes, and each axis's planned speed.
+// The figures of a plan: the path in the plane of its first two axes, and each axis's planned speed.
 #pragma once
 
 #include "clients/drawing/figure.hpp"
@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Axes X and Y where the machine has them, else its first two; of a single axis, that over itself.
+/// Axes X and Y if the machine has them, else its first two; for a single axis, that over itself.
 drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan& plan);
 
 /// Paths follow each other without the pauses between them.

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-/// Counts for every axis of the machine: the program's start where it names the axis, else where it is parked.
+/// Counts for every axis of the machine: the program's start if it names the axis, else the park position.
 AxisCounts start_counts(const MachineConfig& machine, const Program& program) {
     AxisCounts counts;
     for (const AxisConfig& axis : machine.axes) { (void)counts.push_back(to_steps(axis, axis.homing.park_mm)); }
@@ -19,8 +19,8 @@ AxisCounts start_counts(const MachineConfig& machine, const Program& program) {
     return counts;
 }
 
-/// Steps per tick^2, at least. A phase lasts a whole number of subticks: what of its bend that rounding may account
-/// for, which is most of it in a phase of a few subticks between two corners, is no acceleration.
+/// Steps per tick^2, a lower bound. A phase lasts a whole number of subticks: the part of its change of speed that
+/// rounding may cause, which is most of it in a phase of a few subticks between two corners, is not acceleration.
 double least_acceleration(const Phase& phase) {
     const double ticks = static_cast<double>(phase.duration.value) / kSubticksPerTick;
     const double by_rounding = 2 * phase.velocity_at({}) / static_cast<double>(kSubticksPerTick) / (ticks * ticks);
@@ -44,7 +44,7 @@ double direction(const MachineConfig& machine, const PathMove* move, std::size_t
     return move == nullptr ? 0 : move->slope(i) / machine.axes[i].steps_per_mm;
 }
 
-/// Where one move meets the next, either of them null at rest: the path keeps its speed, each axis's changes at once.
+/// The joint of two moves, either of them null at rest: the path keeps its speed, each axis's changes at once.
 void add_jump(const MachineConfig& machine, const PathMove* before, const PathMove* after, ProgramPlan& plan) {
     const bool goes_on = after != nullptr && after->lead != 0;
     if (!goes_on && (before == nullptr || before->lead == 0)) { return; }
@@ -59,7 +59,7 @@ void add_jump(const MachineConfig& machine, const PathMove* before, const PathMo
     }
 }
 
-/// Where a move is planned in parts of one length and one speed each, it accelerates from part to part.
+/// If a move is planned in parts of one length and one speed each, it accelerates from part to part.
 void add_change(const MachineConfig& machine, const PathMove& before, const PathMove& part, ProgramPlan& plan) {
     const double seconds = static_cast<double>(part.profile.duration().floor().value) / machine.ticks_per_second();
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
@@ -72,7 +72,7 @@ void add_change(const MachineConfig& machine, const PathMove& before, const Path
 
 void add_move(const MachineConfig& machine, const PathMove& move, ProgramPlan& plan) {
     if (move.lead == 0) { return; }
-    plan.moves += move.part == 0 ? 1 : 0;  // the parts of one are as many moves at constant speed
+    plan.moves += move.part == 0 ? 1 : 0;  // the parts are moves at constant speed
     plan.length_mm += move.length_mm;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         AxisPlan& axis = plan.axes[i];

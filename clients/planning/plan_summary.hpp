@@ -1,4 +1,4 @@
-// What a program will do: how long it takes, how far it goes and what it asks of each axis. Nothing moves.
+// The plan of a program: its duration, its length and the load on each axis. Nothing moves.
 #pragma once
 
 #include <expected>
@@ -13,7 +13,7 @@
 
 namespace lockstep {
 
-/// Where a homed machine stands: one place in mm per axis, each on a whole step.
+/// The position of a homed machine: one place in mm per axis, each on a whole step.
 std::vector<double> parked_mm(const MachineConfig& machine);
 
 struct AxisPlan {
@@ -21,8 +21,8 @@ struct AxisPlan {
     std::int64_t steps = 0;  // both ways together
     double peak_velocity_mm_s = 0;
     double peak_acceleration_mm_s2 = 0;  // of its phases, rising or falling
-    double peak_jump_mm_s = 0;           // the most its speed changes by at once: in a corner, from and to rest
-    double min_mm = 0;                   // where it goes, its start included
+    double peak_jump_mm_s = 0;           // the largest sudden change of its speed: in a corner, from and to rest
+    double min_mm = 0;                   // the range of its positions, its start included
     double max_mm = 0;
 };
 
@@ -38,7 +38,7 @@ struct ProgramPlan {
     std::vector<AxisPlan> axes;
 };
 
-/// Plans the program as the coordinator does, from where it says that it starts.
+/// Plans the program as the coordinator does, from its start position.
 std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program);
 
 /// `lines`: of the G-code file.

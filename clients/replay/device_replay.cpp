@@ -9,10 +9,10 @@
 namespace lockstep::replay {
 namespace {
 
-constexpr std::int64_t kTick_ns = 1000;  // a name that device and driver agree on: all is counted in ticks
+constexpr std::int64_t kTick_ns = 1000;  // the same name for device and driver: everything is counted in ticks
 constexpr std::size_t kStepsAtOnce = registers::kCaptureRingEntries / 2;
 
-/// No switch within reach.
+/// An axis without a switch within reach.
 AxisConfig endless_axis() {
     constexpr double kFar_mm = 1e15;
     AxisConfig axis;
@@ -23,7 +23,7 @@ AxisConfig endless_axis() {
     return axis;
 }
 
-/// What no frame carries is left out: the device does not come to where the record has it.
+/// Pieces beyond a frame's capacity are left out: then the device does not end at the recorded count.
 void copy_pieces(const Run& run, auto& pieces) {
     for (const Piece& piece : run.pieces) { (void)pieces.push_back(piece); }
 }
@@ -65,12 +65,12 @@ void DeviceReplay::on_run(const Run& run) {
     held_ = run;
 }
 
-/// False: the run is passed over, since a device that has just been powered up is at rest on a whole step.
+/// False: the run is skipped, since a device that has just been powered up is at rest on a whole step.
 bool DeviceReplay::power_up(const Run& run) {
     if (hardware_ && incarnation_ == run.incarnation) { return true; }
     if (run.tail || !starts_from_rest(run)) {
         findings_.notes.push_back("axis " + axis_ + ": " + name_of(run) +
-                                  " is passed over: what brought the axis to where it begins is not on record");
+                                  " is skipped: the motion to its start is not on record");
         return false;
     }
     hardware_ = std::make_unique<Hardware>(run.start - Ticks{1});
@@ -100,7 +100,7 @@ void DeviceReplay::on_end() {
     if (held_) { end_motion(); }
 }
 
-/// The frame held, with the tail it fell to, as the driver writes it. Arms it.
+/// Writes the held frame, with its tail, as the driver does. Arms it.
 void DeviceReplay::load_frame(bool is_last) {
     const std::int64_t to_device = held_->zero_count - count_at_power_up_;
     device::LoadFrame frame{++frame_, held_->start, is_last, {}};
@@ -111,7 +111,7 @@ void DeviceReplay::load_frame(bool is_last) {
     order(device::Arm{frame_});
 }
 
-/// Takes what the device made every so many steps, before its capture ring is full.
+/// Reads the device's steps every so many steps, before its capture ring is full.
 void DeviceReplay::play(Tick until) {
     const auto advance = [this](Tick to) {
         hardware_->device.advance(to);
@@ -140,7 +140,7 @@ void DeviceReplay::take(StepEdge made) {
     on_step_(step);
 }
 
-/// Nothing follows the frame held, but its tail.
+/// The held frame is followed only by its tail.
 void DeviceReplay::end_motion() {
     load_frame(!tail_);
     const Run& last = tail_ ? *tail_ : *held_;

@@ -1,6 +1,6 @@
-// One axis's recorded runs, given to a simulated device as its process gave them: written into the registers by the
-// driver, frame by frame with their tails, armed, and executed by the device alone. Where pulses ceased early, by a
-// switch or a stop, the host stops the device there: the log does not know the switches.
+// One axis's recorded runs on a simulated device: written into the registers by the driver, frame by frame with their
+// tails, armed, and executed by the device alone. If pulses ceased early, by a switch or a stop, the host stops the
+// device there: the log does not contain the switches.
 //
 // A device is powered up for each process on record, at its first motion from rest.
 #pragma once
@@ -23,7 +23,7 @@ using analysis::Run;
 struct MadeStep {
     StepEdge edge;
     Tick commanded;                // machine time
-    Ticks clock_error;             // of the run it is of
+    Ticks clock_error;             // of its run
     std::int64_t count = 0;        // after it, machine coordinates
     std::int64_t incarnation = 0;  // of the process on record
 };
@@ -32,7 +32,7 @@ class DeviceReplay final : public verification::RunFollower {
 public:
     using OnStep = std::function<void(const MadeStep&)>;
 
-    /// Counts the steps and runs into `findings`, and says there where the device does not as recorded.
+    /// Counts the steps and runs into `findings`, and reports there each difference from the record.
     DeviceReplay(std::string axis, verification::Findings& findings, OnStep on_step);
     ~DeviceReplay() override;
 
@@ -66,11 +66,11 @@ private:
     std::int64_t count_at_power_up_ = 0;  // of the device on record
     std::uint64_t motion_ = 0;            // the device's number for it
     FrameNumber frame_ = 0;               // of the motion, loaded last
-    std::optional<Run> held_;             // to be loaded when it is known what follows
-    std::optional<Run> tail_;             // that it fell to
-    std::optional<Run> newest_;           // that is being told; none: passed over
-    std::int64_t count_ = 0;              // machine coordinates, as its steps are told
-    std::optional<Tick> newest_step_;     // of it
+    std::optional<Run> held_;             // to be loaded when its successor is known
+    std::optional<Run> tail_;             // after the frame
+    std::optional<Run> newest_;           // the run being played; none: skipped
+    std::int64_t count_ = 0;              // machine coordinates, by its steps
+    std::optional<Tick> newest_step_;     // of that run
     std::deque<ExpectedStep> expected_;
 };
 

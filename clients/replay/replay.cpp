@@ -14,7 +14,7 @@ namespace {
 
 using analysis::LogPlace;
 
-/// Hands every message to the check, and all but steps to the replay's own log.
+/// Passes every message to the check, and all but steps to the replay's own log.
 class ReplayListener final : public analysis::LogListener {
 public:
     explicit ReplayListener(RecordSink* made) {
@@ -69,7 +69,7 @@ std::expected<Findings, std::string> replay_log(const std::filesystem::path& log
     if (!events) { return std::unexpected(events.error()); }
     Findings findings = listener.finish();
     if (findings.going() && findings.runs == 0) {
-        return std::unexpected(log.string() + ": no run is in it that could be replayed");
+        return std::unexpected(log.string() + ": it contains no run to replay");
     }
     return findings;
 }

@@ -1,8 +1,8 @@
-// A recorded run, given to simulated devices again: whether what each device was given makes the steps on record.
+// Replays a recorded run on simulated devices: checks that the recorded frames make the recorded steps.
 //
 // The frames on record are written into a device's registers by the driver and executed by the device alone; each of
-// its steps must be the recorded one, at its tick. Nothing is planned: `lockstep verify` does that. So this tells a
-// device that does not as it is told from a plan that is not as it should be.
+// its steps must be the recorded one, at its tick. Nothing is planned: `lockstep verify` does that. So this
+// distinguishes an error of the device from an error of the plan.
 #pragma once
 
 #include <expected>
@@ -18,8 +18,8 @@ namespace lockstep::replay {
 
 using verification::Findings;
 
-/// `made`: where the replay's own log goes; null: nowhere. Error: the file is no log, or no run is in it. `progress`
-/// hears 0 ... 1 now and then.
+/// `made`: the destination of the replay's own log; null: none. Error: the file is not a log, or contains no run.
+/// `progress` is called with 0 ... 1 now and then.
 std::expected<Findings, std::string> replay_log(const std::filesystem::path& log, RecordSink* made,
                                                 const std::function<void(double)>& progress = {});
 

@@ -21,7 +21,7 @@ public:
     ReplayedSteps(const std::string& machine, const std::string& axis, RecordSink& sink);
 
     void take(const MadeStep& step);
-    /// Microseconds of machine time, as far as the recorded log has come.
+    /// Microseconds of machine time, as far as the recorded log was read.
     void set_time(std::int64_t utime) { utime_ = utime; }
     void finish();
 
@@ -39,7 +39,7 @@ private:
     MadeStep last_;
 };
 
-/// Everything recorded but steps goes through it unchanged.
+/// Passes everything but steps through unchanged.
 class ReplayedLog {
 public:
     explicit ReplayedLog(RecordSink& sink) : sink_(sink) {}

@@ -12,14 +12,14 @@
 namespace lockstep::incident {
 namespace {
 
-/// The cause is said above.
+/// The cause is shown above.
 std::string story_list(const proto::IncidentReport& report) {
     std::string out;
     for (int i = 1; i < report.story_size(); ++i) { out += "<li>" + drawing::escape_xml(report.story(i)) + "</li>"; }
     return out;
 }
 
-/// The log's curves, and what is to be added to their seconds: theirs begin with the log's first step.
+/// The log's curves, and the offset of their seconds, which begin with the log's first step.
 std::string log_charts(const proto::IncidentReport& report, const analysis::Analysis* log) {
     if (log == nullptr || !log->first_tick()) { return "null"; }
     std::string charts = analysis::page_charts(*log);
@@ -34,7 +34,7 @@ std::string to_html(const proto::IncidentReport& report, const analysis::Analysi
     return analysis::filled(analysis::kIncidentTemplate,
                             {{"TITLE", drawing::escape_xml(report.machine() + ": incident")},
                              {"SUBTITLE", drawing::escape_xml(fmt::format(
-                                              "written down {} \u00b7 {} processes \u00b7 {} notes", report.written(),
+                                              "recorded {} \u00b7 {} processes \u00b7 {} notes", report.written(),
                                               report.processes_size(), report.events_size()))},
                              {"CAUSE", drawing::escape_xml(cause)},
                              {"STORY", story_list(report)},

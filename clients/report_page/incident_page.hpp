@@ -1,5 +1,5 @@
-// An incident as one HTML page that needs nothing else: a lane for each process, how the axes moved, all that was
-// noted.
+// An incident as one self-contained HTML page: a lane for each process, the motion of the axes, all
+// events.
 #pragma once
 
 #include <expected>
@@ -12,7 +12,7 @@
 
 namespace lockstep::incident {
 
-/// `log`: of the run, for the curves; null: they are drawn from what the axes noted ten times a second.
+/// `log`: of the run, for the curves; null: they are drawn from the axes' notes, ten per second.
 std::string to_html(const proto::IncidentReport& report, const analysis::Analysis* log);
 
 /// The error names the file and the reason.

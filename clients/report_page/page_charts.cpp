@@ -20,7 +20,7 @@ public:
         std::isfinite(value) ? void(fmt::format_to(std::back_inserter(out_), "{:.9g}", value)) : text("null");
     }
     void key(std::string_view name) { fmt::format_to(std::back_inserter(out_), "\"{}\":", name); }
-    /// Of names that need no escapes.
+    /// For names that need no escapes.
     void word(std::string_view value) { fmt::format_to(std::back_inserter(out_), "\"{}\"", value); }
     template <typename Range, typename Write>
     void list(const Range& values, Write&& write) {
@@ -52,7 +52,7 @@ std::vector<Kind> kinds(const Analysis& analysis) {
     return {{"speed", "speed", "/s", speed_curves(analysis)},
             {"acceleration", "acceleration", "/s\u00b2", acceleration_curves(analysis)},
             {"position", "position", "", position_curves(analysis)},
-            {"step time error", "lateness of its steps against the ticks commanded", "", lateness_curves(analysis)},
+            {"step time error", "lateness of its steps against the commanded ticks", "", lateness_curves(analysis)},
             {"slack", "slack: how long before its start the latest frame came", "", slack_curves(analysis)}};
 }
 

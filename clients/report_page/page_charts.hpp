@@ -1,4 +1,4 @@
-// What the report page draws, as JSON: rows over time of every axis, the path, how far steps were from their times.
+// The data that the report page draws, as JSON: rows over time of every axis, the path, how far steps were from their
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What pages are put together with.
+// Functions to assemble pages.
 #pragma once
 
 #include <map>
@@ -7,10 +7,10 @@
 
 namespace lockstep::analysis {
 
-/// JSON that may stand within a page: no tag begins or ends in it.
+/// JSON that is safe within a page: no tag begins or ends in it.
 std::string within_page(std::string json);
 
-/// The template with each @NAME@ replaced by its text, once over: what is put in is not looked at again.
+/// The template with each @NAME@ replaced by its text, in one pass: inserted texts are not searched again.
 std::string filled(std::string_view page, const std::map<std::string_view, std::string>& texts);
 
 }  // namespace lockstep::analysis

@@ -1,4 +1,4 @@
-// The pages before their data are put in: made of the files in web/ when the command is built.
+// The pages before their data are inserted: made of the files in web/ when the command is built.
 #pragma once
 
 #include <string_view>

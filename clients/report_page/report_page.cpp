@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "clients/analysis/analysis_text.hpp"
+#include "clients/analysis/findings.hpp"
 #include "clients/analysis/record_state.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/verdict.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/report_page/page_charts.hpp"
 #include "clients/report_page/page_parts.hpp"
@@ -36,7 +36,7 @@ std::string to_html(const Analysis& analysis) {
                   {{"TITLE", drawing::escape_xml(analysis.machine + ": " + analysis.log.filename().string())},
                    {"SUBTITLE", drawing::escape_xml(in_a_line(analysis))},
                    {"RECORD", drawing::escape_xml(to_text(record_state(analysis)))},
-                   {"GRADE", std::string(name_of(verdict(found)))},
+                   {"GRADE", std::string(name_of(worst_grade(found)))},
                    {"FINDINGS", findings_list(found)},
                    {"REPORT", within_page(report_json(to_report(analysis)))},
                    {"CHARTS", within_page(page_charts(analysis))}});
@@ -53,7 +53,7 @@ bool may_replace(const std::filesystem::path& path) {
 
 std::string in_the_way(const std::filesystem::path& path) {
     return path.string() +
-           ": is there already and is no report, so it is left as it is; name another file with --html FILE";
+           ": exists already and is not a report, so it is not replaced; name another file with --html FILE";
 }
 
 std::expected<void, std::string> write_html(const Analysis& analysis, const std::filesystem::path& path) {

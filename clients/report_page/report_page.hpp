@@ -1,4 +1,4 @@
-// An analysis as one HTML page that needs nothing else: what was asked and made, charts to zoom into, what went wrong.
+// An analysis as one self-contained HTML page: commanded and made motion, charts to zoom into, errors.
 #pragma once
 
 #include <expected>
@@ -11,10 +11,10 @@ namespace lockstep::analysis {
 
 std::string to_html(const Analysis& analysis);
 
-/// Whether a report may be written there: nothing is there yet, or a report.
+/// Whether a report may be written there: the path is free, or a report.
 bool may_replace(const std::filesystem::path& path);
 
-/// Why not, where it may not.
+/// The reason why it may not.
 std::string in_the_way(const std::filesystem::path& path);
 
 /// The error names the file and the reason.

@@ -1,4 +1,4 @@
-// The machine that a command is about, with its file.
+// The machine of a command, with its file.
 #pragma once
 
 #include <cstdint>

@@ -33,11 +33,11 @@ std::string missing_axes(const Session& session) {
 }
 
 std::string late_text(const Session& session, CommandKind command) {
-    if (!session.state()) { return "the machine has not said its state yet; see: lockstep status"; }
+    if (!session.state()) { return "the machine has not published its state yet; see: lockstep status"; }
     const std::string still = "the machine is still " + std::string(name_of(session.state()->state.phase)) + " after " +
                               std::to_string(kPatience.count()) + " s";
     const std::string missing = missing_axes(session);
-    if (!missing.empty()) { return still + ": not heard: " + missing + "; start it, or see its log"; }
+    if (!missing.empty()) { return still + ": not received: " + missing + "; start it, or see its log"; }
     return still + (command == CommandKind::Reset ? "; see: lockstep status" : "; cease all pulses: lockstep estop");
 }
 
@@ -47,8 +47,8 @@ std::expected<MachinePhase, std::string> await_effect(Session& session, CommandK
     const auto replied = monotonic_now();
     const auto slot = std::chrono::microseconds{session.config().timing.slot_us};
     const auto is_shown = [&] {
-        const auto& heard = session.state();
-        return heard && heard->time > replied + slot && shows_effect(command, heard->state.phase);
+        const auto& received = session.state();
+        return received && received->time > replied + slot && shows_effect(command, received->state.phase);
     };
     while (!is_shown() && monotonic_now() - replied < kPatience) { session.receive(50ms); }
     if (!is_shown()) { return std::unexpected(late_text(session, command)); }

@@ -40,7 +40,7 @@ std::expected<void, std::string> check_feed(const MoveOptions& options) {
 
 std::expected<void, std::string> check_own(const MachineConfig& machine, const MoveOptions& options) {
     if (options.own && options.feed_mm_min) {
-        return std::unexpected(std::string("--feed is along the line of all axes; with --own there is none"));
+        return std::unexpected(std::string("--feed is along the line of all axes; --own moves have no common line"));
     }
     if (!options.own && options.in_s) {
         return std::unexpected(std::string("--in is for axes on their own: add --own, or give a --feed"));

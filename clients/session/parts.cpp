@@ -5,7 +5,7 @@
 namespace lockstep {
 namespace {
 
-constexpr const char* kAbsent = "not there";
+constexpr const char* kAbsent = "absent";
 
 bool is_present(const std::vector<PresentProcess>& present, std::optional<std::size_t> axis) {
     return std::ranges::any_of(present, [&](const PresentProcess& process) {
@@ -23,10 +23,10 @@ proto::AwaitedPart awaited(const std::string& name, const std::string& host, con
 
 /// Of an axis that is not received everywhere.
 std::string axis_state(const MachineConfig& machine, const KnownParts& known, std::size_t axis) {
-    if (has_axis(known.axes_present, axis)) { return "started, not heard by the coordinator"; }
+    if (has_axis(known.axes_present, axis)) { return "started, not received by the coordinator"; }
     if (!is_present(known.present, axis)) { return kAbsent; }
     const bool lacks_time = machine.timing.time_source == TimeSource::Network;
-    return lacks_time ? "started, waits for the coordinator's clock" : "started, not heard";
+    return lacks_time ? "started, waits for the coordinator's clock" : "started, not received";
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, cons
     if (!known.coordinator_present) {
         const bool is_there = is_present(known.present, std::nullopt);
         parts.push_back(
-            awaited(part_name(machine, {}), machine.coordinator_host, is_there ? "started, not heard" : kAbsent));
+            awaited(part_name(machine, {}), machine.coordinator_host, is_there ? "started, not received" : kAbsent));
     }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const bool is_known = !known.coordinator_present || has_axis(known.axes_present_at_coordinator, i);

@@ -29,7 +29,7 @@ std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, cons
 
 void add_awaited(const Session& session, proto::StatusReport& report);
 
-/// A line for each; empty where none is awaited.
+/// A line for each; empty if none is awaited.
 std::string awaited_text(const proto::StatusReport& report);
 
 }  // namespace lockstep

@@ -17,7 +17,7 @@ std::string record_loss_text(const proto::StatusReport& status) {
     for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), axis.health().lost_records()); }
     if (text.empty()) { return text; }
     return "record: messages that were not written or sent: " + text +
-           "; is the disk of the record full? their logs name it; lockstep log merge says what is missing";
+           "; is the disk of the record full? their logs name it; lockstep log merge lists the missing messages";
 }
 
 }  // namespace lockstep

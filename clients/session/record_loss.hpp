@@ -10,7 +10,7 @@ namespace lockstep {
 
 /// Of all processes that are received, since the start of each.
 std::uint64_t lost_records(const proto::StatusReport& status);
-/// Which processes lost how many, and what to do; empty: none did.
+/// Which processes lost how many, and the remedy; empty: none did.
 std::string record_loss_text(const proto::StatusReport& status);
 
 }  // namespace lockstep

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-/// Faults that are the machine's: no one axis has them.
+/// Faults of the machine: they belong to no single axis.
 bool is_of_an_axis(FaultCode fault) {
     return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
            fault != FaultCode::SecondCoordinator;
@@ -81,12 +81,12 @@ proto::StatusReport status_report(const Session& session) {
     proto::StatusReport report;
     const MachineConfig& machine = session.config();
     report.set_machine(machine.name);
-    if (const auto& heard = session.state()) {
-        fill(report, heard->state, machine);
-        report.set_lost_records(heard->state.lost_records);
-        report.set_participant_reopened(heard->state.process.reopened);
-        report.set_lost_log_lines(heard->state.process.lost_log_lines);
-        report.set_age_ms(static_cast<double>((monotonic_now() - heard->time).count()) * 1e-6);
+    if (const auto& received = session.state()) {
+        fill(report, received->state, machine);
+        report.set_lost_records(received->state.lost_records);
+        report.set_participant_reopened(received->state.process.reopened);
+        report.set_lost_log_lines(received->state.process.lost_log_lines);
+        report.set_age_ms(static_cast<double>((monotonic_now() - received->time).count()) * 1e-6);
     }
     report.set_standby(session.has_standby());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

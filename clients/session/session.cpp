@@ -22,7 +22,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kRepeatCommandAfter = 250ms;
 constexpr nanoseconds kAnswerPatience = 3s;
 constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
-constexpr nanoseconds kAbsentPatience = 500ms;  // for one that it does not
+constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
 constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
 
 static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
@@ -89,7 +89,7 @@ std::expected<void, Failure> Session::reach_axes() {
         while (!axis_present(i)) {
             if (monotonic_now() > deadline) {
                 return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
-                                                   "' is not heard; start its lockstep-axis, or see its log"));
+                                                   "' is not received; start its lockstep-axis, or see its log"));
             }
             receive(50ms);
         }
@@ -185,7 +185,7 @@ std::string Session::present_axes() const {
 }
 
 Failure Session::silent() const {
-    const std::string refused = last_dds_message().empty() ? "" : " (DDS says: " + last_dds_message() + ")";
+    const std::string refused = last_dds_message().empty() ? "" : " (DDS reports: " + last_dds_message() + ")";
     const std::string none = "no coordinator of " + place_text() + refused;
     if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
         const std::string waiting = present_axes();

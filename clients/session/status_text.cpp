@@ -16,7 +16,7 @@ constexpr std::size_t kBarWidth = 30;
 
 int percent(const proto::StatusReport& status) { return static_cast<int>(std::floor(status.progress() * 100)); }
 
-/// What is known of the job in motion, each part after a separator.
+/// The known values of the job in motion, each part after a separator.
 std::string job_parts(const proto::StatusReport& status, const std::string& separator) {
     std::string text;
     if (status.has_line()) { text += separator + "line " + std::to_string(status.line()); }
@@ -34,18 +34,18 @@ std::string headline(const proto::StatusReport& status) {
 std::string row(const std::string& name, const std::string& position, const std::string& velocity,
                 const std::string& state, const std::string& homed) {
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%-16s %14s %14s   %-11s %s", name.c_str(), position.c_str(),
+    std::snprintf(text.data(), text.size(), "%-16s %14s %14s   %-12s %s", name.c_str(), position.c_str(),
                   velocity.c_str(), state.c_str(), homed.c_str());
     return text.data() + std::string("\n");
 }
 
 std::string axis_row(const proto::AxisStatus& axis) {
-    if (!axis.has_position_mm()) { return row(axis_label(axis.name()), "-", "-", "not heard", "-"); }
+    if (!axis.has_position_mm()) { return row(axis_label(axis.name()), "-", "-", "not received", "-"); }
     return row(axis_label(axis.name()), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
-               axis.present() ? axis.state() : "not heard", axis.homed() ? "yes" : "no");
+               axis.present() ? axis.state() : "not received", axis.homed() ? "yes" : "no");
 }
 
-/// Where axes have clocks of their own: how far each may be off.
+/// If axes have their own clocks: the maximum error of each.
 std::string clock_line(const proto::StatusReport& status) {
     std::string text;
     for (const proto::AxisStatus& axis : status.axes()) {
@@ -56,7 +56,7 @@ std::string clock_line(const proto::StatusReport& status) {
     return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
 }
 
-/// Why axes are not homed, where there is a reason that is not seen at once.
+/// The reason why axes are not homed, if it is not obvious.
 std::string unproved_lines(const proto::StatusReport& status) {
     std::string text;
     for (const proto::AxisStatus& axis : status.axes()) {
@@ -71,7 +71,7 @@ std::string unproved_lines(const proto::StatusReport& status) {
     return text;
 }
 
-/// "label: coordinator 2, X 1", of those that counted something; nothing where none did. of_axis: gives an axis's
+/// "label: coordinator 2, X 1", of those with a count above 0; nothing if there is none. of_axis: returns an axis's
 /// count.
 template <typename OfAxis>
 std::string count_line(const std::string& label, std::uint64_t coordinator, const proto::StatusReport& status,
@@ -93,7 +93,7 @@ std::string process_lines(const proto::StatusReport& status) {
                       [](const Health& health) { return health.lost_log_lines(); });
 }
 
-/// A directory is not broken over lines: it is to be copied.
+/// A directory is not broken over lines, so that it can be copied.
 std::string incidents_text(const proto::Incidents& incidents) {
     return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
            "\nread them: lockstep analyze --incident " + incidents.directory() + "\n";
@@ -102,10 +102,10 @@ std::string incidents_text(const proto::Incidents& incidents) {
 }  // namespace
 
 std::string age_text(const proto::StatusReport& status) {
-    if (!status.has_age_ms()) { return "no coordinator heard"; }
+    if (!status.has_age_ms()) { return "no coordinator received"; }
     const double age_ms = status.age_ms();
     const std::string age = age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000);
-    return "heard " + age + " ago" + (status.standby() ? ", a standby is ready" : "");
+    return "received " + age + " ago" + (status.standby() ? ", a standby is ready" : "");
 }
 
 std::string status_text(const proto::StatusReport& status) {
@@ -115,9 +115,9 @@ std::string status_text(const proto::StatusReport& status) {
     text += clock_line(status) + unproved_lines(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
     for (const proto::AxisStatus& axis : status.axes()) {
-        const bool is_said = status.has_fault() && status.fault().number() == axis.fault().number() &&
-                             status.fault().axis() == axis.name();
-        if (axis.has_fault() && !is_said) { text += fault_text(axis.fault()) + "\n"; }
+        const bool is_printed = status.has_fault() && status.fault().number() == axis.fault().number() &&
+                                status.fault().axis() == axis.name();
+        if (axis.has_fault() && !is_printed) { text += fault_text(axis.fault()) + "\n"; }
     }
     if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
     text += process_lines(status);
@@ -151,7 +151,7 @@ std::string homing_text(const proto::StatusReport& status) {
     for (const proto::AxisStatus& axis : status.axes()) {
         const std::string state = axis.homed()     ? "homed at " + fixed(axis.position_mm(), 3)
                                   : axis.present() ? axis.state()
-                                                   : "not heard";
+                                                   : "not received";
         text += (text.empty() ? "" : "   ") + axis.name() + " " + state;
     }
     return text;

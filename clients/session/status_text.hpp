@@ -10,17 +10,17 @@ namespace lockstep {
 /// A block of lines: the machine, a table of the axes, the faults with what to do.
 std::string status_text(const proto::StatusReport& status);
 
-/// "heard 4 ms ago", of the coordinator, and whether a standby is.
+/// "received 4 ms ago", of the coordinator, and whether a standby is.
 std::string age_text(const proto::StatusReport& status);
-/// "feed 60 %, rapid 100 %"; empty where all is as programmed.
+/// "feed 60 %, rapid 100 %"; empty if all is as programmed.
 std::string overrides_text(const proto::StatusReport& status);
 /// One line: "[######              ]  30 %  line 12  4.2 s left".
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".
 std::string progress_text(const proto::StatusReport& status);
-/// One line: "X homed at 12.000   Y Initialize"; before it is homed an axis's position means nothing.
+/// One line: "X homed at 12.000   Y Initialize"; an axis that is not homed has no known position.
 std::string homing_text(const proto::StatusReport& status);
-/// "not homed: X, Y; home: lockstep home"; empty where every axis is homed.
+/// "not homed: X, Y; home: lockstep home"; empty if every axis is homed.
 std::string unhomed_text(const proto::StatusReport& status);
 /// "X 12.000  Y 3.250", of final positions.
 std::string places_text(const proto::RunReport& report);

@@ -9,7 +9,7 @@ MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
     vm.observe(*this);
 }
 
-/// An axis says who it is in its first loop; what it finds in its device then, another process had it do.
+/// An axis publishes its identity in its first loop; steps that it finds in its device before are another process's.
 void MachineRecorder::on_step(std::size_t axis, StepEdge step) {
     axes_[axis] ? axes_[axis]->step(step) : found_[axis].push_back(step);
     ++steps_;
@@ -50,7 +50,7 @@ void MachineRecorder::note_owner(MachineState state) {
     }
 }
 
-/// A process that crashes takes with it what it has not said.
+/// A process that crashes loses what it has not published.
 void MachineRecorder::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
     const bool crashes = fault.kind == VirtualFault::Kind::Crash && begins;
     if (crashes && fault.process < axes_.size()) { axes_[fault.process].reset(); }

@@ -20,7 +20,7 @@ public:
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
-    /// At the end: what is still in hand.
+    /// At the end: writes what is buffered.
     void finish();
 
     std::int64_t steps() const { return steps_; }
@@ -30,8 +30,8 @@ private:
 
     MachineConfig machine_;
     RecordSink& sink_;
-    std::vector<std::unique_ptr<AxisRecorder>> axes_;  // made when the axis's process says who it is
-    std::vector<std::vector<StepEdge>> found_;         // by a process before it has said so
+    std::vector<std::unique_ptr<AxisRecorder>> axes_;  // created when the axis's process publishes its identity
+    std::vector<std::vector<StepEdge>> found_;         // by a process before it has published it
     Identity owner_ = 0;                               // whose jobs are recorded
     std::unique_ptr<JobRecorder> jobs_;                // likewise
     Tick now_;

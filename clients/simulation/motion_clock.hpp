@@ -1,4 +1,4 @@
-// How long a job's epochs are in motion, from what the coordinator and the axes say.
+// How long a job's epochs are in motion, from the outputs of the coordinator and the axes.
 #pragma once
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Ticks kTurn{1'000'000};  // how far the machine runs between two looks at it
+constexpr Ticks kTurn{1'000'000};  // how far the machine runs between two checks of it
 constexpr std::uint64_t kProgram = 1;
 
 class Simulation {
@@ -34,10 +34,10 @@ private:
     MotionClock clock_;
     MachineRecorder recorder_;
     const SimulationHooks& hooks_;
-    std::string trouble_;  // of the command asked last
+    std::string trouble_;  // of the last command
 };
 
-/// False: the caller gave up.
+/// False: the caller cancelled.
 bool Simulation::advance_while(const std::function<bool()>& busy) {
     while (busy()) {
         vm_.advance_until([&] { return !busy(); }, kTurn);
@@ -47,7 +47,7 @@ bool Simulation::advance_while(const std::function<bool()>& busy) {
     return true;
 }
 
-/// The reply, once the machine's state tells of its effect; null: the caller gave up.
+/// The reply, once the machine's state shows its effect; null: the caller cancelled.
 const Reply* Simulation::ask(CommandKind kind, std::uint64_t program) {
     const std::uint64_t sequence = vm_.command(kind, 0, program);
     if (!advance_while([&] { return vm_.reply_to(sequence) == nullptr; })) { return nullptr; }
@@ -58,7 +58,7 @@ const Reply* Simulation::ask(CommandKind kind, std::uint64_t program) {
     return reply;
 }
 
-/// To the job's end, resuming it wherever it pauses. False: the caller gave up.
+/// Runs to the job's end, resuming it at each pause. False: the caller cancelled.
 bool Simulation::do_job(CommandKind kind, std::uint64_t program) {
     const Reply* reply = ask(kind, program);
     if (reply == nullptr || reply->status == ReplyStatus::Refused) { return reply != nullptr; }
@@ -97,7 +97,7 @@ SimulationResult Simulation::finish(SimulationResult result) {
 }
 
 std::expected<SimulationResult, std::string> Simulation::run(const Program& program) {
-    const auto given_up = [] { return std::unexpected(std::string("given up before its end")); };
+    const auto given_up = [] { return std::unexpected(std::string("cancelled before its end")); };
     SimulationResult result;
     const Tick power_up = vm_.now();
     double computing_s = stopwatch();

@@ -19,7 +19,7 @@
 
 namespace lockstep {
 
-/// What a stage of the simulation took: in the machine's time, and in this computer's.
+/// The duration of a stage of the simulation: in the machine's time, and in this computer's.
 struct SimulatedStage {
     double machine_s = 0;
     double computing_s = 0;
@@ -31,7 +31,7 @@ struct SimulationResult {
     JobOutcome outcome = JobOutcome::Failed;
     FaultCode fault = FaultCode::None;
     std::optional<std::size_t> fault_axis;
-    std::string trouble;                     // in words; empty where all went well
+    std::string trouble;                     // as text; empty if there was none
     Ticks motion;                            // of the program's motion, pauses left out
     std::vector<std::int64_t> final_counts;  // machine coordinates, steps
     std::int64_t steps = 0;                  // of all axes, homing included
@@ -42,12 +42,12 @@ struct SimulationResult {
 struct SimulationHooks {
     /// 0 ... 1 of the program, now and then. False: give up.
     std::function<bool(double)> progress;
-    /// Seconds of this computer's time, from any origin: for the figures of SimulatedStage alone.
+    /// Seconds of this computer's time, from any origin: only for the figures of SimulatedStage.
     std::function<double()> stopwatch;
 };
 
-/// Powers up, homes all axes, runs the program through its pauses. The error: given up by the caller's wish, or the
-/// machine's configuration lets it come nowhere. A program that fails is a result, and is recorded.
+/// Powers up, homes all axes, runs the program through its pauses. The error: cancelled by the caller, or the machine's
+/// configuration prevents it. A program that fails is a result, and is recorded.
 std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, const Program& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {});
 

@@ -33,7 +33,7 @@ void route_multicast(const NetworkConfig& network, Output& output) {
     if (network.interface == "lo") {
         if (const auto route = ensure_loopback_multicast(); !route) { output.warn(route.error()); }
     }
-    if (const auto may = check_multicast(network); !may) { output.warn("nothing is recorded: " + may.error()); }
+    if (const auto may = check_multicast(network); !may) { output.warn("the record is not published: " + may.error()); }
 }
 
 void warn_of_directory(const std::string& lost, const std::filesystem::path& path, const std::string& key,
@@ -47,11 +47,11 @@ void warn_of_directory(const std::string& lost, const std::filesystem::path& pat
 /// The services find the same, but report it only in their logs.
 void warn_of_directories(const MachineConfig& machine, const Placement& placed, Output& output) {
     if (machine.record.own_logs) {
-        warn_of_directory("no log of its own is kept by any process here", own_log_directory(machine),
-                          "record { directory }", output);
+        warn_of_directory("no process here keeps its own log", own_log_directory(machine), "record { directory }",
+                          output);
     }
     if (placed.axes.empty()) { return; }
-    warn_of_directory("no position is kept", position_file(machine, placed.axes.front()).parent_path(),
+    warn_of_directory("positions are not kept", position_file(machine, placed.axes.front()).parent_path(),
                       "position_directory", output);
 }
 
@@ -106,7 +106,7 @@ std::string with_log(const std::string& what, const std::string& process, const 
     return what + (tail.empty() ? "; its log " + log + " is empty" : "; the end of its log " + log + ":\n" + tail);
 }
 
-/// A process that is given up, or a part that others run; nothing while all may still be well.
+/// An error of a process that was given up, or of a part that runs elsewhere; nothing while the start may succeed.
 std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts& parts, const StateDirectory& state,
                                    const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
     for (const ProcessRecord& process : state.recorded()) {
@@ -118,7 +118,7 @@ std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts&
     return foreign_part(machine, parts.placed, supervisor, present);
 }
 
-/// What is still missing when patience ends.
+/// The parts that are still missing when patience ends.
 Failure missing(const Session& session, const OwnParts& parts, const StateDirectory& state) {
     const auto present = session.present();
     const auto recorded = state.recorded();
@@ -126,11 +126,11 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
         if (are_present({line}, recorded, present)) { continue; }
         return failed(with_log(line.name + " does not come to the network", line.name, state));
     }
-    if (!session.state()) { return failed(with_log("the coordinator is not heard", "coordinator", state)); }
+    if (!session.state()) { return failed(with_log("the coordinator is not received", "coordinator", state)); }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
         const std::string& name = session.config().axes[i].name;
         if (!has_axis(session.state()->state.axes_present, i)) {
-            return failed(with_log("axis " + name + " is not heard", "axis-" + name, state));
+            return failed(with_log("axis " + name + " is not received", "axis-" + name, state));
         }
     }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
@@ -143,7 +143,7 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     return failed(with_log("the machine does not become idle", "coordinator", state));
 }
 
-/// Of a machine on several hosts; empty: every part has one.
+/// For a machine on several hosts; empty: every part has one.
 std::string part_without_host(const MachineConfig& machine) {
     if (hosts_of(machine).size() < 2) { return ""; }
     if (machine.coordinator_host.empty()) { return part_name(machine, {}); }
@@ -164,8 +164,8 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
     }
     if (const std::string part = part_without_host(machine.config); !part.empty()) {
         return std::unexpected(bad_input(machine.file.string() + ": " + part +
-                                         " has no host, but other parts have; up " +
-                                         "would start it on each of them: name its host"));
+                                         " has no host, but other parts have one; up " +
+                                         "would start it on each of them: set its host"));
     }
     const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }

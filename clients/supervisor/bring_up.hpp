@@ -1,4 +1,4 @@
-// Starts a machine's processes on this host, and waits until they can be used.
+// Starts a machine's processes on this host, and waits until they are ready.
 #pragma once
 
 #include <expected>
@@ -20,7 +20,7 @@ struct OwnParts {
     std::vector<ServiceLine> lines;
 };
 
-/// Routes multicast and claims the state directory, with a copy of the configuration in it; warns where the record
+/// Routes multicast and claims the state directory, with a copy of the configuration in it; warns if the record
 /// or positions cannot be kept. Error: the machine is up already, or a program or the directory is missing.
 std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Layout& layout,
                                          const StateDirectory& state, Output& output);

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-/// What living processes noted, read as they run, or stand still: they need do nothing for it.
+/// Writes the notes of living processes; they run on, or stand still, and need not cooperate.
 void write_living(const std::filesystem::path& rings, const MachineConfig& machine, proto::FlightReport& report) {
     for (const auto& path : rings_in(rings)) {
         const auto snapshot = read_ring(path);

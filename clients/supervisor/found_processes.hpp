@@ -1,4 +1,4 @@
-// Finds a machine's processes in the process table of this host, for when the record of them is damaged or lost.
+// Finds a machine's processes in the process table of this host, if the record of them is damaged or lost.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace lockstep {
 std::vector<ProcessRecord> found_processes(const std::filesystem::path& machine_file,
                                            const std::filesystem::path& lock);
 
-/// What a service is called in the record, by its command line; empty: it is no service of this machine file. Pure.
+/// The name of a service in the record, from its command line; empty: it is no service of this machine file. Pure.
 std::string service_name(const std::vector<std::string>& words, const std::filesystem::path& machine_file);
 
 }  // namespace lockstep

@@ -14,9 +14,9 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
     if (environment != nullptr && *environment != '\0') { return environment; }
     if (up.size() == 1) { return up.front(); }
     if (up.empty() && !installed.empty()) { return installed; }
-    constexpr const char* kHow = "say which: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
+    constexpr const char* kHow = "choose one: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
     if (up.empty()) {
-        return std::unexpected(bad_input("no machine is named, none is up on this host, and there is no " +
+        return std::unexpected(bad_input("no machine is chosen, none is up on this host, and there is no " +
                                          std::string(kInstalledMachine) + "; " + kHow));
     }
     std::string names;

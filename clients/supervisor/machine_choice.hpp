@@ -1,5 +1,5 @@
-// Which machine a verb is about: --machine, else $LOCKSTEP_MACHINE, else the one that is up on this host, else the one
-// whose file is installed there.
+// The machine of a verb: --machine, else $LOCKSTEP_MACHINE, else the one that is up on this host, else the one that is
+// installed there.
 #pragma once
 
 #include <expected>
@@ -12,11 +12,11 @@
 
 namespace lockstep {
 
-/// Where a host's machine is installed; the units of systemd read it, too.
+/// The path of an installed machine's file; systemd's units read it too.
 inline constexpr const char* kInstalledMachine = "/etc/lockstep/machine.textproto";
 
-/// Which file: pure, given what there is to choose from. `up`: configuration files of the machines that are up;
-/// `installed`: empty where none is. Error: none or several are up; it says how to choose.
+/// Chooses the file: pure, from the candidates. `up`: configuration files of the machines that are up;
+/// `installed`: empty if none is. Error: none or several are up, and how to choose.
 std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
                                                           const std::vector<std::filesystem::path>& up,
                                                           const std::filesystem::path& installed = {});

@@ -23,7 +23,7 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
 }
 
-/// What was named by option or environment, which other hosts do not know of.
+/// A file named by an option or the environment, which other hosts do not know.
 std::string named_file(const std::string& option) {
     const char* named = std::getenv("LOCKSTEP_MACHINE");
     const std::string file = !option.empty() ? option : named == nullptr ? "" : named;
@@ -88,8 +88,8 @@ bool OtherHosts::finish(Output& output, std::size_t lines_where_well) {
         const bool ended = remote.pid > 0 && waitpid(remote.pid, &status, 0) == remote.pid;
         remote.pid = 0;
         const bool is_well = ended && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-        std::size_t said = 0;
-        for (std::string line; (!is_well || said < lines_where_well) && std::getline(lines, line); ++said) {
+        std::size_t printed = 0;
+        for (std::string line; (!is_well || printed < lines_where_well) && std::getline(lines, line); ++printed) {
             output.print(remote.host + ": " + line);
         }
         if (is_well) { continue; }

@@ -15,7 +15,7 @@ struct AllHosts {
     std::string ssh = "ssh -o BatchMode=yes";  // words, which the host's name follows
 };
 
-/// While it lives, `lockstep VERB...` runs on every host that the machine's file names, but not on this one.
+/// While it exists, `lockstep VERB...` runs on every host that the machine's file names, but not on this one.
 class OtherHosts {
 public:
     /// `machine_file`: as the option named it; empty: not named. The same path is named on all hosts.
@@ -25,7 +25,7 @@ public:
     OtherHosts(const OtherHosts&) = delete;
     OtherHosts& operator=(const OtherHosts&) = delete;
 
-    /// Waits for all, and says what each said behind its host's name. False: one failed.
+    /// Waits for all, and prints the output of each after its host's name. False: one failed.
     bool finish(Output& output, std::size_t lines_where_well = std::numeric_limits<std::size_t>::max());
 
 private:

@@ -20,7 +20,7 @@ bool is_placed(const Placement& placed, const PresentProcess& process) {
     return process.axis ? std::ranges::find(placed.axes, *process.axis) != placed.axes.end() : placed.coordinator;
 }
 
-/// One that has been killed stays on the network until its lease ends; its number may be another program's by then.
+/// A killed process stays on the network until its lease ends; its number may be another program's by then.
 bool is_service(pid_t pid) {
     return std::ranges::any_of(command_line_of(pid), [](const std::string& word) {
         return word.ends_with("lockstep-axis") || word.ends_with("lockstep-coordinator");

@@ -1,4 +1,4 @@
-// The parts of a machine that this host is to run, while they are brought up. They are known by process numbers and
+// The parts of a machine that this host runs, while they are brought up. They are identified by process numbers and
 // this host's process table: clocks of other hosts and their processes do not matter.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace lockstep {
 bool are_present(const std::vector<ServiceLine>& lines, const std::vector<ProcessRecord>& recorded,
                  const std::vector<PresentProcess>& present);
 
-/// A part that is placed here, but is run by a process that the recorded supervisor did not start: what it is, and the
+/// A part that is placed here, but runs as a process that the recorded supervisor did not start, as text with the
 /// remedy.
 std::optional<std::string> foreign_part(const MachineConfig& machine, const Placement& placed,
                                         const ProcessRecord& supervisor, const std::vector<PresentProcess>& present);

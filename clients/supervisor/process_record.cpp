@@ -3,7 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-extern "C" {  // which this header of glibc 2.36 leaves out
+extern "C" {  // which this header of glibc 2.36 omits
 #include <sys/pidfd.h>
 }
 
@@ -16,13 +16,13 @@ extern "C" {  // which this header of glibc 2.36 leaves out
 namespace lockstep {
 namespace {
 
-/// Stands for one process, whatever becomes of its number.
+/// Refers to one process, even if its number is reused.
 class ProcessHandle {
 public:
     explicit ProcessHandle(const ProcessRecord& record) {
         if (record.pid <= 0) { return; }
         file_ = pidfd_open(record.pid, 0);
-        if (file_ >= 0 && !is_running(record)) { close(); }  // the number was given anew before it was opened
+        if (file_ >= 0 && !is_running(record)) { close(); }  // the number was reused before it was opened
     }
     ~ProcessHandle() { close(); }
     ProcessHandle(const ProcessHandle&) = delete;

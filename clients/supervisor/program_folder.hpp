@@ -1,4 +1,4 @@
-// Where the lockstep command itself is: its processes are beside it, what they share in ../share/lockstep.
+// The directory of the lockstep command: its services are beside it, shared files in ../share/lockstep.
 #pragma once
 
 #include <filesystem>

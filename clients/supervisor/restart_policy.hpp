@@ -1,8 +1,8 @@
-// When a process that ended unasked is started again: soon at first, then later. Pure.
+// When a process that ended unexpectedly is started again: soon at first, then later. Pure.
 //
-// A process that ends with an exit code has a reason that may last, so it is given up in the end. One that a signal
-// ended met a fault of the moment: damaged packets, too little memory, a library call that never returned. It is
-// started again as often as that happens.
+// A process that ends with an exit code has a reason that may last, so it is given up eventually. A process that a
+// signal ended has met a temporary fault: damaged packets, too little memory, a library call that never returned. It
+// is started again each time.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ enum class ProcessEnd { Exit, Signal };
 
 class RestartPolicy {
 public:
-    /// The process ended at `now`: how long to wait before it is started again. Nothing: give up.
+    /// The process ended at `now`: returns the delay before it is started again. Nothing: give up.
     std::optional<std::chrono::milliseconds> after_end(std::chrono::nanoseconds now, ProcessEnd how) {
         while (!ends_.empty() && now - ends_.front().time > kRestartWindow) { ends_.pop_front(); }
         const auto is_exit = [](const End& end) { return end.how == ProcessEnd::Exit; };

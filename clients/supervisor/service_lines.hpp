@@ -17,7 +17,7 @@ enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's proces
 struct Layout {
     FpgaKind fpga = FpgaKind::AsConfigured;
     bool standby = false;    // a second coordinator stands by
-    bool continues = false;  // and goes on with a program in motion when it takes over
+    bool continues = false;  // and continues a program in motion when it takes over
 };
 
 struct ServiceLine {
@@ -28,7 +28,7 @@ struct ServiceLine {
 /// The device of an axis whose FPGA is a process of its own, as open_window takes it.
 std::string shared_device(const MachineConfig& machine, const AxisConfig& axis);
 
-/// Of the machine's parts those that are `placed` on this host. Devices first: an axis attaches to its own. `programs`:
+/// The machine's parts that are `placed` on this host. Devices first: an axis attaches to its own. `programs`:
 /// the directory of the services' executables.
 std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state);

@@ -48,7 +48,7 @@ void StateDirectory::remove_logs() const {
 }
 
 bool StateDirectory::lock() const {
-    const int file = open(lock_file().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // open for good: it is the claim
+    const int file = open(lock_file().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);  // stays open: it is the claim
     return file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
 }
 

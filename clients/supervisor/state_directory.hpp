@@ -1,5 +1,5 @@
-// Where a machine that is up on this host keeps what its processes share: the copy of the configuration they run with,
-// the record of the processes, a log for each.
+// The files of a machine that is up on this host: the copy of the configuration that its processes run with, the
+// record of the processes, a log for each.
 // The directory is ROOT/MACHINE, with the root of services/files/directories.hpp.
 #pragma once
 
@@ -23,10 +23,10 @@ public:
     std::filesystem::path machine_file() const { return path_ / "machine.textproto"; }
     std::filesystem::path log_file(const std::string& process) const { return path_ / (process + ".log"); }
 
-    /// Makes the directory. Error: why it cannot, and the remedy.
+    /// Creates the directory. Error: why not, and the remedy.
     std::expected<void, std::string> make() const;
-    /// Claims the directory for this process and those it forks from now on, until the last of them ends. False: others
-    /// have it.
+    /// Claims the directory for this process and those that it forks from now on, until the last of them ends. False:
+    /// it is claimed already.
     bool lock() const;
     void remove_logs() const;
     /// Error: the file and why.
@@ -35,9 +35,9 @@ public:
     /// Readers see the old records or the new, never a part.
     void record(const std::vector<ProcessRecord>& processes) const;
     std::vector<ProcessRecord> recorded() const;
-    /// Those of them that run now. Where the record cannot be read, those that the host's process table shows.
+    /// The recorded processes that run now. If the record cannot be read, those that the host's process table shows.
     std::vector<ProcessRecord> running() const;
-    /// Why the record cannot be relied on; nothing: it can, or the machine was never up.
+    /// Why the record is unreliable; nothing: it is reliable, or the machine was never up.
     std::optional<std::string> record_trouble() const;
     void forget_processes() const;
 
@@ -50,7 +50,7 @@ private:
 /// The names of the machines that are up on this host, as far as this root knows, in order.
 std::vector<std::string> machines_up();
 
-/// The last lines of a file, each indented; empty where there are none.
+/// The last lines of a file, each indented; empty if there are none.
 std::string tail_of(const std::filesystem::path& file, std::size_t lines);
 
 }  // namespace lockstep

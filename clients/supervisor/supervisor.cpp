@@ -18,11 +18,11 @@ using namespace std::chrono_literals;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr milliseconds kEndPatience = 4s;  // for SIGTERM to be followed
+constexpr milliseconds kEndPatience = 4s;  // for the reaction to SIGTERM
 constexpr std::size_t kAtOnce = 16;        // processes that start together...
-constexpr milliseconds kApart = 150ms;     // ...and the others one by one: whoever starts greets all that are there
-constexpr int kCannotExecute = 127;        // as shells have it
-constexpr int kBadInput = 2;               // a service's own: the same again would end the same
+constexpr milliseconds kApart = 150ms;     // ...and the others one by one: each start causes discovery traffic
+constexpr int kCannotExecute = 127;        // as in shells
+constexpr int kBadInput = 2;               // a service's own: another start would end in the same way
 
 sigset_t handled_signals() {
     sigset_t set;
@@ -33,10 +33,10 @@ sigset_t handled_signals() {
 
 timespec to_timespec(nanoseconds time) { return {time.count() / 1'000'000'000, time.count() % 1'000'000'000}; }
 
-/// In the child: never returns. What the program says before its log is open goes to the log's file too.
+/// In the child: never returns. The program's output before its log is open goes to the log's file too.
 [[noreturn]] void become(const ServiceLine& line, const std::filesystem::path& log, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) { _exit(0); }  // it died before that took effect
+    if (getppid() != parent) { _exit(0); }  // the parent died before that took effect
     const sigset_t set = handled_signals();
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
     const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
@@ -145,7 +145,7 @@ void Supervisor::end_all() {
     log_info("ends all");
     signal_all(SIGTERM);
     if (reap_all(kEndPatience)) { return; }
-    log_warning("not all ended when asked; ends them by force");
+    log_warning("not all ended on request; ends them by force");
     signal_all(SIGKILL);
     (void)reap_all(kEndPatience);
 }

@@ -1,7 +1,7 @@
-// Keeps a machine's processes running: starts them, starts again what ends unasked, and ends them all with itself.
+// Keeps a machine's processes running: starts them, restarts those that end unexpectedly, and ends all with itself.
 //
 // It takes no part in motion. A machine whose process died has come to rest by its own rules, and moves again only
-// when a person says so.
+// on a person's command.
 #pragma once
 
 #include <chrono>

@@ -9,9 +9,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kSupervisorPatience = 10s;  // it gives its own children less
+constexpr auto kSupervisorPatience = 10s;  // its own children have less
 constexpr auto kPatience = 3s;
-constexpr int kMaxRounds = 3;  // a supervisor may have started one more as it was told to end
+constexpr int kMaxRounds = 3;  // a supervisor may have started one more as it was ended
 
 void signal_all(const std::vector<ProcessRecord>& processes, int signal) {
     for (const ProcessRecord& process : processes) { signal_process(process, signal); }

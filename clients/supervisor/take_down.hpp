@@ -1,4 +1,4 @@
-// Ends the processes of a machine that is up on this host: those recorded, and no others.
+// Ends the processes of a machine that is up on this host: only the recorded ones.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct TakenDown {
     std::vector<std::string> left;   // that did not end, even by force
 };
 
-/// The supervisor ends the rest; where it is gone or does not, they are ended one by one. `also`: ended like the
+/// The supervisor ends the rest; if it is gone or fails to, they are ended one by one. `also`: ended like the
 /// recorded ones, for a supervisor that may not have recorded itself yet.
 TakenDown take_down(const StateDirectory& state, const std::optional<ProcessRecord>& also = {});
 

@@ -1,4 +1,4 @@
-// Colours on a terminal, where they are wanted.
+// Colours on a terminal, if enabled.
 #pragma once
 
 #include <unistd.h>

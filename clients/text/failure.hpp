@@ -1,4 +1,4 @@
-// Why a command failed: for a person on standard error, for a script as an ErrorReport.
+// Why a command failed: as text on standard error, as JSON in an ErrorReport.
 #pragma once
 
 #include <string>

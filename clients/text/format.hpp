@@ -11,7 +11,7 @@ namespace lockstep {
 
 /// With `digits` digits after the point.
 std::string fixed(double value, int digits);
-/// The name of an axis, with its unit unless that is the mm of the column: "X", "C (deg)".
+/// The name of an axis, with its unit unless it is the column's mm: "X", "C (deg)".
 std::string axis_label(const std::string& name);
 /// "8.2 s", "3 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);

@@ -28,8 +28,8 @@ std::string text_of(StepEdge step, std::int64_t count) {
 
 std::string text_of_missing(const LeftSteps& found) {
     std::string text;
-    if (found.unsaid > 0) {
-        text += "; " + plural(found.unsaid, "step") + " before the next process's are not on record";
+    if (found.unrecorded > 0) {
+        text += "; " + plural(found.unrecorded, "step") + " before the next process's are not on record";
     }
     if (found.missing > 0) {
         text += "; of their course at least " + plural(found.missing, "step") + " are not on record";
@@ -37,7 +37,7 @@ std::string text_of_missing(const LeftSteps& found) {
     return text;
 }
 
-/// Frames of an axis's own move follow each other as those of an epoch do.
+/// Frames of an axis's own move follow each other like those of an epoch.
 bool goes_on(const Run& before, const Run& run) {
     return is_next(before, run) && before.to() == run.from && before.start + before.ticks() == run.start;
 }
@@ -96,7 +96,7 @@ void AxisCheck::on_break(const analysis::Break& what) {
     findings_.notes.emplace_back(analysis::kWhereTheRestIs);
 }
 
-/// Compares as far as steps and runs have come.
+/// Compares as far as steps and runs were received.
 void AxisCheck::settle(bool log_ended) {
     while (findings_.going()) {
         if (!maker_ && !begin_next_run()) { return; }
@@ -123,12 +123,12 @@ bool AxisCheck::is_before_log(const Run& run) const {
     return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
 }
 
-/// Of a run whose record is not there: it ended before the log began.
+/// For a step without a record of its run: the run ended before the log began.
 bool AxisCheck::is_before_log(const SeenStep& seen) const {
     return runs_from_ && seen.incarnation == runs_from_->first && seen.edge.tick < runs_from_->second;
 }
 
-/// Of the first process the log may lack the first runs (run_stream.hpp): their steps are of nothing on record.
+/// The log may lack the first runs of the first process (run_stream.hpp): their steps belong to no run on record.
 void AxisCheck::leave_out_before_log(const Run& first) {
     runs_from_ = {first.incarnation, first.start};
     before_log_steps_ += static_cast<std::int64_t>(
@@ -153,7 +153,8 @@ bool AxisCheck::begin_next_run() {
     const bool jumps = follows && last_run_->device_stop() != run.device_start();
     if (jumps && std::exchange(device_lost_, false)) {
         findings_.notes.push_back("axis " + name_ + ": its device was lost after " + name_of(*last_run_) + "; from " +
-                                  name_of(run) + " on another one counts, from " + std::to_string(run.device_start()));
+                                  name_of(run) + " on another device counts, from " +
+                                  std::to_string(run.device_start()));
     } else if (jumps) {
         differ("axis " + name_ + ": " + name_of(run) + " starts at count " + std::to_string(run.device_start()) +
                    " of the device, the run before it ended at " + std::to_string(last_run_->device_stop()),
@@ -182,7 +183,7 @@ void AxisCheck::pass_step(bool is_recorded) {
     maker_->pass();
 }
 
-/// A run that was cut is over at its stop count, unless the steps go on as its pieces do.
+/// A run that was cut ends at its stop count, unless the steps continue with its pieces.
 bool AxisCheck::is_cut_here(const SeenStep* seen) {
     if (!maker_->run().cut || maker_->count() != maker_->run().stop_count) { return false; }
     return seen == nullptr || seen->edge != *maker_->next();
@@ -203,7 +204,7 @@ void AxisCheck::compare(const SeenStep& seen) {
                       expected.tick, seen.edge.tick);
     }
     if (seen.count != count) {
-        return differ(step + " is expected to reach " + std::to_string(count) + ", by the log it reaches " +
+        return differ(step + " is expected to reach " + std::to_string(count) + ", in the log it reaches " +
                           std::to_string(seen.count),
                       expected.tick, seen.edge.tick);
     }
@@ -216,7 +217,7 @@ void AxisCheck::compare(const SeenStep& seen) {
     if (!findings_.last_tick || *findings_.last_tick < expected.tick) { findings_.last_tick = expected.tick; }
 }
 
-/// An axis's own moves go by the device's clock alone.
+/// An axis's own moves follow only the device's clock.
 void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
     const Run& run = maker_->run();
     if (run.epoch == 0) { return; }
@@ -232,7 +233,7 @@ void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
 
 // ---- Processes that ended ------------------------------------------------------------------------------------------
 
-/// Processes are told apart by their numbers, and follow each other as their first messages do.
+/// Processes are identified by their numbers, and ordered by their first messages.
 std::size_t AxisCheck::birth_of(std::int64_t incarnation) {
     const auto known = std::ranges::find(incarnations_, incarnation);
     const auto birth = static_cast<std::size_t>(known - incarnations_.begin());
@@ -240,7 +241,7 @@ std::size_t AxisCheck::birth_of(std::int64_t incarnation) {
     return birth;
 }
 
-/// That of the run; of its own steps, those before its first run were made by what the process before it had ordered.
+/// A step of the run's process; its own steps before its first run belong to orders of the process before it.
 bool AxisCheck::is_of_older_process(const SeenStep& seen) {
     const Run& run = maker_->run();
     if (seen.incarnation != run.incarnation) { return birth_of(seen.incarnation) < birth_of(run.incarnation); }
@@ -252,16 +253,16 @@ bool AxisCheck::is_of_newer_process(const SeenStep& seen) {
     return birth_of(seen.incarnation) > birth_of(maker_->run().incarnation);
 }
 
-/// The run is on record with its end, its last steps are not: no more than a process holds before it says them.
+/// The run is on record with its end, its last steps are not: at most as many as a process holds unpublished.
 void AxisCheck::leave_run() {
-    if (!last_run_ || last_run_->incarnation != maker_->run().incarnation) { unsaid_ = 0; }
+    if (!last_run_ || last_run_->incarnation != maker_->run().incarnation) { unrecorded_ = 0; }
     std::int64_t steps = 0;
     for (; maker_->next() != nullptr && !is_cut_here(nullptr); pass_step(false)) { ++steps; }
-    unsaid_ += steps;
-    if (unsaid_ > StepBatcher::kMaxSteps) { return differ_unsaid(unsaid_); }
+    unrecorded_ += steps;
+    if (unrecorded_ > StepBatcher::kMaxSteps) { return differ_unrecorded(unrecorded_); }
     findings_.notes.push_back("axis " + name_ + ": " + plural(steps, "step") + " after " +
                               at_tick(last_tick_, "the log's beginning") +
-                              " are not on record, its process ended; by " + name_of(maker_->run()) + " it came to " +
+                              " are not on record, its process ended; with " + name_of(maker_->run()) + " it came to " +
                               std::to_string(maker_->run().stop_count));
     end_run();
 }
@@ -272,16 +273,16 @@ void AxisCheck::leave_steps() {
     for (; !waiting_.empty() && (!maker_ || is_of_older_process(waiting_.front())); waiting_.pop_front()) {
         left.push_back(waiting_.front());
     }
-    judge(left);
+    check_left(left);
 }
 
-void AxisCheck::judge(const std::vector<SeenStep>& left) {
+void AxisCheck::check_left(const std::vector<SeenStep>& left) {
     const std::string what = "axis " + name_ + ": " + plural(static_cast<std::int64_t>(left.size()), "step") +
                              " from tick " + std::to_string(left.front().edge.tick.value) +
-                             " on are of no run on record, its process ended; ";
+                             " on belong to no run on record, its process ended; ";
     const std::vector<Course> courses = planned_(left.front().machine);
     if (courses.empty()) { return findings_.notes.push_back(what + "there is no plan to compare them with"); }
-    const LeftSteps found = judge_left(
+    const LeftSteps found = compare_left(
         left, courses,
         last_run_ ? LeftBy{last_run_->incarnation, last_run_->zero_count} : LeftBy{incarnations_.front(), {}});
     steps_ += static_cast<std::int64_t>(found.fit);
@@ -289,7 +290,7 @@ void AxisCheck::judge(const std::vector<SeenStep>& left) {
     if (found.fit < left.size()) { return differ_from_plan(what, left[found.fit], found); }
     last_tick_ = left.back().edge.tick;
     findings_.last_tick = std::max(findings_.last_tick, last_tick_);
-    if (found.unsaid > StepBatcher::kMaxSteps) { return differ_unsaid(found.unsaid); }
+    if (found.unrecorded > StepBatcher::kMaxSteps) { return differ_unrecorded(found.unrecorded); }
     findings_.notes.push_back(what + "they are as planned: " + found.runs + text_of_missing(found));
 }
 
@@ -305,7 +306,7 @@ void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, 
                       .commanded = commanded_(*run, tick.value_or(seen.edge.tick))});
 }
 
-void AxisCheck::differ_unsaid(std::int64_t steps) {
+void AxisCheck::differ_unrecorded(std::int64_t steps) {
     differ("axis " + name_ + ": " + plural(steps, "step") + " after " + at_tick(last_tick_, "the log's beginning") +
                " are not on record, more than its process can have held when it ended",
            last_tick_, {});
@@ -329,12 +330,12 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     if (findings_.going() && before_log_steps_ > 0) {
         findings_.notes.push_back("axis " + name_ + ": " + plural(before_log_steps_, "step") + " before tick " +
                                   std::to_string(runs_from_->second.value) +
-                                  " are of runs that ended before the log began, and not compared");
+                                  " belong to runs that ended before the log began, and are not compared");
     }
     if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
 }
 
-/// What a process that has ended leaves, or one that was not told to run anything itself found in its device.
+/// Steps left by a process that has ended, or found in its device by one that had no run itself yet.
 bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
     const std::int64_t of = waiting_.front().incarnation;
     const bool has_run = last_run_ && last_run_->incarnation == of;
@@ -344,15 +345,15 @@ bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
 void AxisCheck::end_of_log(LogEdges edges) {
     const std::string compared = plural(steps_, "step") + " up to " + at_tick(last_tick_, "there") + " compared";
     if (edges.ends_early && maker_) {
-        findings_.cannot_tell("axis " + name_ + ": the log ends before the last steps of " + name_of(maker_->run()) +
+        findings_.add_unknown("axis " + name_ + ": the log ends before the last steps of " + name_of(maker_->run()) +
                               "; " + compared);
     } else if (edges.begins_late && !last_run_ && !waiting_.empty()) {
-        findings_.cannot_tell("axis " + name_ + ": no run of it is in the log, which begins later; " +
+        findings_.add_unknown("axis " + name_ + ": no run of it is in the log, which begins later; " +
                               plural(static_cast<std::int64_t>(waiting_.size()), "step") + " cannot be compared");
     } else if (edges.ends_early && !waiting_.empty()) {
-        findings_.cannot_tell("axis " + name_ + ": the log ends before the record of the run that " +
+        findings_.add_unknown("axis " + name_ + ": the log ends before the record of the run that " +
                               plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +
-                              std::to_string(waiting_.front().edge.tick.value) + " on are of; " + compared);
+                              std::to_string(waiting_.front().edge.tick.value) + " on belong to; " + compared);
     } else if (maker_) {
         const Tick expected = maker_->next()->tick;
         differ("axis " + name_ + ": the log has no more steps, though " + name_of(maker_->run()) +
@@ -360,7 +361,7 @@ void AxisCheck::end_of_log(LogEdges edges) {
                expected, {});
     } else if (!waiting_.empty()) {
         differ("axis " + name_ + ": " + plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +
-                   std::to_string(waiting_.front().edge.tick.value) + " on are of no run in the log; " + compared,
+                   std::to_string(waiting_.front().edge.tick.value) + " on belong to no run in the log; " + compared,
                {}, waiting_.front().edge.tick);
     }
 }

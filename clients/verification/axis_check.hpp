@@ -1,9 +1,9 @@
-// One axis's steps against the steps that its runs make: each step is of a run, each step of a run is there. By the
-// device's clock each is at its very tick; where that clock is its own, each step of a frame is also at the machine
-// time commanded, within what the clocks were known to.
+// Compares one axis's steps with the steps that its runs make: each step belongs to a run, each step of a run exists.
+// By the device's clock each is at its exact tick; if the device has its own clock, each step of a frame is also at the
+// commanded machine time, within the clocks' uncertainty.
 //
-// A process that ended unasked may have left the record of its last runs unwritten, or its last steps. What it left is
-// held to the plan as far as there is one, and said in a note.
+// A process that ended unexpectedly may have left its last runs or steps unrecorded. What it left is compared with the
+// plan, if there is one, and reported in a note.
 #pragma once
 
 #include <cstddef>
@@ -26,50 +26,50 @@ namespace lockstep::verification {
 using analysis::Run;
 using analysis::StepMaker;
 
-/// Hears what the log is found to agree on with itself, in its order; it counts the steps that it finds good.
+/// Receives the consistent part of the log, in order; counts the steps that it accepts.
 class RunFollower {
 public:
     virtual ~RunFollower() = default;
     virtual void on_run(const Run& run) = 0;
-    /// A step of that run. `commanded`: in machine time. Not recorded: the process ended before it said so.
+    /// A step of that run. `commanded`: in machine time. Not recorded: the process ended before publishing it.
     virtual void on_step(StepEdge step, Tick commanded, bool is_recorded) = 0;
     virtual void on_run_over() = 0;
     /// The end of the log.
     virtual void on_end() = 0;
 };
 
-/// What of an axis's record may lie outside the log.
+/// Which part of an axis's record may lie outside the log.
 struct LogEdges {
     bool begins_late = false;  // its process had published before
-    bool ends_early = false;   // it ends so soon behind the newest steps and runs that what belongs to them may follow
+    bool ends_early = false;   // it ends so soon after the newest steps and runs that related messages may follow
 };
 
 class AxisCheck final : public analysis::StepListener {
 public:
-    /// What was in motion at a tick of a run, in words.
+    /// The motion at a tick of a run, as text.
     using Commanded = std::function<std::string(const Run&, Tick)>;
-    /// What the plan allows the axis to have run behind its newest run, from a step at that tick on. Empty: nothing.
+    /// The runs that the plan allows the axis after its newest run, from a step at that tick on. Empty: none.
     using Planned = std::function<std::vector<Course>(Tick)>;
     /// Whether a process of the axis had ended by the end of the log.
     using HasEnded = std::function<bool(std::int64_t incarnation)>;
-    /// So many steps may wait for the record of their run, which is written when it has ended.
+    /// The maximum of steps that wait for the record of their run, which is written at its end.
     static constexpr std::size_t kMaxWaiting = 1 << 22;
 
     AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned);
     /// It outlives the check.
-    void tell(RunFollower& follower) { follower_ = &follower; }
-    AxisCheck(const AxisCheck&) = delete;  // the stream tells its steps to this object
+    void set_follower(RunFollower& follower) { follower_ = &follower; }
+    AxisCheck(const AxisCheck&) = delete;  // the stream calls this object
     AxisCheck& operator=(const AxisCheck&) = delete;
 
     void take(analysis::StepBatch batch) { stream_.take(std::move(batch)); }
     /// In the order of their numbers.
     void take(Run run);
     void runs_missing(std::int64_t from, std::int64_t end);
-    /// The axis has said so: the next run may be on a device that counts anew.
+    /// The axis has reported it: the next run may be on a device that counts from 0.
     void device_lost() { device_lost_ = true; }
     /// From now on all messages of steps of that process from this number on are in the log.
     void expect_from(std::int64_t incarnation, std::int64_t number) { marked_.try_emplace(incarnation, number); }
-    /// A run that had begun before the log did: its first steps may not be there. Before it is taken.
+    /// A run that had begun before the log did: its first steps may be missing. Call before it is taken.
     void began_before_log(const Run& run);
     /// Call once, at the end of the log.
     void finish(const HasEnded& has_ended, LogEdges edges);
@@ -96,9 +96,9 @@ private:
     bool is_of_newer_process(const SeenStep& seen);
     void leave_run();
     void leave_steps();
-    void judge(const std::vector<SeenStep>& left);
+    void check_left(const std::vector<SeenStep>& left);
     void differ_from_plan(const std::string& what, const SeenStep& seen, const LeftSteps& found);
-    void differ_unsaid(std::int64_t steps);
+    void differ_unrecorded(std::int64_t steps);
     void differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen);
     std::string step_name() const;
 
@@ -115,12 +115,12 @@ private:
     std::optional<Run> last_run_;                  // the one before it
     bool device_lost_ = false;                     // since the run before it
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be there
-    // Where the log begins later than the process: device's time, and both of that process.
+    // If the log begins later than the process: device's time, and both of that process.
     std::optional<std::pair<std::int64_t, std::int64_t>> before_log_;  // the last run begun before it: process, number
     std::optional<std::pair<std::int64_t, Tick>> runs_from_;           // the start of the first run on record
     std::optional<Tick> steps_from_;                                   // the first step on record
-    std::int64_t before_log_steps_ = 0;                                // on record, of runs that are not
-    std::int64_t unsaid_ = 0;                                          // steps that a process which ended had not said
+    std::int64_t before_log_steps_ = 0;                                // on record, their runs are not
+    std::int64_t unrecorded_ = 0;                                      // steps that a process did not publish
     std::int64_t steps_ = 0;                                           // compared and equal
     std::optional<Tick> last_tick_;                                    // of these
 };

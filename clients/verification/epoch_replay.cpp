@@ -17,7 +17,7 @@ bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
     return made_ <= behind;
 }
 
-/// The runner makes what is due slot by slot, as in a coordinator that never stalls and to which nobody answers.
+/// The runner makes the due frames slot by slot, like a coordinator that never stalls and receives no replies.
 void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
         if (const auto turn = turns_.extract(made_)) { runner_.turn(turn.mapped()); }
@@ -40,13 +40,13 @@ void EpochReplay::forget_before(FrameNumber number) {
     while (!frames_.empty() && frames_.front().number < number) { frames_.pop_front(); }
 }
 
-EpochEnd EpochReplay::judge(std::span<const AxisEnd> axes) const {
+EpochEnd EpochReplay::evaluate(std::span<const AxisEnd> axes) const {
     constexpr Slot kLong = std::numeric_limits<std::int32_t>::max();  // after everything
     std::vector<AxisView> views;
     for (const AxisEnd& axis : axes) {
         views.push_back({AxisState{.stamp = kLong, .epoch = epoch(), .ran = axis.ran, .position = axis.at}, kLong});
     }
-    return *runner_.judge(kLong, views);  // everyone is at rest: there is a judgement
+    return *runner_.judge(kLong, views);  // all axes are at rest: there is a result
 }
 
 std::int32_t EpochReplay::line_at(Tick tick) const {

@@ -1,4 +1,4 @@
-// The frames of one epoch, made again by the coordinator's own path, and its judgement of how the epoch ended.
+// The frames of one epoch, made again by the coordinator's own path, and its evaluation of how the epoch ended.
 #pragma once
 
 #include <deque>
@@ -24,14 +24,14 @@ public:
     Epoch epoch() const { return runner_.epoch(); }
     const Path& path() const { return runner_.path(); }
 
-    /// The frames behind this one are planned with other overrides. False: they are made already.
+    /// The frames after this one are planned with other overrides. False: they are made already.
     bool turn(FrameNumber behind, const Overrides& overrides);
 
     /// Null: the epoch has no such frame, or it was forgotten.
     const Frame* frame(FrameNumber number);
     void forget_before(FrameNumber number);
 
-    EpochEnd judge(std::span<const AxisEnd> axes) const;
+    EpochEnd evaluate(std::span<const AxisEnd> axes) const;
 
     /// The line of the program in motion at a tick.
     std::int32_t line_at(Tick tick) const;
@@ -40,7 +40,7 @@ private:
     void make_up_to(FrameNumber number);
 
     EpochRunner runner_;
-    std::map<FrameNumber, Overrides> turns_;  // by the frame behind which they hold
+    std::map<FrameNumber, Overrides> turns_;  // by the frame after which they hold
     Slot slot_ = 0;
     Ticks shift_;               // from the runner's own time to the recorded one
     std::deque<Frame> frames_;  // in recorded time

@@ -25,7 +25,7 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
 }
 
-/// In machine time. `clock_error`: within which each step is to be made.
+/// In machine time. `clock_error`: the tolerance of each step.
 Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_error) {
     const AxisTrack& track = frame.axes[axis];
     Run run{.epoch = frame.epoch,
@@ -47,7 +47,7 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_err
 
 // ---- Records -----------------------------------------------------------------------------------------------------
 
-/// What a stopped coordinator says late of its job goes before the job that another has begun since.
+/// Late records of a stopped coordinator's job are sorted before the job that another coordinator has begun since.
 void JobCheck::take(const job_t& record) {
     if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
     if (record.event == "begun" && !first_job_) {
@@ -80,26 +80,26 @@ void JobCheck::handle(const job_t& record) {
     end(record);
 }
 
-/// Of a job that its coordinator has begun, when another has begun one since.
+/// A record of a job by its coordinator, after another coordinator began a job.
 bool JobCheck::is_late(const job_t& record) const {
     const auto its = std::ranges::find(begun_, std::pair{record.coordinator, record.job});
     return record.event != "begun" && its != begun_.end() && begun_.back().first != record.coordinator;
 }
 
-/// Late, and of an epoch that nobody ran: a run of it would have been held to this record before.
+/// Late, and of an epoch that no axis ran: a run of it would have been compared with this record before.
 bool JobCheck::is_outdated(const job_t& record) {
     const bool is_its_turn = !job_ || job_->coordinator == record.coordinator;
     if (is_its_turn || !is_late(record)) { return false; }
-    findings_.notes.push_back(number_of(record) + ": its coordinator says more of it after another began " +
+    findings_.notes.push_back(number_of(record) + ": its coordinator records more of it after another began " +
                               job_->label + "; nothing was run of that");
     return true;
 }
 
-/// Who speaks of a job that another has begun goes on with it after a takeover.
+/// A record of a job by another coordinator than the one that began it: it continues the job after a takeover.
 void JobCheck::note_owner(const job_t& record) {
     if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
     job_->coordinator = record.coordinator;
-    findings_.notes.push_back(job_->label + ": another coordinator has taken over and gone on with it");
+    findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
 void JobCheck::begin(const job_t& record) {
@@ -136,13 +136,13 @@ void JobCheck::begin_epoch(const job_t& record) {
     if (!is_of_job(record) || !job_->replay) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
-    if (!job_->broken.empty()) { return differ(job_->label + " goes on, though " + job_->broken, job_->broken_axis); }
+    if (!job_->broken.empty()) { return differ(job_->label + " continues, though " + job_->broken, job_->broken_axis); }
     const Overrides overrides{record.feed_percent, record.rapid_percent};
     auto start = job_->replay->next(overrides);
-    if (!start) { return differ(job_->label + " goes on, though its program is done"); }
+    if (!start) { return differ(job_->label + " continues, though its program is done"); }
     const PathPlace place = place_in(record);
     if (place.block != start->place.block || place.along != start->place.along) {
-        return differ(job_->label + " goes on from " + text_of(place) + "; planned: " + text_of(start->place));
+        return differ(job_->label + " continues from " + text_of(place) + "; planned: " + text_of(start->place));
     }
     std::vector<Progress> axes;
     for (const Position at : start->at) { axes.push_back({.at = at}); }
@@ -154,15 +154,15 @@ void JobCheck::begin_epoch(const job_t& record) {
 }
 
 void JobCheck::turn(const job_t& record) {
-    if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // nobody ran a frame of it
+    if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
     if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame),
                              {record.feed_percent, record.rapid_percent})) {
-        differ(job_->label + ": its overrides were turned behind frame " + std::to_string(record.behind_frame) +
-               ", but frames behind that had been run when it was recorded");
+        differ(job_->label + ": its overrides were changed after frame " + std::to_string(record.behind_frame) +
+               ", but frames after that had been run when it was recorded");
     }
 }
 
-/// What the coordinator has turned in the epoch in progress; it is recorded before any frame that it changes is run.
+/// The overrides that the coordinator changed in the epoch in progress; recorded before any affected frame runs.
 void JobCheck::handle_turns() {
     while (!records_.empty() && records_.front().event == "override") {
         handle(records_.front());
@@ -182,19 +182,19 @@ void JobCheck::end(const job_t& record) {
     } else if (!job.broken.empty()) {
         return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
     } else if (record.outcome == "done" && job.replay->next()) {
-        return differ(job.label + " is recorded as done, but its program goes on at " +
+        return differ(job.label + " is recorded as done, but its program continues at " +
                       text_of(job.replay->next()->place));
     }
     ++findings_.jobs;
 }
 
-/// What the epoch leaves of its job.
+/// The state of the job after the epoch.
 void JobCheck::close_epoch() {
     if (!epoch_) { return; }
     plan_next(epoch_->replay);
     bool whole = true;
     for (std::size_t i = 0; i < epoch_->axes.size() && whole; ++i) { whole = !breaks_off(i); }
-    if (whole) { judge_epoch(); }
+    if (whole) { check_epoch(); }
     epoch_.reset();
 }
 
@@ -213,11 +213,11 @@ bool JobCheck::breaks_off(std::size_t i) {
     return true;
 }
 
-/// By the coordinator's own judgement of where the axes came to rest.
-void JobCheck::judge_epoch() {
+/// With the coordinator's own evaluation of where the axes came to rest.
+void JobCheck::check_epoch() {
     std::vector<AxisEnd> ends;
     for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
-    const EpochEnd end = epoch_->replay.judge(ends);
+    const EpochEnd end = epoch_->replay.evaluate(ends);
     switch (end.kind) {
         case EpochEnd::Kind::FramesDiffer: return break_off(end.axis, "ran other frames than the rest");
         case EpochEnd::Kind::Misplaced: return break_off(end.axis, "is not where its frames end");
@@ -243,17 +243,17 @@ void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
     if (!job_ || !findings_.going()) { return; }
     if (at_rest) { return leave_job(has_ended); }
     const auto& last = findings_.last_tick;
-    findings_.cannot_tell("the log ends before " + job_->label + " does; the steps up to " +
+    findings_.add_unknown("the log ends before " + job_->label + " does; the steps up to " +
                           (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
 }
 
 void JobCheck::note_beginning() {
     const std::string late = "the log begins later than the record";
     if (first_job_) {
-        findings_.notes.push_back(late + ": exact is meant from job " + std::to_string(*first_job_) +
-                                  " on; what was run before is compared with its own record alone");
+        findings_.notes.push_back(late + ": the result applies from job " + std::to_string(*first_job_) +
+                                  " on; earlier runs are compared only with their own records");
     } else if (left_out_ > 0) {
-        findings_.cannot_tell(late + ", and no job begins in it: what was run is compared with its own record alone");
+        findings_.add_unknown(late + ", and no job begins in it: runs are compared only with their own records");
     } else {
         findings_.notes.push_back(late + ", and no job begins in it");
     }
@@ -349,20 +349,20 @@ void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run
     epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
 }
 
-/// What each axis may run behind the newest of its runs.
+/// Plans what each axis may run after its newest run.
 void JobCheck::plan_next(EpochReplay replay) {
     for (std::size_t i = 0; i < epoch_->axes.size(); ++i) {
         planned_[job_->replay->machine().axes[i].name] = courses_of(replay, i);
     }
 }
 
-/// Frames to come, none at first, and the tail of the last of them; at last the path's end, where there is no tail.
+/// Frames to come, none at first, and the tail of the last of them; finally the path's end, if there is no tail.
 std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) const {
     const Progress& progress = epoch_->axes[axis];
     std::vector<Course> courses;
     if (progress.cut || progress.in_tail) { return courses; }
     Course frames;
-    for (FrameNumber number = progress.ran; number <= progress.ran + kUnsaidFrames; ++number) {
+    for (FrameNumber number = progress.ran; number <= progress.ran + kUnrecordedFrames; ++number) {
         const Frame* frame = number > 0 ? replay.frame(number) : nullptr;
         if (number > progress.ran && frame == nullptr) { break; }
         if (number > progress.ran) { frames.push_back(planned_run(*frame, axis, false, known_within())); }
@@ -373,7 +373,7 @@ std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) 
     return courses;
 }
 
-/// Frames are made ahead by a copy: those of the epoch itself may yet be planned otherwise.
+/// A copy makes the frames ahead: those of the epoch itself may still be planned differently.
 std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
     if (epoch_) {
         handle_turns();
@@ -385,7 +385,7 @@ std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
     return tick < last.start + last.ticks() ? found->second : std::vector<Course>{};
 }
 
-/// Empty: the run follows what the axis has run.
+/// Empty: the run follows the axis's previous one.
 std::string JobCheck::out_of_order(const Progress& axis, const Run& run) const {
     const std::string after = " follows frame " + std::to_string(axis.ran);
     if (axis.cut || axis.in_tail) { return after + ", with which the epoch had ended"; }

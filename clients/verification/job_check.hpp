@@ -1,4 +1,4 @@
-// The runs of jobs against what the coordinator's planning makes of their programs: every frame, bit for bit.
+// Compares the runs of jobs with the frames that the coordinator's planning makes of their programs, bit for bit.
 #pragma once
 
 #include <deque>
@@ -22,30 +22,30 @@ using analysis::Run;
 
 class JobCheck {
 public:
-    /// So many runs may wait for the record of their epoch, which is written before they begin.
+    /// The maximum of runs that wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    /// How many frames an axis may have run, or armed, that it had not come to record when it ended: the one in motion
-    /// and the one decided on while it was; and as many for a process that stalled before it ended.
-    static constexpr FrameNumber kUnsaidFrames = 4;
+    /// How many frames an axis may have run, or armed, without recording them before its end: the one in motion and the
+    /// one decided on meanwhile; and as many for a process that stalled before it ended.
+    static constexpr FrameNumber kUnrecordedFrames = 4;
     /// Whether an axis's process had ended by the end of the log.
     using HasEnded = std::function<bool(const std::string& axis)>;
 
     explicit JobCheck(Findings& findings) : findings_(findings) {}
 
     void take(const job_t& record);
-    /// The log begins later than the record does: a job that had begun by then is not held to its plan.
+    /// The log begins later than the record: a job that had begun by then is not compared with its plan.
     void begins_late() { begins_late_ = true; }
     /// A run of a job; in the order of their numbers for each axis.
     void take(const std::string& axis, const Run& run);
-    /// Call once, at the end of the log. `at_rest`: it goes on for long enough behind the last motion on record.
+    /// Call once, at the end of the log. `at_rest`: it continues long enough after the last motion on record.
     void finish(bool at_rest, const HasEnded& has_ended);
 
-    /// What was in motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
+    /// The motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
     std::string commanded(const Run& run, Tick tick) const;
 
-    /// What the plan allows an axis to have run behind the newest of its runs, from a step at that tick on. Empty where
-    /// it has nothing any more.
+    /// The runs that the plan allows an axis after its newest run, from a step at that tick on. Empty if there are
+    /// none.
     std::vector<Course> planned(const std::string& axis, Tick tick);
 
 private:
@@ -54,7 +54,7 @@ private:
         std::int64_t number = 0;
         std::string label;                // "job 2, run plate.gcode"
         std::optional<JobReplay> replay;  // none for homing and own moves
-        std::string broken;               // why what was run is not the whole plan; empty: it is
+        std::string broken;               // why the runs are not the whole plan; empty: they are
         std::string broken_axis;
     };
     struct Progress {  // of an axis in an epoch
@@ -70,7 +70,7 @@ private:
     };
 
     bool has_own_clocks() const { return job_->replay->machine().timing.time_source == TimeSource::Network; }
-    /// No axis moves while its clock may be further off.
+    /// No axis moves while its clock error may be larger.
     Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
     void handle(const job_t& record);
     bool is_late(const job_t& record) const;
@@ -82,7 +82,7 @@ private:
     void handle_turns();
     void end(const job_t& record);
     void close_epoch();
-    void judge_epoch();
+    void check_epoch();
     void break_off(std::size_t axis, const std::string& why);
     bool breaks_off(std::size_t axis);
     bool is_of_job(const job_t& record) const;
@@ -102,7 +102,7 @@ private:
     static constexpr std::size_t kLabelsKept = 16;
 
     Findings& findings_;
-    std::deque<job_t> records_;  // handled when the first run after them comes: late runs of what they end come before
+    std::deque<job_t> records_;  // handled at the first run after them: late runs of what they end come before
     std::deque<std::pair<std::string, Run>> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     bool begins_late_ = false;

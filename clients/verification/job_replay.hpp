@@ -1,4 +1,4 @@
-// A job planned again from its record: which epochs it has, given how each of them ended.
+// Plans a job again from its record: the epochs it has, given how each of them ended.
 #pragma once
 
 #include <expected>
@@ -13,7 +13,7 @@
 
 namespace lockstep::verification {
 
-/// What an epoch starts with.
+/// The start of an epoch.
 struct EpochStart {
     Path path;
     std::vector<Position> at;  // of each axis, exactly
@@ -28,7 +28,7 @@ public:
 
     const MachineConfig& machine() const { return machine_; }
 
-    /// The epoch to come, planned with these overrides; none: the program is done.
+    /// The next epoch, planned with these overrides; none: the program is done.
     std::optional<EpochStart> next(const Overrides& overrides = {}) const;
 
     /// How an epoch with this path ended: Complete or Interrupted.
@@ -42,7 +42,7 @@ private:
     ProgramPlanner planner_;
     std::vector<Leg> legs_;
     std::size_t leg_ = 0;
-    // What an interrupted epoch left of its leg.
+    // The part of its leg that an interrupted epoch left.
     std::vector<PathMove> remaining_;
     Displacement along_;
     std::vector<Position> positions_;

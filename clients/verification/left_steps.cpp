@@ -37,7 +37,7 @@ private:
     bool is_over_ = false;
 };
 
-/// One course beside the steps.
+/// Compares one course with the steps.
 class Comparison {
 public:
     Comparison(const Course& course, const LeftBy& by) : made_(course), by_(by), incarnation_(by.incarnation) {}
@@ -71,10 +71,10 @@ private:
         if (made_.commanded() + allowed(seen.error, made_.run().clock_error) < seen.machine) { return true; }
         return by_.zero_count && is_timely(seen) && made_.count_after() + *by_.zero_count != seen.count;
     }
-    /// To the first step that the next process said, by its time and by the device's count.
+    /// Goes to the first step that the next process published, by its time and by the device's count.
     void go_to(const SeenStep& seen) {
         incarnation_ = seen.incarnation;
-        for (; !made_.is_over() && is_before(seen); made_.pass()) { ++found_.unsaid; }
+        for (; !made_.is_over() && is_before(seen); made_.pass()) { ++found_.unrecorded; }
         if (!made_.is_over()) { offset_ = by_.zero_count.value_or(seen.count - made_.count_after()); }
     }
     void note_misfit() {
@@ -94,7 +94,7 @@ private:
     CourseMaker made_;
     LeftBy by_;
     std::int64_t incarnation_;
-    std::int64_t offset_ = 0;  // from machine coordinates to the count that the process says
+    std::int64_t offset_ = 0;  // from machine coordinates to the process's count
     const Run* noted_ = nullptr;
     LeftSteps found_;
 };
@@ -107,7 +107,7 @@ LeftSteps compare(std::span<const SeenStep> steps, const Course& course, const L
 
 }  // namespace
 
-LeftSteps judge_left(std::span<const SeenStep> steps, std::span<const Course> courses, const LeftBy& by) {
+LeftSteps compare_left(std::span<const SeenStep> steps, std::span<const Course> courses, const LeftBy& by) {
     std::vector<LeftSteps> all;
     for (const Course& course : courses) { all.push_back(compare(steps, course, by)); }
     LeftSteps best = *std::ranges::max_element(all, {}, &LeftSteps::fit);

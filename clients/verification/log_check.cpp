@@ -8,7 +8,7 @@
 
 namespace lockstep::verification {
 
-/// `jobs`: null where there is no plan to hold the runs to.
+/// `jobs`: null if there is no plan to compare the runs with.
 LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs)
     : check(
           name, findings,
@@ -30,8 +30,8 @@ void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     Machine& of = machines_.find(message.machine)->second;
     end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
     to->begin(message.utime, message.sequence == 0);
-    of.hear(*to, message.incarnation, message.utime);
-    of.hear_motion(*to);
+    of.note_message(*to, message.incarnation, message.utime);
+    of.note_motion(*to);
     to->check.take(std::move(*batch));
 }
 
@@ -42,7 +42,7 @@ void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
     if (!run) { return on_damage(place, run.error()); }
     end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
     Machine& of = machines_.find(message.machine)->second;
-    of.hear_motion(*to);
+    of.note_motion(*to);
     if (run->sequence > 0 && to->runs.is_empty()) { of.jobs.begins_late(); }
     if (to->began_before_log(message)) { to->check.began_before_log(*run); }
     to->runs.take(std::move(*run));
@@ -58,7 +58,7 @@ void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace
     end_.saw(RecordKind::ProgramPart, message.machine, "", message.coordinator, message.sequence);
 }
 
-/// What a process says of itself holds from there on in the log.
+/// A process's mark about itself applies from there on in the log.
 void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     end_.take(message);
     if (message.witness != message.process) { return; }
@@ -70,12 +70,12 @@ void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     Axis* of = axis(message.machine, message.process, place);
     if (of == nullptr) { return; }
     of->begin(message.utime, message.positions == 0);
-    of->last.said_its_end = message.ended != 0;
+    of->last.announced_end = message.ended != 0;
     of->runs.expect_from(message.incarnation, message.runs);
     of->check.expect_from(message.incarnation, message.steps);
 }
 
-/// Whether the log begins with that event because it begins later, or lacks those before.
+/// Whether the log begins with that event because it begins later, or lacks the events before.
 void LogCheck::note_beginning(Machine& machine, const job_t& message) {
     if (std::exchange(machine.has_jobs, true) || message.sequence == 0) { return; }
     machine.jobs.begins_late();
@@ -90,7 +90,7 @@ void LogCheck::note_beginning(Machine& machine, const job_t& message) {
     findings_.notes.emplace_back(analysis::kWhereTheRestIs);
 }
 
-/// Of axes that have moved.
+/// Only for axes that have moved.
 void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace place) {
     if (analysis::is_countable(message.utime)) {
         Axis* of = axis(message.machine, message.axis, place);
@@ -101,25 +101,25 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     }
     const auto of = machines_.find(message.machine);
     if (of == machines_.end()) { return; }
-    const auto said = of->second.axes.find(message.axis);
-    if (said == of->second.axes.end()) { return; }
-    of->second.hear(*said->second, message.incarnation, message.utime);
-    said->second->last.is_moving = message.velocity_steps_per_s != 0;
-    if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { said->second->check.device_lost(); }
+    const auto found = of->second.axes.find(message.axis);
+    if (found == of->second.axes.end()) { return; }
+    of->second.note_message(*found->second, message.incarnation, message.utime);
+    found->second->last.is_moving = message.velocity_steps_per_s != 0;
+    if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }
 }
 
 void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
     if (!analysis::is_countable(message.start_tick) || !analysis::is_message_number(message.sequence) ||
         !std::ranges::all_of(message.start_count, analysis::is_countable)) {
-        return on_damage(place, "a job with numbers that no machine counts to");
+        return on_damage(place, "a job with impossible numbers");
     }
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
-        return on_damage(place, "a job with overrides that no coordinator takes");
+        return on_damage(place, "a job with overrides that are out of range");
     }
     if (make_follower_) { return; }
     Machine* to = machine(message.machine, place);
     if (to == nullptr) { return; }
-    if (analysis::is_countable(message.utime)) { to->last.said_us = message.utime; }
+    if (analysis::is_countable(message.utime)) { to->last.received_us = message.utime; }
     end_.saw(RecordKind::Job, message.machine, "", message.coordinator, message.sequence);
     note_beginning(*to, message);
     to->job_numbers.add(message.coordinator, message.sequence);
@@ -135,7 +135,7 @@ LogCheck::Machine* LogCheck::machine(const std::string& name, analysis::LogPlace
     const auto known = machines_.find(name);
     if (known != machines_.end()) { return &known->second; }
     if (machines_.size() == kMaxMachines) {
-        on_damage(place, "more machines than a log is believed to hold");
+        on_damage(place, "too many machines for one log");
         return nullptr;
     }
     return &machines_.try_emplace(name, findings_).first->second;
@@ -153,7 +153,7 @@ LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::strin
     found = std::make_unique<Axis>(name, findings_, make_follower_ ? nullptr : &of->jobs);
     if (make_follower_) {
         found->follower = make_follower_(machine_name, name, findings_);
-        found->check.tell(*found->follower);
+        found->check.set_follower(*found->follower);
     }
     return found.get();
 }
@@ -164,22 +164,22 @@ void LogCheck::Axis::begin(std::int64_t utime, bool is_its_first) {
     is_late = !is_its_first;
 }
 
-/// A run is published when it is over, with the time of its start. None is the first that a process publishes.
+/// A run is published at its end, with the time of its start. A process without published runs has begun none.
 bool LogCheck::Axis::began_before_log(const run_t& message) const {
     return is_late && (!first_us || message.utime < *first_us + kStall_us);
 }
 
-void LogCheck::Machine::hear(Axis& axis, std::int64_t incarnation, std::int64_t utime) {
+void LogCheck::Machine::note_message(Axis& axis, std::int64_t incarnation, std::int64_t utime) {
     if (!analysis::is_countable(utime)) { return; }
     axis.last.incarnation = incarnation;
-    axis.last.said_us = utime;
-    last.said_us = utime;
+    axis.last.received_us = utime;
+    last.received_us = utime;
 }
 
-/// A run is told of when it is over, with an older time.
-void LogCheck::Machine::hear_motion(Axis& axis) {
-    axis.last.moved_us = axis.last.said_us;
-    last.moved_us = last.said_us;
+/// A run is published at its end, with an older time.
+void LogCheck::Machine::note_motion(Axis& axis) {
+    axis.last.moved_us = axis.last.received_us;
+    last.moved_us = last.received_us;
 }
 
 bool LogCheck::Machine::are_at_rest() const {
@@ -187,7 +187,7 @@ bool LogCheck::Machine::are_at_rest() const {
            std::ranges::none_of(axes, [](const auto& axis) { return axis.second->last.is_moving; });
 }
 
-/// One that said nothing is at its end as well.
+/// A process without messages has ended too.
 bool LogCheck::Machine::has_ended(const std::string& axis) const {
     const auto known = axes.find(axis);
     return known == axes.end() || last.has_ended(known->second->last);
@@ -208,7 +208,7 @@ Findings LogCheck::finish() {
         if (const std::int64_t missing = machine.job_numbers.missing_within(); missing > 0) {
             findings_.notes.push_back(
                 "messages of jobs that are missing from the log: " + std::to_string(missing) +
-                "; a difference may be theirs (`lockstep log merge` with the coordinator's own log)");
+                "; they may cause a difference (`lockstep log merge` with the coordinator's own log)");
         }
     }
     if (!make_follower_) { findings_.end = end_.finish(); }
@@ -219,12 +219,11 @@ Findings LogCheck::finish() {
     if (findings_.local_runs > 0) {
         findings_.notes.push_back(
             std::to_string(findings_.local_runs) +
-            " runs of axes on their own (homing, own moves) were compared with their records alone");
+            " runs of axes on their own (homing, own moves) were compared only with their records");
     }
     if (findings_.clock_error > Ticks{}) {
-        findings_.notes.push_back("machine time was known to the axes within " +
-                                  std::to_string(findings_.clock_error.value) +
-                                  " ticks: every step is at its very tick by its device's clock, and by machine time "
+        findings_.notes.push_back("the axes knew machine time within " + std::to_string(findings_.clock_error.value) +
+                                  " ticks: every step is at its exact tick by its device's clock, and by machine time "
                                   "within " +
                                   std::to_string(findings_.latest.value) + " ticks of the tick planned");
     }

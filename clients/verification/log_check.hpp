@@ -1,4 +1,4 @@
-// Sends a log's messages to where they are compared: steps and runs by axis, jobs by machine.
+// Passes a log's messages to the comparisons: steps and runs by axis, jobs by machine.
 #pragma once
 
 #include <functional>
@@ -10,22 +10,22 @@
 
 #include "clients/analysis/log/log_read.hpp"
 #include "clients/analysis/log/message_numbers.hpp"
+#include "clients/verification/activity.hpp"
 #include "clients/verification/axis_check.hpp"
 #include "clients/verification/job_check.hpp"
-#include "clients/verification/last_words.hpp"
 #include "clients/verification/run_stream.hpp"
 
 namespace lockstep::verification {
 
 class LogCheck final : public analysis::LogListener {
 public:
-    /// What follows an axis's runs.
+    /// Creates the follower of an axis's runs.
     using MakeFollower =
         std::function<std::unique_ptr<RunFollower>(const std::string& machine, const std::string& axis, Findings&)>;
 
-    /// Steps against runs, and runs against plans.
+    /// Compares steps with runs, and runs with plans.
     LogCheck() = default;
-    /// Steps against runs, which are taken as they are; and what follows the runs.
+    /// Compares steps with runs, which are accepted as recorded; the follower checks the runs.
     explicit LogCheck(MakeFollower make_follower) : make_follower_(std::move(make_follower)) {}
 
     void on_steps(const step_batch_t& message, analysis::LogPlace place) override;
@@ -44,18 +44,18 @@ private:
     static constexpr std::size_t kMaxMachines = 64;
     static constexpr std::size_t kDamagesNoted = 5;
 
-    /// A process may stand still for so long between what it notes and what it publishes.
+    /// The maximum delay of a process between noting and publishing.
     static constexpr std::int64_t kStall_us = 100'000;
 
     struct Axis {
         Axis(const std::string& name, Findings& findings, JobCheck* jobs);
-        /// A message of its own has come, with the time at which it was published; `is_its_first`: of those of its
+        /// One of its messages, with the time at which it was published; `is_its_first`: of those of its
         /// kind.
         void begin(std::int64_t utime, bool is_its_first);
         bool began_before_log(const run_t& message) const;
-        std::optional<std::int64_t> first_us;  // when it was heard first
-        bool is_late = true;                   // the log lacks what it published first
-        LastWord last;
+        std::optional<std::int64_t> first_us;  // when it was first received
+        bool is_late = true;                   // the log lacks its first messages
+        AxisActivity last;
         std::unique_ptr<RunFollower> follower;
         AxisCheck check;
         RunStream runs;
@@ -63,12 +63,12 @@ private:
     struct Machine {
         explicit Machine(Findings& findings) : jobs(findings) {}
         bool has_ended(const std::string& axis) const;
-        void hear(Axis& axis, std::int64_t incarnation, std::int64_t utime);
-        void hear_motion(Axis& axis);
+        void note_message(Axis& axis, std::int64_t incarnation, std::int64_t utime);
+        void note_motion(Axis& axis);
         bool are_at_rest() const;
         void finish();
         JobCheck jobs;
-        LastWords last;
+        MachineActivity last;
         analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log

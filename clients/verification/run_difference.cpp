@@ -41,7 +41,7 @@ void find_step(const Run& planned, const Run& seen, RunDifference& difference) {
 
 constexpr double kStretchSlack_ticks = 512;  // pieces of a tick each keep theirs
 
-/// The speed at which the plan passes from one piece to the next, the slower of both; 0 where it turns. 2^-64 step.
+/// The speed at which the plan passes from one piece to the next, the smaller of both; 0 at a reversal. 2^-64 step.
 Int128 joint_speed(const Piece& before, const Piece& after) {
     const Int128 ends = before.velocity_after(before.ticks) + before.acceleration.raw / 2;
     const Int128 begins = Int128{after.velocity.raw} + after.acceleration.raw / 2;
@@ -49,12 +49,12 @@ Int128 joint_speed(const Piece& before, const Piece& after) {
     return ends < 0 ? std::min(-ends, -begins) : std::min(ends, begins);
 }
 
-/// How far the end of piece `i`, not the last, may be from its planned place. A piece ends at a tick of the device's
-/// clock, where the plan is by then, so the place is off by what the axis moves between the planned end and that tick.
+/// The maximum distance of the end of piece `i`, not the last, from its planned place. A piece ends at a tick of the
+/// device's clock, at the plan's place by then, so the place is off by the motion between both.
 /// The start of the run and the places of all ends are known exactly, so nothing adds up over the pieces: the nearest
 /// tick is half a tick away at most. Where pieces of a tick each leave no room for the nearest,
 /// core/axis/device/retime.cpp limits the distance to half a tick as well. Velocities are whole numbers: n ticks leave
-/// up to n / 2 units of 2^-64 step, which the next piece makes up for; kDoubles is for the product of a speed and a
+/// up to n / 2 units of 2^-64 step, which the next piece compensates; kDoubles is for the product of a speed and a
 /// part of a tick.
 Displacement end_reach(const Run& planned, const Run& seen, std::size_t i) {
     constexpr Int128 kDoubles = 1 << 12;
@@ -62,7 +62,7 @@ Displacement end_reach(const Run& planned, const Run& seen, std::size_t i) {
     return Displacement{half_tick + seen.pieces[i].ticks.value / 2 + kDoubles};
 }
 
-/// The first piece after which the axis would not be where it is planned to be; none: everywhere it is.
+/// The first piece after which the axis would not be at its planned place; none: it always is.
 std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) {
     Position expected = planned.from;
     Position found = seen.from;
@@ -80,16 +80,16 @@ std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) 
     return std::nullopt;
 }
 
-/// The times that the axis took the frame for, against those it was planned for: machine time.
+/// The times for which the axis took the frame, compared with the planned ones: machine time.
 std::optional<RunDifference> compare_commanded(const Run& planned, const Run& seen) {
     if (seen.commanded_start() != planned.start) {
-        return RunDifference{"was taken to start at tick " + std::to_string(seen.commanded_start().value) +
+        return RunDifference{"was executed for a start at tick " + std::to_string(seen.commanded_start().value) +
                                  " of machine time, planned at tick " + std::to_string(planned.start.value),
                              planned.start, seen.commanded_start()};
     }
     const auto as_long = [](const Piece& piece, Ticks ticks) { return piece.ticks == ticks; };
     if (std::ranges::equal(planned.pieces, seen.commanded_ticks, as_long)) { return std::nullopt; }
-    return RunDifference{"was taken for other lengths of its pieces than are planned", std::nullopt,
+    return RunDifference{"was executed for other lengths of its pieces than planned", std::nullopt,
                          seen.commanded_start()};
 }
 
@@ -111,7 +111,7 @@ std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen
     }
     if (seen.from != planned.from) { return RunDifference{what_differs(planned, seen), std::nullopt, seen.start}; }
     if (const auto piece = misplaced_piece(planned, seen)) {
-        return RunDifference{"is not where it is planned to be after piece " + std::to_string(*piece), std::nullopt,
+        return RunDifference{"is not at its planned place after piece " + std::to_string(*piece), std::nullopt,
                              seen.start};
     }
     return std::nullopt;

@@ -1,4 +1,4 @@
-// Where a run is not the one planned.
+// Compares a run with its plan.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,16 @@ struct RunDifference {
     std::optional<Tick> tick_seen;
 };
 
-/// By start, position and pieces; none where they are the same.
+/// By start, position and pieces; none if they are equal.
 std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen);
 
-/// How much longer or shorter a run may be by a clock of the device's own: what machine time is slewed by, and the
+/// How much longer or shorter a run may be by the device's own clock: the slew of machine time, and the
 /// rates of clocks, with some reserve.
 inline constexpr double kMostStretch = 2e-3;
 
-/// For a device with a clock of its own, whose run is `planned` retimed (core/axis/device/retime.hpp): commanded for
-/// the very times planned, at the end of each piece where the plan is within half a tick of it, at both ends of the run
-/// bit for bit, and of a length that clocks can differ by. `joins`: when the run before it ended, by the same clock.
+/// For a device with its own clock, whose run is `planned` retimed (core/axis/device/retime.hpp): commanded for
+/// exactly the planned times, at the end of each piece where the plan is within half a tick of it, at both ends of the
+/// run bit for bit, and of a length that clocks can explain. `joins`: when the run before it ended, by the same clock.
 std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins);
 
 }  // namespace lockstep::verification

@@ -10,7 +10,7 @@ void RunStream::expect_from(std::int64_t incarnation, std::int64_t number) {
 
 void RunStream::take(Run run) {
     if (incarnation_ != run.incarnation) {
-        tell(0);
+        deliver(0);
         const bool is_first = !incarnation_;
         incarnation_ = run.incarnation;
         const auto marked = marked_.find(run.incarnation);
@@ -18,12 +18,12 @@ void RunStream::take(Run run) {
                     : is_first              ? std::nullopt
                                             : std::optional<std::int64_t>(0);
     }
-    if (expected_ && run.sequence < *expected_) { return; }  // it came twice
+    if (expected_ && run.sequence < *expected_) { return; }  // a repeat
     waiting_.emplace(run.sequence, std::move(run));
-    tell(kPatience);
+    deliver(kPatience);
 }
 
-void RunStream::tell(std::size_t patience) {
+void RunStream::deliver(std::size_t patience) {
     while (!waiting_.empty()) {
         const std::int64_t first = waiting_.begin()->first;
         const bool is_next = !expected_ || first == *expected_;

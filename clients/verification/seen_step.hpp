@@ -1,4 +1,4 @@
-// A step as the log has it, and how far it may be from its time.
+// A step of the log, with the uncertainty of its time.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ struct SeenStep {
     Ticks error;   // ...within
 };
 
-/// What a step may be off: what is known of when it was made, and what was known when it was commanded. Two ticks are
-/// for what rounding makes of it.
+/// The tolerance of a step: the uncertainty of the time when it was made, and of the commanded time. Two ticks are for
+/// rounding.
 inline Ticks allowed(Ticks made, Ticks commanded) {
     constexpr Ticks kRounding{2};
     const Ticks both = made + commanded;

@@ -25,7 +25,7 @@ std::expected<Findings, std::string> verify_log(const std::filesystem::path& log
     Findings findings = check.finish();
     if (findings.unreadable) { return std::unexpected(log.string() + ": " + *findings.unreadable); }
     if (findings.going() && findings.steps + findings.runs + findings.local_runs + findings.jobs == 0) {
-        return std::unexpected(log.string() + ": no step, no run and no job is in it that could be verified");
+        return std::unexpected(log.string() + ": it contains no step, run or job to verify");
     }
     return findings;
 }
@@ -60,11 +60,9 @@ std::string to_text(const Findings& findings) {
         }
         text += "  compared before that and equal: " + counted(findings) + "\n";
     } else if (findings.end.missing.empty() && !findings.unknown.empty()) {
-        text =
-            "unknown: not all of it is in the log; what the log has is what the programs give: " + counted(findings) +
-            "\n";
+        text = "unknown: the log is incomplete; its content is what the programs give: " + counted(findings) + "\n";
     } else if (!findings.end.missing.empty()) {
-        text = "not exact: the log lacks the end of the record; what it has is what the programs give: " +
+        text = "not exact: the log lacks the end of the record; its content is what the programs give: " +
                counted(findings) + "\n";
     } else {
         text = "exact: " + counted(findings) + " are what the programs give, tick for tick\n";

@@ -134,7 +134,8 @@ private:
                                  "axis " + axis_name(notice.number) + " fell silent");
             case Kind::Claimed: return log_info("owns the machine, term " + std::to_string(notice.number));
             case Kind::StoodDown:
-                return log_warning("ends: another coordinator owns the machine, term " + std::to_string(notice.number));
+                return log_warning("gives up the machine: another coordinator owns it, term " +
+                                   std::to_string(notice.number));
             case Kind::JobCutShort:
                 return log_warning("the previous coordinator's job ended early near line " +
                                    std::to_string(notice.number) + ": " + std::string(text_of(notice.doubt)) +

@@ -13,7 +13,7 @@ import re
 import sys
 
 RULES = {
-    ".idl": "processes of both versions no longer hear each other: raise kProtocol in services/wire/dds/protocol_version.hpp",
+    ".idl": "processes of both versions no longer receive each other: raise kProtocol in services/wire/dds/protocol_version.hpp",
     ".lcm": "logs of before are no longer read: give the type a new name, unless no log of it was ever kept",
     ".proto": "check that no number got another meaning and that none was taken away: files of before are still read",
 }

@@ -13,7 +13,7 @@ namespace {
 std::string reason_of(LogDamage::Kind kind) {
     switch (kind) {
         case LogDamage::Kind::CutOff: return "the log ends within an event";
-        case LogDamage::Kind::NoEvent: return "bytes that are no event";
+        case LogDamage::Kind::NoEvent: return "bytes that are not an event";
         case LogDamage::Kind::WrongLength: return "an event whose length is wrong";
     }
     return "";
@@ -35,7 +35,7 @@ void note_damage(std::vector<Damage>& all, LogPlace place, std::string what) {
     ++known->places;
 }
 
-void tell_damages(const LogReader& reader, const std::function<void(LogPlace, std::string)>& on_damage) {
+void report_damages(const LogReader& reader, const std::function<void(LogPlace, std::string)>& on_damage) {
     std::uint64_t bytes = 0;
     for (const LogDamage& damage : reader.damages()) {
         on_damage({damage.offset, damage.bytes}, reason_of(damage.kind));
@@ -44,7 +44,7 @@ void tell_damages(const LogReader& reader, const std::function<void(LogPlace, st
     if (reader.damaged_stretches() == reader.damages().size()) { return; }
     const std::uint64_t more = reader.damaged_stretches() - reader.damages().size();
     on_damage({reader.damages().back().offset, reader.damaged_bytes() - bytes},
-              std::to_string(more) + " more damaged stretches, further on");
+              std::to_string(more) + " more damaged places after these");
 }
 
 std::string damage_sentence(const Damage& damage) {

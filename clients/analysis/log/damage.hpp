@@ -1,4 +1,4 @@
-// What could not be read of a log, or not understood: kept by reason, however much it is.
+// The parts of a log that cannot be read or decoded: collected by reason, however many they are.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace lockstep::analysis {
 
-/// A stretch of the file, in bytes.
+/// A part of the file, in bytes.
 struct LogPlace {
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
 };
 
-/// Places in the file that cannot be read, or not understood, for one reason. Bytes from the file's beginning.
+/// Places in the file that cannot be read or decoded, for one reason. Bytes from the file's beginning.
 struct Damage {
     std::uint64_t first_byte = 0;  // of the first place
     std::uint64_t last_byte = 0;   // of the last place
@@ -29,8 +29,8 @@ inline constexpr std::size_t kDamagesKept = 100;  // reasons; the last is of all
 
 void note_damage(std::vector<Damage>& all, LogPlace place, std::string what);
 
-/// What the reader skipped so far, each stretch with why.
-void tell_damages(const LogReader& reader, const std::function<void(LogPlace, std::string)>& on_damage);
+/// Reports all places that the reader has skipped so far, each with the reason.
+void report_damages(const LogReader& reader, const std::function<void(LogPlace, std::string)>& on_damage);
 
 /// "damaged at byte 17: ..., 3 bytes"
 std::string damage_sentence(const Damage& damage);

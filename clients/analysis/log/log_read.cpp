@@ -13,16 +13,16 @@ namespace {
 constexpr std::uint64_t kEventsPerProgress = 4096;
 
 template <typename Message>
-void tell(const LogEvent& event, LogListener& listener, void (LogListener::*told)(const Message&, LogPlace)) {
+void deliver(const LogEvent& event, LogListener& listener, void (LogListener::*handler)(const Message&, LogPlace)) {
     const auto message = decode_lcm<Message>(event.data);
     if (message) {
-        (listener.*told)(*message, {event.offset, event.bytes});
+        (listener.*handler)(*message, {event.offset, event.bytes});
     } else {
         listener.on_damage({event.offset, event.bytes}, message.error() + " on " + std::string(event.channel));
     }
 }
 
-void tell_part(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
+void deliver_part(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
     const LogPlace place{event.offset, event.bytes};
     const auto part = decode_lcm<program_part_t>(event.data);
     if (!part) { return listener.on_damage(place, part.error() + " on " + std::string(event.channel)); }
@@ -30,7 +30,7 @@ void tell_part(const LogEvent& event, LogListener& listener, ProgramParts& progr
     listener.on_program_part(*part, place);
 }
 
-void tell_job(const LogEvent& event, LogListener& listener, const ProgramParts& programs) {
+void deliver_job(const LogEvent& event, LogListener& listener, const ProgramParts& programs) {
     const LogPlace place{event.offset, event.bytes};
     auto job = decode_lcm<job_t>(event.data);
     if (!job) { return listener.on_damage(place, job.error() + " on " + std::string(event.channel)); }
@@ -38,21 +38,21 @@ void tell_job(const LogEvent& event, LogListener& listener, const ProgramParts& 
     listener.on_job(*job, place);
 }
 
-void tell(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
+void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
     switch (kind_of(event.channel)) {
-        case RecordKind::Steps: return tell<step_batch_t>(event, listener, &LogListener::on_steps);
-        case RecordKind::Position: return tell<axis_position_t>(event, listener, &LogListener::on_position);
-        case RecordKind::Health: return tell<axis_health_t>(event, listener, &LogListener::on_health);
-        case RecordKind::Run: return tell<run_t>(event, listener, &LogListener::on_run);
-        case RecordKind::Job: return tell_job(event, listener, programs);
-        case RecordKind::ProgramPart: return tell_part(event, listener, programs);
-        case RecordKind::Mark: return tell<record_mark_t>(event, listener, &LogListener::on_mark);
-        case RecordKind::Loss: return;  // of one log; sequence numbers say what is missing of the record
+        case RecordKind::Steps: return deliver<step_batch_t>(event, listener, &LogListener::on_steps);
+        case RecordKind::Position: return deliver<axis_position_t>(event, listener, &LogListener::on_position);
+        case RecordKind::Health: return deliver<axis_health_t>(event, listener, &LogListener::on_health);
+        case RecordKind::Run: return deliver<run_t>(event, listener, &LogListener::on_run);
+        case RecordKind::Job: return deliver_job(event, listener, programs);
+        case RecordKind::ProgramPart: return deliver_part(event, listener, programs);
+        case RecordKind::Mark: return deliver<record_mark_t>(event, listener, &LogListener::on_mark);
+        case RecordKind::Loss: return;  // of one log; sequence numbers show what the record lacks
         case RecordKind::Foreign: return listener.on_foreign(event.channel);
     }
 }
 
-/// Events read. Progress is the share of the file behind us.
+/// Events read. Progress is the share of the file that was read.
 std::expected<std::uint64_t, std::string> read_events(LogReader& reader, LogListener& listener, double file_bytes,
                                                       const std::function<void(double)>& progress) {
     ProgramParts programs;
@@ -60,7 +60,7 @@ std::expected<std::uint64_t, std::string> read_events(LogReader& reader, LogList
         const auto event = reader.next();
         if (!event) { return std::unexpected(event.error()); }
         if (!*event) { return events; }
-        tell(**event, listener, programs);
+        deliver(**event, listener, programs);
         if (progress && events % kEventsPerProgress == 0) {
             progress(static_cast<double>((*event)->offset) / file_bytes);
         }
@@ -77,7 +77,7 @@ std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& 
     const auto bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
     const auto events = read_events(*reader, listener, bytes, progress);
     if (!events) { return events; }
-    tell_damages(*reader, [&](LogPlace place, std::string what) { listener.on_damage(place, std::move(what)); });
+    report_damages(*reader, [&](LogPlace place, std::string what) { listener.on_damage(place, std::move(what)); });
     if (bytes == 0) { return std::unexpected(path.string() + ": the file is empty"); }
     if (*events == 0) { return std::unexpected(path.string() + ": not an LCM log: no event in it"); }
     if (progress) { progress(1); }

@@ -1,6 +1,6 @@
-// A log's events, decoded and told one by one: nothing is kept.
+// Passes a log's events, decoded, to a listener one by one: nothing is kept.
 //
-// What cannot be read is told too, by its place in the file, and reading goes on behind it.
+// Unreadable places are passed on too, with their place in the file, and reading continues after them.
 #pragma once
 
 #include <cstdint>
@@ -31,17 +31,17 @@ public:
     virtual void on_run(const run_t& message, LogPlace place) = 0;
     virtual void on_job(const job_t& message, LogPlace place) = 0;
     virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
-    /// Jobs are given their programs (program_parts.hpp); this is for who counts the messages.
+    /// Jobs already have their programs (program_parts.hpp); this is for listeners that count messages.
     virtual void on_program_part(const program_part_t& /*message*/, LogPlace /*place*/) {}
     virtual void on_mark(const record_mark_t& /*message*/, LogPlace /*place*/) {}
     /// An event of a channel that is not Lockstep's.
     virtual void on_foreign(std::string_view channel) = 0;
-    /// What is there cannot be read, or not understood.
+    /// The content cannot be read or decoded.
     virtual void on_damage(LogPlace place, std::string what) = 0;
 };
 
-/// The number of events read. `progress` hears 0 ... 1 now and then. The error is a sentence for the user: the file is
-/// missing, a directory, empty, or no log.
+/// Returns the number of events read. `progress` is called with 0 ... 1 now and then. The error is a sentence for the
+/// user: the file is missing, a directory, empty, or not a log.
 std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& path, LogListener& listener,
                                                    const std::function<void(double)>& progress = {});
 

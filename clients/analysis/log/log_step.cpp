@@ -11,7 +11,7 @@ bool is_countable_batch(const step_batch_t& m) {
            m.clock_error >= 0;
 }
 
-/// Far within what keeps steps apart, which are two ticks from each other at least; beyond all quartzes.
+/// Keeps steps apart, which are at least two ticks from each other; larger than the error of any quartz.
 bool clocks_agree(const ClockStretch& time) {
     constexpr std::int64_t kLeastPart = 100;
     return std::abs((time.other_ticks - time.ticks).value) <= 2 + time.ticks.value / kLeastPart;
@@ -20,9 +20,7 @@ bool clocks_agree(const ClockStretch& time) {
 }  // namespace
 
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
-    if (!is_countable_batch(message)) {
-        return std::unexpected("a message of steps with numbers that no machine counts to");
-    }
+    if (!is_countable_batch(message)) { return std::unexpected("a message of steps with impossible numbers"); }
     StepBatch batch{.incarnation = message.incarnation,
                     .sequence = message.sequence,
                     .position_before_steps = message.position_before,
@@ -41,7 +39,7 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
         batch.steps.push_back({tick, direction});
     }
     if (!batch.steps.empty() && !clocks_agree(batch.machine_time())) {
-        return std::unexpected("the clocks of a message of steps differ by more than clocks can");
+        return std::unexpected("the clocks of a message of steps differ by an impossible amount");
     }
     return batch;
 }

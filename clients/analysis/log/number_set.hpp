@@ -1,4 +1,4 @@
-// Which of the numbers 0, 1, 2, ... have come: as stretches, since nearly all do, and nearly in order.
+// A set of the numbers 0, 1, 2, ..., stored as ranges, since nearly all are received, and nearly in order.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace lockstep::analysis {
 
-/// From `from` up to `end`, which is not among them.
+/// From `from` up to `end`, exclusive.
 struct Numbers {
     std::int64_t from = 0;
     std::int64_t end = 0;
@@ -18,7 +18,7 @@ struct Numbers {
 
 class NumberSet {
 public:
-    /// False: it had come already.
+    /// False: it is a repeat.
     bool add(std::int64_t number) {
         auto after = ends_.upper_bound(number);
         const bool follows = after != ends_.begin() && std::prev(after)->second >= number;
@@ -32,10 +32,10 @@ public:
         return true;
     }
 
-    /// Behind the highest that came; 0: none came.
+    /// One more than the highest number; 0: the set is empty.
     std::int64_t end() const { return ends_.empty() ? 0 : ends_.rbegin()->second; }
 
-    /// How many are missing between the lowest and the highest that came.
+    /// How many are missing between the lowest and the highest number.
     std::int64_t missing_within() const {
         if (ends_.empty()) { return 0; }
         std::int64_t missing = ends_.rbegin()->second - ends_.begin()->first;
@@ -43,7 +43,7 @@ public:
         return missing;
     }
 
-    /// Those that are missing between 0 and the highest that came.
+    /// The missing numbers between 0 and the highest.
     std::vector<Numbers> gaps() const {
         std::vector<Numbers> out;
         std::int64_t expected = 0;
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    std::map<std::int64_t, std::int64_t> ends_;  // of each stretch, by where it begins
+    std::map<std::int64_t, std::int64_t> ends_;  // the end of each range, by its beginning
 };
 
 }  // namespace lockstep::analysis

@@ -8,9 +8,9 @@
 namespace lockstep::analysis {
 namespace {
 
-// The first character of a job's program tells that it is no text: no text begins with either.
+// The first character of a job's program marks it as not text: no text begins with either.
 constexpr char kBytes = '\0';  // the rest is Protobuf bytes
-constexpr char kLacks = '\1';  // the rest says what is missing
+constexpr char kLacks = '\1';  // the rest states what is missing
 
 bool begins_with(const std::string& program, char mark) { return !program.empty() && program.front() == mark; }
 
@@ -22,14 +22,14 @@ std::expected<void, std::string> ProgramParts::take(const program_part_t& part) 
         return {};
     }
     const bool is_part = part.parts > 0 && part.parts <= kMostParts && part.part >= 0 && part.part < part.parts;
-    if (!is_part || part.data.empty()) { return std::unexpected(std::string("a part of a program that none has")); }
+    if (!is_part || part.data.empty()) { return std::unexpected(std::string("an impossible part of a program")); }
     auto& place = parts_of(part).data[static_cast<std::size_t>(part.part)];
     if (place.empty()) { ++parts_of(part).came; }
     place.assign(part.data.begin(), part.data.end());
     return {};
 }
 
-/// A program of the same number that is whole, or of another length, was another.
+/// If a program of the same number is complete, or has another length, it is another program.
 ProgramParts::Parts& ProgramParts::parts_of(const program_part_t& part) {
     const auto known = std::ranges::find_if(programs_, [&](const Parts& parts) {
         return parts.coordinator == part.coordinator && parts.program == part.program;

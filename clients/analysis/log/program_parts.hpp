@@ -1,6 +1,6 @@
-// Programs that are recorded in parts, since they are too long for the message of the job that runs them.
+// Assembles programs that were recorded in parts, since they are too long for the message of the job that runs them.
 //
-// The parts come before the job. What a job's message then carries as its program is for program_of() alone.
+// The parts precede the job. The program in a job's message may then only be read by program_of().
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ public:
     static constexpr std::size_t kProgramsKept = 8;  // the newest
     static constexpr std::int32_t kMostParts = 1 << 16;
 
-    /// Error: the part cannot be one.
+    /// Error: the part is impossible.
     std::expected<void, std::string> take(const program_part_t& part);
-    /// Gives a job that has begun its program, if that was recorded in parts.
+    /// Gives a begun job its program, if that was recorded in parts.
     void complete(job_t& job) const;
 
 private:
@@ -40,9 +40,9 @@ private:
     std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> of_jobs_;  // by coordinator and job
 };
 
-/// False: parts of the job's program are not in the log; program_of() says which.
+/// False: parts of the job's program are not in the log; program_of() reports which.
 bool has_whole_program(const job_t& job);
-/// What a job runs. Error: it cannot be read, or is not whole.
+/// The program of a job. Error: it cannot be read, or is incomplete.
 std::expected<Program, std::string> program_of(const job_t& job);
 
 }  // namespace lockstep::analysis

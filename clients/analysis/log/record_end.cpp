@@ -99,7 +99,7 @@ void RecordEndCheck::take(const record_mark_t& mark) {
     }
 }
 
-/// Whether what is published behind that mark is published while this log is written.
+/// Whether the messages after that mark are published while this log is written.
 bool RecordEndCheck::is_of_this_log(const record_mark_t& mark) const {
     return mark.witness == mark.process || mark.utime >= *first_us_ + kNoted_us;
 }
@@ -148,13 +148,13 @@ std::vector<std::string> open_sentences(const RecordEnd& end) {
     if (!marked.empty()) {
         const auto first = std::ranges::min_element(marked, {}, &OpenEnd::known_us);
         lines.push_back(
-            fmt::format("the record is known to be whole up to {}; the end of {} is not recorded: what was "
+            fmt::format("the record is known to be complete up to {}; the end of {} is not recorded: messages "
                         "published after that may be missing",
                         time_text(*first->known_us), names_of(marked)));
     }
     if (!unmarked.empty()) {
         lines.push_back(
-            fmt::format("whether the end is missing cannot be known of {}: no mark says how much was "
+            fmt::format("whether the end is missing cannot be known of {}: no mark states how much was "
                         "published (an earlier version recorded this, or the log is cut)",
                         names_of(unmarked)));
     }

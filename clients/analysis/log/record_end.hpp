@@ -1,6 +1,6 @@
-// Whether a record has its end: what its processes are known to have published last, by their marks, against what is
-// there. Messages that are missing between others are found by their numbers; this finds those behind the last one, and
-// processes of which nothing is there at all.
+// Checks whether a record has its end: compares the last counts that its processes published, in their marks, with the
+// messages received. Sequence numbers show messages missing between others; this finds those missing after the last
+// one, and processes without any message.
 #pragma once
 
 #include <compare>
@@ -35,7 +35,7 @@ struct MissingEnd {
     std::int64_t published_us = 0;
 };
 
-/// A process that was not recorded to end: what it published after the last mark of it nobody knows.
+/// A process whose end was not recorded: messages that it published after its last mark may be missing.
 struct OpenEnd {
     RecordingProcess process;
     std::optional<std::int64_t> known_us;  // of that mark; none: there is none, as in logs of earlier versions
@@ -47,7 +47,7 @@ struct RecordEnd {
 
     std::int64_t missing_messages() const;
     bool lacks_steps() const;
-    /// Everything that was published is known to be there.
+    /// All published messages are known to be in the log.
     bool is_closed() const { return missing.empty() && open.empty(); }
 };
 
@@ -57,14 +57,14 @@ public:
     RecordEndCheck(const RecordEndCheck&) = delete;  // it points into itself
     RecordEndCheck& operator=(const RecordEndCheck&) = delete;
 
-    static constexpr std::size_t kMostProcesses = 4096;  // more than a log is believed to hold
-    /// What one process publishes may be on another's disk sooner than on its own. So in logs that are read while they
-    /// are written, others' newest marks prove nothing yet.
+    static constexpr std::size_t kMostProcesses = 4096;  // more than any real log contains
+    /// One process's message may be on another's disk sooner than on its own. So in logs that are read while they are
+    /// written, the newest marks of other processes prove nothing yet.
     static constexpr std::int64_t kOnItsWay_us = 1'000'000;
-    /// What one process says of another's messages is so old at most when it is written.
+    /// The maximum age of a mark about another process when it is written.
     static constexpr std::int64_t kNoted_us = 300'000;
 
-    /// A message with its number is there.
+    /// A message with its number was read.
     void saw(RecordKind kind, const std::string& machine, const std::string& axis, std::int64_t incarnation,
              std::int64_t sequence);
     void take(const record_mark_t& mark);
@@ -74,14 +74,14 @@ public:
 private:
     static constexpr std::size_t kKinds = 6;
     struct Counted {
-        /// Behind the highest number seen, of each kind. None seen: behind what may have been published before the log
-        /// began; nothing where no mark tells.
+        /// One more than the highest number read, of each kind. None read: after those that may have been published
+        /// before the log began; nothing without a mark.
         std::optional<std::int64_t> there[kKinds];
         bool is_seen[kKinds]{};
         std::int64_t published[kKinds]{};  // by the highest mark
         std::int64_t published_us[kKinds]{};
         std::optional<std::int64_t> marked_us;
-        std::deque<record_mark_t> others;  // marks of it by others that may be too new
+        std::deque<record_mark_t> others;  // marks of it by other processes that may be too new
         bool ended = false;
     };
     void hold_to(const record_mark_t& mark, Counted& counted);
@@ -96,9 +96,9 @@ private:
 };
 
 /// "X: 3 messages of steps (numbers 5 to 7), published by machine time 12.345 s": a line for each process and kind, and
-/// what to do.
+/// the remedy.
 std::vector<std::string> missing_sentences(const RecordEnd& end);
-/// How far the record is known to be whole, where no process is known to lack anything; empty: to its end.
+/// Up to when the record is known to be complete, if no process is known to lack a message; empty: to its end.
 std::vector<std::string> open_sentences(const RecordEnd& end);
 
 }  // namespace lockstep::analysis

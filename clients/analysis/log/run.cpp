@@ -32,11 +32,11 @@ Position Run::to() const {
 Ticks Run::ticks() const { return total_ticks(pieces); }
 
 std::expected<Run, std::string> to_run(const run_t& message) {
-    if (!is_countable_run(message)) { return std::unexpected("a run with numbers that no machine counts to"); }
+    if (!is_countable_run(message)) { return std::unexpected("a run with impossible numbers"); }
     if (message.ticks.size() > kMaxBodyPieces + 1) {
         return std::unexpected("a run of more pieces than a frame carries");
     }
-    if (!are_commanded(message)) { return std::unexpected("a run commanded to last as nothing can"); }
+    if (!are_commanded(message)) { return std::unexpected("a run with an impossible commanded duration"); }
     Run run{.incarnation = message.incarnation,
             .sequence = message.sequence,
             .epoch = static_cast<Epoch>(message.epoch),

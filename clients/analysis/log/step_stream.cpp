@@ -21,15 +21,15 @@ void StepStream::take(StepBatch batch) {
     if (incarnation_ != batch.incarnation) { begin_incarnation(batch.incarnation); }
     const std::int64_t sequence = batch.sequence;
     if (!waiting_.emplace(sequence, std::move(batch)).second) { ++counts_.duplicates; }
-    tell_in_order(true);
+    deliver_in_order(true);
 }
 
 void StepStream::finish() {
-    tell_in_order(false);
+    deliver_in_order(false);
     close_break(std::nullopt);
 }
 
-/// Counts what has its time behind it.
+/// Counts a batch that comes after its time.
 bool StepStream::has_passed(const StepBatch& batch) {
     if (past_incarnations_.contains(batch.incarnation)) {
         ++counts_.duplicates;
@@ -43,7 +43,7 @@ bool StepStream::has_passed(const StepBatch& batch) {
 }
 
 void StepStream::begin_incarnation(std::int64_t incarnation) {
-    tell_in_order(false);
+    deliver_in_order(false);
     if (incarnation_) {
         past_incarnations_.insert(*incarnation_);
         ++counts_.restarts;
@@ -54,15 +54,15 @@ void StepStream::begin_incarnation(std::int64_t incarnation) {
     given_up_.clear();
 }
 
-void StepStream::tell_in_order(bool wait) {
+void StepStream::deliver_in_order(bool wait) {
     while (!waiting_.empty()) {
         const bool is_next = waiting_.begin()->first == expected_;
         if (!is_next && wait && waiting_.size() <= kPatience) { return; }
-        tell(waiting_.extract(waiting_.begin()).mapped());
+        deliver(waiting_.extract(waiting_.begin()).mapped());
     }
 }
 
-void StepStream::tell(const StepBatch& batch) {
+void StepStream::deliver(const StepBatch& batch) {
     note_missing(batch.sequence);
     const bool restarted = break_ && break_->kind == Break::Kind::Restart;
     if (!batch.steps.empty() && last_tick_ && batch.steps.front().tick <= *last_tick_ && !restarted) {
@@ -95,7 +95,7 @@ void StepStream::note_position(std::int64_t position_before) {
     position_ = position_before;
 }
 
-/// A break that is already open keeps its kind.
+/// An open break keeps its kind.
 Break& StepStream::open_break(Break::Kind kind) {
     if (!break_) { break_ = Break{.kind = kind, .from = last_tick_}; }
     return *break_;

@@ -1,6 +1,6 @@
 // One axis's steps in order, from batches that may be missing, repeated, late or of a restarted process.
 //
-// What is missing is said, never smoothed over: which batches, between which ticks, and by how many steps the
+// Missing steps are reported, never interpolated: which batches, between which ticks, and by how many steps the
 // position differs on either side.
 #pragma once
 
@@ -18,9 +18,9 @@
 namespace lockstep::analysis {
 
 /// Every step of an axis since the batch before. Ticks rise strictly; directions are +1 or -1. Ticks are the device's
-/// as recorded, or machine time (log_step.hpp): a stream has either.
+/// as recorded, or machine time (log_step.hpp): a stream has only one of them.
 struct StepBatch {
-    std::int64_t incarnation = 0;  // of the axis's process; sequences start anew with each
+    std::int64_t incarnation = 0;  // of the axis's process; each process counts its batches from 0
     std::int64_t sequence = 0;     // without gaps
     std::int64_t position_before_steps = 0;
     std::vector<StepEdge> steps;
@@ -29,29 +29,29 @@ struct StepBatch {
     Ticks clock_error{};               // of machine time, either way
     std::vector<Tick> device_ticks{};  // of steps in machine time; empty: the same ticks
 
-    /// When the device made a step. Intervals are true by its clock alone: where one batch follows another, machine
-    /// time differs by what the estimate of it has changed.
+    /// When the device made a step. Intervals are exact only by its clock: between batches, machine time also contains
+    /// the change of its estimate.
     Tick device_tick(std::size_t step) const { return device_ticks.empty() ? steps[step].tick : device_ticks[step]; }
 
-    /// From the device's time to machine time. Not to be asked of a batch without steps.
+    /// From the device's time to machine time. The batch must have steps.
     ClockStretch machine_time() const;
 };
 
-/// Where the steps on either side do not join.
+/// A place where the steps on either side do not join.
 struct Break {
     enum class Kind : std::uint8_t {
         Missing,  // batches are missing from the log
-        Restart,  // the axis's process started anew
-        Jump,     // nothing is missing, yet positions count on from elsewhere: zeroed, or times of steps lost
+        Restart,  // the axis's process restarted
+        Jump,     // nothing is missing, but positions continue from another value: zeroed, or times of steps lost
     };
     Kind kind = Kind::Missing;
-    std::optional<Tick> from;          // the last step before; none where the log begins so
-    std::optional<Tick> to;            // the first step after; none where the log ends so
+    std::optional<Tick> from;          // the last step before; none at the log's beginning
+    std::optional<Tick> to;            // the first step after; none at the log's end
     std::int64_t missing_batches = 0;  // by their numbers
     std::int64_t position_change = 0;  // steps, after minus before: of steps missing, the balance of their directions
 };
 
-/// What a stream's steps are told to, in order.
+/// Receives a stream's steps in order.
 class StepListener {
 public:
     virtual ~StepListener() = default;
@@ -61,42 +61,42 @@ public:
 };
 
 struct StreamCounts {
-    std::int64_t batches = 0;     // told
+    std::int64_t batches = 0;     // delivered
     std::int64_t steps = 0;       // in them
     std::int64_t duplicates = 0;  // batches that came again: left out
     std::int64_t late = 0;        // batches that came after they were given up as missing: left out
-    std::int64_t disordered = 0;  // batches with steps before those of the batch in front: left out
+    std::int64_t disordered = 0;  // batches with steps before those of the previous batch: left out
     std::int64_t restarts = 0;
 };
 
 class StepStream {
 public:
     static constexpr std::int64_t kFirstSequence = 0;
-    /// How many batches wait for one that is missing before it is given up: datagrams may overtake each other.
+    /// How many batches wait for a missing one before it is given up: datagrams may overtake each other.
     static constexpr std::size_t kPatience = 16;
 
     explicit StepStream(std::vector<StepListener*> listeners) : listeners_(std::move(listeners)) {}
 
     void listen(StepListener& listener) { listeners_.push_back(&listener); }
     void take(StepBatch batch);
-    /// Tells what still waits. Call once, at the end of the log.
+    /// Delivers the waiting batches. Call once, at the end of the log.
     void finish();
 
     const StreamCounts& counts() const { return counts_; }
-    /// After the last step told; none before the first batch.
+    /// After the last step delivered; none before the first batch.
     std::optional<std::int64_t> position_steps() const { return position_; }
     std::optional<Tick> last_tick() const { return last_tick_; }
 
 private:
     struct Numbers {
         std::int64_t from = 0;
-        std::int64_t end = 0;  // not among them
+        std::int64_t end = 0;  // exclusive
     };
 
     bool has_passed(const StepBatch& batch);
     void begin_incarnation(std::int64_t incarnation);
-    void tell_in_order(bool wait);
-    void tell(const StepBatch& batch);
+    void deliver_in_order(bool wait);
+    void deliver(const StepBatch& batch);
     void note_missing(std::int64_t sequence);
     void note_position(std::int64_t position_before);
     Break& open_break(Break::Kind kind);
@@ -109,7 +109,7 @@ private:
     std::int64_t expected_ = kFirstSequence;
     std::deque<Numbers> given_up_;               // of this incarnation, the newest few
     std::map<std::int64_t, StepBatch> waiting_;  // by sequence
-    std::optional<Break> break_;                 // open until the next step says where it ends
+    std::optional<Break> break_;                 // open until the next step closes it
     std::optional<std::int64_t> position_;
     std::optional<Tick> last_tick_;
 };

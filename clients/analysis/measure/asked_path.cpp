@@ -30,7 +30,7 @@ std::size_t lead_of(Parts parts) {
     return lead;
 }
 
-/// When the lead axis of one part is `steps` from where that began, after the path's start: by halving.
+/// When the lead axis of one part is `steps` from the part's beginning, after the path's start: by bisection.
 Subticks when(const PathMove& part, double steps) {
     Subticks low;
     Subticks high = part.profile.duration();

@@ -1,4 +1,4 @@
-// What a job's program asks of each axis, move by move: places in whole steps, and times as the coordinator plans them.
+// The motion that a job's program commands of each axis, move by move: places in whole steps, and times as the
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct AskedMove {
 
 class AskedPath {
 public:
-    /// A job without a program: homing. It asks for nothing.
+    /// A job without a program: homing. It commands no moves.
     AskedPath() = default;
 
     /// Plans the program as the coordinator did. Error: why it cannot be planned.
@@ -33,7 +33,7 @@ public:
     std::size_t size() const { return moves_.size(); }
     const AskedMove& operator[](std::size_t move) const { return moves_[move]; }
     Ticks planned() const { return planned_; }
-    /// From rest to rest; between two of them the program waits for a person.
+    /// Motions from rest to rest; between two of them the program waits for a person.
     std::int64_t legs() const { return legs_; }
 
     /// The machine's axes, in its order; none without a program.

@@ -50,7 +50,7 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
     stand_at(edge.tick);
 }
 
-/// Speed and acceleration by the device's clock, which the motor follows, at their times on the machine's.
+/// Speed and acceleration by the device's clock, which the motor follows, at machine times.
 void AxisStatistics::measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step) {
     const auto speed = meter_.step({by_device, edge.direction});
     const auto& acceleration = meter_.acceleration();
@@ -69,7 +69,7 @@ void AxisStatistics::stand_at(Tick tick) {
     acceleration_.add({tick, 0});
 }
 
-/// A rest is 0 from its first instant to its last; where steps are missing nobody knows.
+/// During a rest both are 0 from its first instant to its last; where steps are missing they are unknown.
 void AxisStatistics::show_rest(Tick until) {
     if (!std::exchange(joined_, true) || !last_ || until - last_->tick <= SpeedMeter::kRest) { return; }
     stand_at(last_->tick);

@@ -1,4 +1,4 @@
-// What one axis did, from its steps alone.
+// The motion of one axis, from its steps alone.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class AxisStatistics final : public StepListener {
 public:
     static constexpr std::size_t kBreaksKept = 1000;
 
-    /// Each step is told to `listener` too, with what was measured there.
-    void tell(MeasuredListener& listener, std::size_t lane) {
+    /// Each step also goes to `listener`, with its measured values.
+    void set_listener(MeasuredListener& listener, std::size_t lane) {
         listener_ = &listener;
         lane_ = lane;
     }
@@ -48,7 +48,7 @@ public:
     /// The steps' times are machine time within this.
     Ticks clock_error() const { return clock_error_; }
     std::int64_t missing_batches() const { return missing_batches_; }
-    /// At least so many steps are missing: what positions differ by, over all stretches of missing batches.
+    /// The minimum number of missing steps: the difference of positions over all missing batches.
     std::int64_t missing_steps() const { return missing_steps_; }
 
 private:
@@ -73,7 +73,7 @@ private:
     std::int64_t break_count_ = 0;
     std::int64_t missing_batches_ = 0;
     std::int64_t missing_steps_ = 0;
-    bool joined_ = true;  // the next step to the last one
+    bool joined_ = true;  // the next step follows the last one
 };
 
 }  // namespace lockstep::analysis

@@ -1,7 +1,7 @@
 // A quantity over time in a bounded number of points, peaks included.
 //
-// Time is cut into equal bins; each keeps its first, lowest, highest and last sample. Where the bins become too many,
-// neighbours merge and the bins double in width.
+// Time is divided into equal bins; each keeps its first, lowest, highest and last sample. If there are too many bins,
+// neighbours are merged and the bins double in width.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ public:
         if (is_in_latest(sample.at) || find_bin(sample.at)) { bins_[latest_].add(sample); }
     }
     /// Samples of one value at at(0) ... at(count - 1), in the order of time: of those within a bin, the first and the
-    /// last tell all.
+    /// last are sufficient.
     template <typename At>
     void add_equal(double value, std::size_t count, At&& at) {
         for (std::size_t i = 0; i < count;) {

@@ -7,11 +7,11 @@
 namespace lockstep::analysis {
 namespace {
 
-/// From the first on, which is in the move.
+/// Starts with the first step, which is in the move.
 std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> steps) {
     const LateStep& first = steps.front();
     const std::int64_t way = (steps.back().count - first.count) * first.direction;
-    if (way + 1 == std::ssize(steps)) {  // none turns back
+    if (way + 1 == std::ssize(steps)) {  // no step reverses
         return static_cast<std::size_t>(std::min(way + 1, cursor.steps_from(first.count - first.direction)));
     }
     const auto is_elsewhere = [&](const LateStep& step) {
@@ -116,7 +116,7 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     largest = std::max(largest, square_of_distance_mm2());
 }
 
-/// The other axes' steps since then were held against a place where this axis was no more.
+/// The other axes' later steps were compared with an outdated position of this axis.
 void JobMoves::forget_distances(std::size_t from_move) {
     for (std::size_t move = from_move; move <= current_; ++move) { made_[move].is_distance_known = false; }
 }

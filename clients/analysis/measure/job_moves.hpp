@@ -1,8 +1,8 @@
-// What a job's moves were when they were made, step by step, beside what was asked.
+// The moves of a job as they were made, step by step, compared with the commanded ones.
 //
-// An axis makes the steps of its moves in their order and none besides, whatever holds and resumptions lie between. So
-// the move that a step belongs to follows from where the axis is, not from any clock: it is the next one that leads
-// through there.
+// An axis makes the steps of its moves in their order and no others, whatever holds and resumptions lie between. So
+// the move of a step follows from the axis's position, not from any clock: it is the next move that leads through
+// there.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ namespace lockstep::analysis {
 struct AxisMove {
     std::int64_t asked_steps = 0;
     std::int64_t made_steps = 0;
-    double peak_steps_per_tick = 0;  // as SpeedMeter has them: a window may reach into the move before
+    double peak_steps_per_tick = 0;  // from SpeedMeter: a window may reach into the move before
     double peak_steps_per_tick2 = 0;
 };
 
@@ -30,19 +30,19 @@ struct MoveLog {
     std::int32_t line = 0;  // of the program
     double length_mm = 0;
     Ticks planned;
-    /// From end to end: between its first step and its last, and what the plan has before and behind. None: no steps.
+    /// Total duration: between its first step and its last, plus the planned times before and after. None: no steps.
     std::optional<Ticks> made;
-    /// Of any step from the line asked. None where axes moved on their own, or steps came too late in the log to tell.
+    /// Of any step from the commanded line. None if axes moved on their own, or steps came too late in the log.
     std::optional<double> largest_distance_mm;
     std::optional<Tick> first;   // of the steps of the axis that has the most
-    TickHistogram late;          // of its steps, against the ticks commanded
-    Ticks skew;                  // from its earliest step to its latest, against these
+    TickHistogram late;          // of its steps, against the commanded ticks
+    Ticks skew;                  // from its earliest step to its latest, relative to these
     std::vector<AxisMove> axes;  // in the machine's order
     bool is_dwell = false;
     bool is_whole() const;
 };
 
-/// The next move through a place, of one axis.
+/// Finds the next move through a place, of one axis.
 class MoveCursor {
 public:
     /// Goes to the move in which an axis steps from `count` in `direction`. False: no such move is near.
@@ -63,7 +63,7 @@ private:
     bool find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction);
 
     std::size_t next_ = 0;  // of the axis's moves
-    std::size_t move_ = 0;  // the one found last: it leads through counts from low_ up to high_, that not among them
+    std::size_t move_ = 0;  // the one found last: it leads through counts from low_ up to high_, exclusive
     int direction_ = 0;
     std::int64_t low_ = 0;
     std::int64_t high_ = 0;
@@ -76,17 +76,17 @@ public:
 
     const AskedPath& asked() const { return asked_; }
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
-    /// In the order of time. One that comes late leaves the distances since its move unknown.
+    /// In the order of time. A step that comes late makes the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
     void take(std::size_t axis, LateSteps late);
 
-    /// Steps that no move asked for.
+    /// Steps that belong to no move.
     std::int64_t unasked_steps() const { return unasked_steps_; }
-    /// The axis made fewer steps than asked: the log lacks some, or the job ended before they were made.
+    /// The axis made fewer steps than commanded: the log lacks some, or the job ended before they were made.
     bool lacks_steps_of(std::size_t axis) const;
-    /// The log has what the axis did until then and no further: where it lacks steps, distances since are unknown.
+    /// The log has the axis's steps until then and no further: if it lacks steps, distances since then are unknown.
     void know_until(std::size_t axis, Tick until);
-    /// Moves whose distance from the line cannot be told.
+    /// Moves whose distance from the line is unknown.
     std::int64_t moves_without_distance() const;
     /// The program's line in motion; none before the first.
     std::optional<std::int32_t> line_at(Tick tick) const;

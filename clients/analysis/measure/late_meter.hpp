@@ -1,4 +1,4 @@
-// Finds how late each axis's steps were, and how far apart those of two axes: the stage between the axes' own figures
+// Finds how late each axis's steps were, and the skew between axes: the stage between the axes' own figures
 // and the jobs'.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace lockstep::analysis {
 
 class LateMeter final : public SortedListener {
 public:
-    /// `next` is told all that this object is told, and of late steps.
+    /// `next` receives all that this object receives, and the lateness of steps.
     explicit LateMeter(SortedListener& next) : next_(next) {}
     LateMeter(const LateMeter&) = delete;
     LateMeter& operator=(const LateMeter&) = delete;

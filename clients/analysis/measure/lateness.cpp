@@ -7,7 +7,7 @@
 namespace lockstep::analysis {
 namespace {
 
-/// As many steps as a run makes where it does not turn back.
+/// The number of steps of a run that does not reverse.
 std::size_t likely_steps(const Run& run) {
     return static_cast<std::size_t>(std::abs(run.to().count() - run.from.count()));
 }
@@ -37,7 +37,7 @@ void Lateness::settle() {
     }
 }
 
-/// The first run lasts no longer than until the next begins: it may have been cut.
+/// The first run lasts at most until the next begins: it may have been cut.
 Tick Lateness::first_end() const {
     const Tick end = runs_.front().commanded_start() + runs_.front().ticks();
     return runs_.size() > 1 ? std::min(end, runs_[1].commanded_start()) : end;
@@ -50,7 +50,7 @@ void Lateness::compare_first() {
     if (run.epoch != 0) { on_run_(run, std::move(late)); }
 }
 
-/// Up to the first that is not in the log.
+/// Up to the first step that is not in the log.
 LateRun Lateness::compare(StepMaker maker) {
     LateRun run;
     std::vector<LateStep>& steps = run.steps;

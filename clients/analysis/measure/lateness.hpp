@@ -1,7 +1,7 @@
-// How late one axis's steps were: each against the tick at which the frame it belongs to has it, in machine time.
+// How late one axis's steps were: each compared with its tick in its frame, in machine time.
 //
-// Frames alone are looked at, and their tails: what axes run together. Steps are found by their counts; where steps or
-// runs are missing from the log, what cannot be told apart is left out.
+// Only frames and their tails are compared: the runs that axes execute together. Steps are found by their counts; if
+// steps or runs are missing from the log, ambiguous steps are left out.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace lockstep::analysis {
 
 struct LateStep {
     Tick commanded;
-    Ticks late;              // below 0: before its time
-    Ticks error;             // `late` is known within
+    Ticks late;              // below 0: early
+    Ticks error;             // uncertainty of `late`
     std::int64_t count = 0;  // after it, machine coordinates
     std::int8_t direction = 0;
 };
@@ -29,7 +29,7 @@ struct LateStep {
 /// Some steps of one run, in the order of the ticks commanded.
 struct LateSteps {
     std::span<const LateStep> steps;
-    bool are_equally_late = false;  // known to be, mostly by nothing
+    bool are_equally_late = false;  // known to be equally late, usually 0
 
     LateSteps first(std::size_t count) const { return {steps.first(count), are_equally_late}; }
     LateSteps behind(std::size_t count) const { return {steps.subspan(count), are_equally_late}; }
@@ -58,17 +58,17 @@ using SharedLate = std::shared_ptr<const LateRun>;
 
 class Lateness {
 public:
-    /// So long after a run's end its last steps are waited for: messages are sent every 10 ms. No step is taken to be
-    /// later.
+    /// How long after a run's end its last steps are awaited: messages are sent every 10 ms. Later steps are not
+    /// considered.
     static constexpr Ticks kPatience{100'000};
-    /// An axis that rests while others move says nothing to wait for.
+    /// The maximum of waiting runs: an axis at rest while others move publishes no steps to wait for.
     static constexpr std::size_t kMaxWaiting = 256;
-    /// So many steps wait for the record of their run; older ones are of no run in the log. 64 MB.
+    /// The maximum of steps that wait for the record of their run; older ones belong to no run in the log. 64 MB.
     static constexpr std::size_t kMaxSeen = std::size_t{1} << 21;
 
     using OnRun = std::function<void(const Run&, SharedLate)>;
 
-    /// `on_run` hears of each run of an epoch, in the order of their starts.
+    /// `on_run` is called with each run of an epoch, in the order of their starts.
     explicit Lateness(OnRun on_run) : on_run_(std::move(on_run)) {}
 
     /// The next steps.

@@ -1,4 +1,4 @@
-// A step and what was measured there: what an axis's own stream of steps gives to those who look at all axes.
+// A step with its measured values: passed from an axis's own stream of steps to the stages for all axes.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct MeasuredSteps {
     Ticks clock_error;
 };
 
-/// What is measured is written once, and read by whoever needs it, on any thread.
+/// Measured once, and read by any stage, on any thread.
 using SharedSteps = std::shared_ptr<const MeasuredSteps>;
 
 class MeasuredListener {

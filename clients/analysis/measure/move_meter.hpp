@@ -18,10 +18,10 @@ namespace lockstep::analysis {
 
 class MoveMeter {
 public:
-    /// So many jobs may still be told of: messages of the next come before the last steps of one.
+    /// How many jobs may be open: messages of the next job come before the last steps of the previous one.
     static constexpr std::size_t kJobsOpen = 4;
 
-    /// Called with each job's moves when it is over, by the number that begin() was given, and its machine's axes.
+    /// Called with each job's moves when it is over, by the number given to begin(), and its machine's axes.
     using OnJob = std::function<void(std::size_t number, const std::vector<std::string>& axes, JobMoves&)>;
     explicit MoveMeter(OnJob on_job) : on_job_(std::move(on_job)) {}
 
@@ -31,7 +31,7 @@ public:
     void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
     /// Steps of all axes, in the order of their ticks.
     void take(std::size_t lane, const MeasuredStep& step);
-    /// The way of axes X and Y, in steps: in jobs whose axes move together; of all steps where there is no such job.
+    /// The path of axes X and Y, in steps: of jobs whose axes move together; of all steps if there is no such job.
     const PlaneTrace& plane() const { return plane_; }
     void on_late(const std::string& axis, LateSteps late);
     /// Made before the first job began.

@@ -1,7 +1,7 @@
-// The way through the plane of two axes in a bounded number of points, as it is stepped.
+// The stepped path in the plane of two axes in a bounded number of points.
 //
-// Each step is half a step off the way that it stands for, so points are left out while a straight line passes each
-// within a step. Where the points become too many, the tolerance doubles.
+// Each step is half a step off the ideal path, so points are left out while a straight line passes each
+// within a step. If there are too many points, the tolerance doubles.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ public:
 
     /// Axis 0 or 1 of the plane stands on `count` after a step in `direction`.
     void step(std::size_t axis, std::int64_t count, int direction);
-    /// What follows does not join what was before.
+    /// The following steps do not join the previous ones.
     void part();
 
-    /// In steps. Each inner vector is one unbroken way.
+    /// In steps. Each inner vector is one unbroken path.
     std::vector<std::vector<drawing::Point>> ways() const;
 
 private:

@@ -6,7 +6,7 @@
 namespace lockstep::analysis {
 namespace {
 
-/// The least amount that a share of all is not above.
+/// The smallest amount that at least this share of all amounts does not exceed.
 Ticks quantile(const std::map<Ticks, std::int64_t>& amounts, std::int64_t all, std::int64_t percent) {
     std::int64_t seen = 0;
     for (const auto& [ticks, times] : amounts) {

@@ -1,8 +1,8 @@
-// Step skew between axes: how far apart the steps of two axes are from where one clock would have put both.
+// Step skew between axes: how far apart the steps of two axes are, compared with a common clock.
 //
 // An axis's steps are late by (tick made) - (tick commanded). The skew of a pair, at each step of either, is the
-// difference of how late the newest step of each is, among those of the same frame. Machine time, so that it is known
-// within what both axes' clocks are; 0 where one clock drives all devices.
+// difference of the lateness of both axes' newest steps, among those of the same frame. In machine time, so its
+// uncertainty is that of both axes' clocks; 0 if one clock drives all devices.
 #pragma once
 
 #include <cstdint>
@@ -25,24 +25,24 @@ struct PairSkew {
     Ticks median;
     Ticks p99;
     Ticks largest;
-    Ticks error;  // every one is known within
+    Ticks error;  // uncertainty of each
 };
 
 class SkewMeter {
 public:
-    /// A frame waits until every axis has told of a later one; so many wait for an axis that tells of none.
+    /// A frame waits until every axis has delivered a later one; this limits the frames that wait for it.
     static constexpr std::size_t kFramesWaiting = 64;
 
     using OnLate = std::function<void(const std::string& axis, const SharedLate& steps)>;
-    /// `on_late` hears of the steps of each frame, axis by axis.
+    /// `on_late` is called with the steps of each frame, axis by axis.
     explicit SkewMeter(OnLate on_late) : on_late_(std::move(on_late)) {}
 
-    /// Call as soon as an axis is heard of.
+    /// Call at the first message of an axis.
     void add(const std::string& axis) { lateness(axis); }
     /// The next steps of an axis.
     void take(const std::string& axis, SharedSteps steps) { lateness(axis).take(std::move(steps)); }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
-    /// Call once, at the end of the log. The pairs that had frames together.
+    /// Call once, at the end of the log. Returns the pairs that had frames together.
     std::vector<PairSkew> finish();
 
 private:
@@ -57,7 +57,7 @@ private:
     void on_run(const std::string& axis, const Run& run, SharedLate steps);
     bool all_are_past_first_frame() const;
     void take_first_frame();
-    /// How often each amount was seen, and the largest error.
+    /// How often each amount occurred, and the largest error.
     struct Amounts {
         std::map<Ticks, std::int64_t> times;
         Ticks error;
@@ -68,7 +68,7 @@ private:
 
     OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
-    std::map<std::string, FrameKey> latest_;  // that each axis has told of
+    std::map<std::string, FrameKey> latest_;  // that each axis has delivered
     std::map<FrameKey, Steps> frames_;
     std::map<std::pair<std::string, std::string>, Amounts> skews_;
 };

@@ -1,5 +1,5 @@
-// What a log holds once its messages are sorted: those of the machine analysed, whole, each axis's steps in order and
-// measured. Everything that looks at several axes, or at jobs, begins here.
+// The content of a log after its messages are sorted: those of the analysed machine, complete, each axis's steps in
+// order and measured. Every evaluation of several axes, or of jobs, begins here.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace lockstep::analysis {
 
-/// Told in the order of the log. A lane is an axis, by number, from 0.
+/// Called in the order of the log. A lane is an axis, by number, from 0.
 class SortedListener : public MeasuredListener {
 public:
     /// The next lane, before anything else of it.
@@ -22,9 +22,9 @@ public:
     virtual void on_position(const axis_position_t& message) = 0;
     virtual void on_run(std::size_t lane, const Run& run) = 0;
     virtual void on_job(const job_t& message, LogPlace place) = 0;
-    /// What is there cannot be read, or not understood.
+    /// The content cannot be read or decoded.
     virtual void on_damage(LogPlace place, const std::string& what) = 0;
-    /// How late the steps of a run were: told by LateMeter, which is told all else.
+    /// The lateness of the steps of a run: from LateMeter, which passes on everything else.
     virtual void on_late(const std::string& /*axis*/, const SharedLate& /*steps*/) {}
 };
 

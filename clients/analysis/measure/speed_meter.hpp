@@ -1,14 +1,14 @@
-// How fast steps come, and how fast that changes, from nothing but the ticks they fall on.
+// The rate of steps, and how fast it changes, from their ticks alone.
 //
 // A step's tick is a whole number, so the interval between two steps is off by up to a tick; between neighbours that
 // may be a large part of it. Both figures are therefore taken over windows of several steps:
 //   speed         n steps of one direction / the ticks they took, over the latest window of at least 8 steps and
-//                 1 000 ticks. A tick's rounding is then at most 0.1 %. The true speed is met at some instant within
+// 1 000 ticks. A tick's rounding is then at most 0.1 %. The true speed occurs at some instant within
 //                 the window; a peak shorter than the window is flattened.
 //   acceleration  (speed in one window - speed in the window before) / the time between their middles, windows of at
 //                 least 8 steps and 10 000 ticks. Rounding then is at most 2e-8 of the speed, per tick. A permitted
 //                 jump of speed inside a window counts as acceleration spread over it.
-// A stretch from rest to rest, or from turn to turn, that is shorter than a window counts as one.
+// A motion from rest to rest, or from reversal to reversal, that is shorter than a window counts as one.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +24,14 @@ namespace lockstep::analysis {
 
 class SpeedMeter {
 public:
-    /// Without a step for so long an axis is at rest; the window starts anew.
+    /// After so long without a step an axis is at rest; the window starts again.
     static constexpr Ticks kRest{100'000};
 
-    /// Takes the next step, in order. The speed in the window it completes, at the window's middle, signed.
+    /// Takes the next step, in order. Returns the speed in the window it completes, at the window's middle, signed.
     std::optional<Sample> step(StepEdge edge);
     /// The acceleration between the two windows that the latest step completed, signed; none: it completed none.
     const std::optional<Sample>& acceleration() const { return acceleration_; }
-    /// The steps to come do not join those before. Also the end of the last stretch.
+    /// Later steps do not join those before. Also ends the last motion.
     void interrupt();
 
     double peak_steps_per_tick() const { return peak_speed_; }          // either way
@@ -43,7 +43,7 @@ private:
     static constexpr Ticks kAccelerationWindow{10'000};
     static constexpr std::size_t kKept = 2'048;
 
-    /// A step of this stretch, and the window of acceleration that it completed.
+    /// A step of this motion, and the window of acceleration that it completed.
     struct Past {
         Tick tick;
         Tick window_from;
@@ -63,8 +63,8 @@ private:
         return static_cast<double>(from.value) / 2 + static_cast<double>(to.value) / 2;
     }
 
-    std::vector<Past> past_;       // the newest steps of this stretch: those that a window may still begin with
-    std::size_t room_ = kKept;     // how many of them there may be before the oldest are forgotten
+    std::vector<Past> past_;       // the newest steps of this motion: those that a window may still begin with
+    std::size_t room_ = kKept;     // how many of them there may be before the oldest are dropped
     std::size_t speed_first_ = 0;  // where the windows begin that end with the newest step
     std::size_t late_first_ = 0;
     int direction_ = 0;

@@ -13,7 +13,7 @@ std::size_t StepMerge::add_lane() {
 void StepMerge::take(std::size_t number, SharedSteps steps) {
     Lane& lane = lanes_[number];
     const MeasuredStep& newest = steps->steps.back();
-    lane.told_until = std::max(lane.told_until, newest.tick);
+    lane.delivered_until = std::max(lane.delivered_until, newest.tick);
     const MeasuredStep& oldest = steps->steps.front();
     const bool joins = lane.has_steps || !lane.has_count || lane.count == oldest.count - oldest.direction;
     lane.known_from = joins ? std::min(lane.known_from, oldest.tick) : oldest.tick;
@@ -33,23 +33,25 @@ void StepMerge::stands(std::size_t number, Tick tick, std::int64_t count) {
     lane.lacks_steps = lane.lacks_steps || lane.count != count;
     if (lane.count != count) { return; }
     if (!lane.lacks_steps) { lane.known_until = std::max(lane.known_until, tick); }
-    lane.told_until = std::max(lane.told_until, tick - kPatience);
+    lane.delivered_until = std::max(lane.delivered_until, tick - kPatience);
     lane.is_awaited = true;
 }
 
 Tick StepMerge::settled_until() const {
     Tick until = kNever;
     for (const Lane& lane : lanes_) {
-        if (lane.is_awaited) { until = std::min(until, lane.told_until); }
+        if (lane.is_awaited) { until = std::min(until, lane.delivered_until); }
     }
     return until;
 }
 
-/// False: nobody is waited for.
+/// False: no lane is awaited.
 bool StepMerge::give_up_slowest() {
     Lane* slowest = nullptr;
     for (Lane& lane : lanes_) {
-        if (lane.is_awaited && (slowest == nullptr || lane.told_until < slowest->told_until)) { slowest = &lane; }
+        if (lane.is_awaited && (slowest == nullptr || lane.delivered_until < slowest->delivered_until)) {
+            slowest = &lane;
+        }
     }
     if (slowest == nullptr) { return false; }
     slowest->is_awaited = false;

@@ -1,9 +1,9 @@
-// The steps of several axes in the order of their ticks, from streams that each come in their own order.
+// The steps of several axes in the order of their ticks, from streams that are each in order.
 //
-// A step waits until no axis can still tell of an earlier one, and the log itself says how far each has told: up to
-// its newest step, and up to an instant at which it said to stand where its newest step left it. So an axis that is
-// late, since its process stalled or its messages did, is waited for, and one at rest is not. Memory is bounded: where
-// too many steps wait, who holds them up is waited for no longer, until it tells of steps again.
+// A step waits until no axis can still deliver an earlier one. The log shows how far each axis has delivered: up to
+// its newest step, and up to an instant at which its state showed it still there. So an axis that is late, since its
+// process stalled or its messages did, is awaited, and one at rest is not. Memory is bounded: if too many steps wait,
+// the slowest axis is no longer awaited, until it delivers steps again.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace lockstep::analysis {
 
 class StepMerge {
 public:
-    /// Clocks that are known better and better may put a step so far before the instant at which an axis stood still.
+    /// An improving clock estimate may put a step so far before the instant at which an axis stood still.
     static constexpr Ticks kPatience{500'000};
     /// 128 MB.
     static constexpr std::size_t kMaxWaiting = std::size_t{1} << 22;
@@ -28,23 +28,23 @@ public:
     std::size_t add_lane();
     /// A lane's steps come in the order of their ticks.
     void take(std::size_t lane, SharedSteps steps);
-    /// The axis says where it was at a tick.
+    /// The axis reports its position at a tick.
     void stands(std::size_t lane, Tick tick, std::int64_t count);
-    /// Messages of the axis are missing behind the last one: it may have moved away and back.
+    /// Messages of the axis are missing after the last one: it may have moved away and back.
     void lost(std::size_t lane) { lanes_[lane].lacks_steps = true; }
-    /// From when on, and until when, the log has all that the axis did, but for what is missing between.
+    /// From when on, and until when, the log has all of the axis's motion, except for gaps.
     Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
     Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
-    /// Calls on_step(lane, step) for what need not wait any longer. Call now and then.
+    /// Calls on_step(lane, step) for the steps that need not wait any longer. Call now and then.
     template <typename OnStep>
     void settle(OnStep&& on_step) {
-        tell_before(settled_until(), on_step);
-        while (waiting_ > max_waiting_ && give_up_slowest()) { tell_before(settled_until(), on_step); }
+        deliver_before(settled_until(), on_step);
+        while (waiting_ > max_waiting_ && give_up_slowest()) { deliver_before(settled_until(), on_step); }
     }
-    /// The same for all.
+    /// The same for all steps.
     template <typename OnStep>
     void finish(OnStep&& on_step) {
-        tell_before(kNever, on_step);
+        deliver_before(kNever, on_step);
     }
 
 private:
@@ -52,13 +52,13 @@ private:
 
     struct Lane {
         StepQueue steps;
-        Tick told_until;  // the axis has told of all its steps before
+        Tick delivered_until;  // the axis has delivered all its steps before
         Tick known_from = kNever;
-        Tick known_until;        // its newest step, or a later instant at which it stood where that step left it
-        std::int64_t count = 0;  // after its newest step; before its first, where it stood first
+        Tick known_until;        // its newest step, or a later instant at which it was still there
+        std::int64_t count = 0;  // after its newest step; before its first, its first known position
         bool has_count = false;
         bool has_steps = false;
-        bool lacks_steps = false;  // it stands elsewhere since its newest step, or may have moved
+        bool lacks_steps = false;  // it was elsewhere since its newest step, or may have moved
         bool is_awaited = true;
     };
     struct Turn {
@@ -69,7 +69,7 @@ private:
     Tick settled_until() const;
     bool give_up_slowest();
     template <typename OnStep>
-    void tell_before(Tick end, OnStep& on_step);
+    void deliver_before(Tick end, OnStep& on_step);
     void look_at(std::size_t lane, Tick end);
     Turn next_turn() const;
 
@@ -79,9 +79,9 @@ private:
     std::vector<Tick> next_;  // the next step of each lane; kNever: none before the end
 };
 
-/// The lane whose next step is first is told up to the next step of any other.
+/// Delivers the lane whose next step is first, up to the next step of any other.
 template <typename OnStep>
-void StepMerge::tell_before(Tick end, OnStep& on_step) {
+void StepMerge::deliver_before(Tick end, OnStep& on_step) {
     for (std::size_t i = 0; i < lanes_.size(); ++i) { look_at(i, end); }
     if (lanes_.empty()) { return; }
     for (Turn turn = next_turn(); next_[turn.lane] != kNever; turn = next_turn()) {

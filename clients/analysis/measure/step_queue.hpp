@@ -19,7 +19,7 @@ public:
     bool empty() const { return next_ == end_; }
     std::size_t size() const { return size_; }
 
-    /// The first, and within what its time is known. There is one.
+    /// The first step, and the uncertainty of its time. There must be one.
     const MeasuredStep& front() const { return *next_; }
     Ticks clock_error() const { return batches_.front()->clock_error; }
     void pop() {

@@ -7,7 +7,7 @@
 namespace lockstep::analysis {
 namespace {
 
-// An interval so many times the one before holds a rest.
+// An interval that is so many times longer than the one before contains a rest.
 constexpr std::int64_t kRestRatio = 4;
 
 double ticks_between(Tick from, Tick to) { return static_cast<double>(to.value - from.value); }
@@ -45,7 +45,7 @@ void Trace::step(StepEdge edge, std::int64_t position_before) {
     last_step_ = edge.tick;
 }
 
-/// The axis rested on a whole step before it stepped at `until`: two points say when.
+/// The axis rested on a whole step before it stepped at `until`: two points mark the rest.
 void Trace::rest(Tick until, std::int64_t position) {
     const Ticks half{last_interval_.value / 2};
     point(*last_step_ + half, static_cast<double>(position));

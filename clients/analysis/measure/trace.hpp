@@ -2,7 +2,7 @@
 //
 // A step falls where the position crosses a half, so each step gives one point of the true course: (its tick, the
 // count before + direction / 2). A straight line replaces points while it passes each within the tolerance (Bristol's
-// swinging door, 1990: one pass, constant memory). Where the knots become too many, the tolerance doubles.
+// swinging door, 1990: one pass, constant memory). If there are too many knots, the tolerance doubles.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ public:
     void finish();
 
     const std::vector<Knot>& knots() const { return knots_; }
-    /// How far a line may be from a step it stands for, in steps.
+    /// The maximum distance of a line from a step that it represents, in steps.
     double tolerance_steps() const { return error_; }
 
 private:
@@ -57,8 +57,8 @@ private:
     std::int64_t position_ = 0;
 };
 
-/// The position at an instant, in steps, by the lines between knots; outside them that of the nearest. `place` is
-/// where to look from, for instants that rise; start at 0. Knots must not be empty.
+/// The position at an instant, in steps, by the lines between knots; outside them that of the nearest knot. `place` is
+/// where the search begins, for instants that rise; start at 0. Knots must not be empty.
 double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place);
 
 }  // namespace lockstep::analysis

@@ -62,8 +62,9 @@ std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& mach
     }
     if (first == last) {
         return std::unexpected(
-            "all axes home together and none has a safe_height_mm, so nothing tells which one lifts; say which leaves "
-            "the work first, and where it is clear of it: --lift Z=40; or --straight, to go there in one line");
+            "all axes home together and none has a safe_height_mm, so the lifting axis is unknown; name the axis that "
+            "leaves "
+            "the work first, and a position clear of it: --lift Z=40; or --straight, to go there in one line");
     }
     std::vector<Lift> lifts;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

@@ -1,4 +1,4 @@
-// An approach, and what a program takes up at its end, for a person and for a script.
+// An approach, and the modal state at its end, as text and as a report.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// A line for each move: where to, how far, how fast.
+/// A line for each move: its target, length and speed.
 std::string approach_text(const Program& program, const std::vector<ApproachMove>& moves);
 
 /// "  takes up G21 G90 F1200.0, no offset".

@@ -6,7 +6,7 @@ namespace lockstep {
 namespace {
 
 std::atomic<bool> hung_up{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch what never locks");
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only use lock-free atomics");
 
 extern "C" void on_hang_up(int) { hung_up.store(true, std::memory_order_relaxed); }
 

@@ -1,4 +1,4 @@
-// SIGHUP and SIGPIPE as a flag for loops: the terminal was closed, or nobody reads the output.
+// SIGHUP and SIGPIPE as a flag for loops: the terminal was closed, or the output has no reader.
 #pragma once
 
 #include <csignal>

@@ -18,15 +18,15 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kFinalStatePatience = 1s;  // for the final states of the axes
 
-std::string outcome_name(JobVerdict verdict) {
-    switch (verdict) {
-        case JobVerdict::Done: return "done";
-        case JobVerdict::Stopped: return "stopped";
-        case JobVerdict::Held: return "held";
-        case JobVerdict::Failed: return "failed";
-        case JobVerdict::CutShort: return "cut-short";
-        case JobVerdict::InProgress: return "begun";
-        case JobVerdict::Lost: break;
+std::string outcome_name(JobResult result) {
+    switch (result) {
+        case JobResult::Done: return "done";
+        case JobResult::Stopped: return "stopped";
+        case JobResult::Held: return "held";
+        case JobResult::Failed: return "failed";
+        case JobResult::CutShort: return "cut-short";
+        case JobResult::InProgress: return "begun";
+        case JobResult::Lost: break;
     }
     return "lost";
 }
@@ -62,15 +62,16 @@ std::string stopped_text(const Job& job, const Session& session) {
 
 void print_end(const Session& session, const Job& job, const proto::RunReport& report, Output& output) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
-    const std::string place = report.final_positions().empty() ? "where its axes stand is not known: none is heard"
-                                                               : "at " + places_text(report);
+    const std::string place = report.final_positions().empty()
+                                  ? "the positions of its axes are not known: none is received"
+                                  : "at " + places_text(report);
     output.print(wrapped(title(job) + ": " + report.outcome() + time + "; " + place, 80, "  "));
     if (report.has_fault()) { output.print(fault_text(report.fault())); }
     if (report.outcome() == "stopped") { output.print(stopped_text(job, session)); }
     if (report.outcome() == "held") { output.print("go on with: lockstep resume; end the job with: lockstep stop"); }
     if (report.outcome() == "cut-short") { output.print(wrapped(cut_short_text(report), 80, "  ")); }
     if (report.outcome() == "lost") {
-        output.print("how it ended is not known: another job or coordinator came after it; see: lockstep status");
+        output.print("its end is not known: another job or coordinator followed it; see: lockstep status");
     }
 }
 
@@ -106,23 +107,23 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
                "known, and a stop was sent; see: lockstep status"));
 }
 
-ExitCode end(Session& session, const Job& job, JobVerdict verdict, proto::RunReport& report, Output& output) {
-    report.set_outcome(outcome_name(verdict));
-    if (verdict == JobVerdict::Failed) {
+ExitCode end(Session& session, const Job& job, JobResult result, proto::RunReport& report, Output& output) {
+    report.set_outcome(outcome_name(result));
+    if (result == JobResult::Failed) {
         if (auto fault = fault_of(session.state()->state, session.config())) {
             *report.mutable_fault() = *std::move(fault);
         }
     }
     const std::int32_t line = session.state()->state.line;
-    if (verdict == JobVerdict::CutShort && line > 0) { report.set_line(line); }
-    if (verdict != JobVerdict::InProgress) { add_final_positions(session, report); }
+    if (result == JobResult::CutShort && line > 0) { report.set_line(line); }
+    if (result != JobResult::InProgress) { add_final_positions(session, report); }
     output.report(report);
-    if (verdict == JobVerdict::InProgress) {
+    if (result == JobResult::InProgress) {
         output.print(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
         return kExitDone;
     }
     print_end(session, job, report, output);
-    return verdict == JobVerdict::Done ? kExitDone : kExitFailed;
+    return result == JobResult::Done ? kExitDone : kExitFailed;
 }
 
 }  // namespace
@@ -137,16 +138,16 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     if (!reply) { return output.fail(reply.error()); }
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }
     report.set_job(reply->job);
-    if (job.detach) { return end(session, job, JobVerdict::InProgress, report, output); }
+    if (job.detach) { return end(session, job, JobResult::InProgress, report, output); }
     output.print(title(job) + ": job " + std::to_string(reply->job) +
                  (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
-    const auto verdict = JobWatch(session, reply->job, job.command, output, stop, hang_up).wait();
-    if (!verdict) { return output.fail(verdict.error()); }
+    const auto result = JobWatch(session, reply->job, job.command, output, stop, hang_up).wait();
+    if (!result) { return output.fail(result.error()); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
     if (report.lost_records() > 0) { output.warn(record_loss_text(status_report(session))); }
-    return end(session, job, *verdict, report, output);
+    return end(session, job, *result, report, output);
 }
 
 }  // namespace lockstep

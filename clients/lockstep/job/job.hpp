@@ -12,7 +12,7 @@ namespace lockstep {
 
 struct Job {
     CommandKind command = CommandKind::Run;
-    std::string kind;                     // "home", "move", "run", "own-move"
+    std::string kind;                     // as in the reports: "home", "move", "run", "own-move"
     std::string name;                     // of the program
     AxisSet axes = 0;                     // home: which; none: all
     std::optional<Program> program = {};  // move, run, own move

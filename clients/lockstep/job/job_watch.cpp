@@ -25,15 +25,15 @@ JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, 
       asked_(session.state()->state.term),
       runs_it_(asked_) {}
 
-std::expected<JobVerdict, Failure> JobWatch::wait() {
+std::expected<JobResult, Failure> JobWatch::wait() {
     for (;;) {
         session_.receive(kGlance);
         if (session_.is_silent()) { return std::unexpected(silent()); }
         const MachineState& state = session_.state()->state;
-        const JobVerdict verdict = verdict_of(state, number_, asked_, runs_it_);
-        if (verdict != JobVerdict::InProgress) { return verdict; }
+        const JobResult result = result_of(state, number_, asked_, runs_it_);
+        if (result != JobResult::InProgress) { return result; }
         const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
-        if (hang_up_.came() && rests && state.job == number_) { return JobVerdict::Held; }
+        if (hang_up_.came() && rests && state.job == number_) { return JobResult::Held; }
         if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
         if (rest_asked_ && monotonic_now() - *rest_asked_ > kRestPatience) { return std::unexpected(restless()); }
         if (state.job == number_) { print_phase(state); }

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "clients/lockstep/job/hang_up.hpp"
-#include "clients/session/job_verdict.hpp"
+#include "clients/session/job_result.hpp"
 #include "clients/session/session.hpp"
 #include "clients/text/output.hpp"
 #include "services/runtime/stop_signal.hpp"
@@ -22,7 +22,7 @@ public:
 
     /// A stop signal stops the machine on its path. A closed terminal holds it, or stops what cannot be held. Then this
     /// waits for rest, with a limit. Error: the coordinator fell silent, refused the stop, or the job continues.
-    std::expected<JobVerdict, Failure> wait();
+    std::expected<JobResult, Failure> wait();
 
 private:
     Failure silent() const;

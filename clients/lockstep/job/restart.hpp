@@ -1,4 +1,4 @@
-// What is left of a program from a line, for a machine that stands elsewhere.
+// The rest of a program from a line on, for a machine at another position.
 #pragma once
 
 #include <expected>
@@ -13,18 +13,18 @@
 namespace lockstep {
 
 struct RestartOptions {
-    int from_line = 0;      // 0: all of it
-    std::string lift;       // which axes leave the work first; empty: those that home first
+    int from_line = 0;      // 0: the whole program
+    std::string lift;       // the axes that leave the work first; empty: those that home first
     bool straight = false;  // in one line instead
 };
 
 struct Rest {
-    Program program;  // the approach, and what is left
+    Program program;  // the approach, and the rest
     std::vector<ApproachMove> approach;
     ModalState modal;
 };
 
-/// `program` is `text` read with `setup`. Error: nothing is left, or how to come there is not known.
+/// `program` is `text` read with `setup`. Error: nothing is left, or the approach is unknown.
 std::expected<Rest, std::string> rest_of(const Program& program, std::string_view text, const GcodeSetup& setup,
                                          const RestartOptions& options, const MachineConfig& machine,
                                          const std::vector<double>& stands_mm);

@@ -22,7 +22,7 @@ struct Interrupt {
     const char* name;
     CommandKind command;
     const char* what;
-    const char* then;  // what a person may do next
+    const char* then;  // the next command for the user
 };
 
 constexpr std::array kInterrupts{
@@ -47,7 +47,7 @@ std::string next_text(const Session& session, const Interrupt& interrupt, Machin
     return unhomed_text(status_report(session));
 }
 
-ExitCode say_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Output& output) {
+ExitCode report_outcome(Session& session, const Interrupt& interrupt, const Reply& reply, Output& output) {
     if (reply.status == ReplyStatus::Refused) { return print_refusal(reply, output); }
     const auto phase = await_effect(session, interrupt.command);
     if (!phase) { return output.fail(failed(std::string(interrupt.name) + ": accepted, but " + phase.error())); }
@@ -68,11 +68,11 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     if (!session) { return output.fail(session.error()); }
     const auto reply = session->command({.kind = interrupt.command});
     if (!reply) { return output.fail(reply.error()); }
-    return say_outcome(*session, interrupt, *reply, output);
+    return report_outcome(*session, interrupt, *reply, output);
 }
 
-/// Which axes stand and which do not, where nobody speaks for the machine.
-ExitCode say_axes(const Session& session, Output& output) {
+/// Reports which axes are at rest, if no coordinator replies.
+ExitCode report_axes(const Session& session, Output& output) {
     std::string at_rest;
     std::string other;
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
@@ -84,13 +84,13 @@ ExitCode say_axes(const Session& session, Output& output) {
     proto::CommandReport report;
     report.set_accepted(other.empty());
     report.set_text("no coordinator answers; at rest by themselves: " + at_rest +
-                    (other.empty() ? "" : "; in motion or not heard: " + other));
+                    (other.empty() ? "" : "; in motion or not received: " + other));
     output.report(report);
     output.print("estop: " + report.text() + "\nsee: lockstep status; take the machine down: lockstep down");
     return other.empty() ? kExitDone : kExitFailed;
 }
 
-/// The axes hear it themselves: it needs no coordinator.
+/// The axes receive it directly: it needs no coordinator.
 ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
@@ -98,7 +98,7 @@ ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
     auto session = Session::join(*machine, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
     const auto reply = session->stop_at_once(kStopPatience);
-    return reply ? say_outcome(*session, interrupt, *reply, output) : say_axes(*session, output);
+    return reply ? report_outcome(*session, interrupt, *reply, output) : report_axes(*session, output);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ ExitCode move(const MoveVerbOptions& options) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
-    // Names and numbers are judged before anybody is asked; a relative place once it is known where the axes stand.
+    // Names and numbers are checked before any message is sent; a relative place once the axes' positions are known.
     const std::vector<double> anywhere(machine->config.axes.size());
     if (auto program = move_program(machine->config, anywhere, options.move); !program && !options.move.relative) {
         return output.fail(bad_input(program.error()));

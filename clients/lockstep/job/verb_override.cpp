@@ -52,8 +52,8 @@ ExitCode turn(const OverrideOptions& options) {
 void add_override(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
         "override",
-        "turn feed and rapid, in percent of what is programmed, also while a job runs: on its path, within every "
-        "limit; kept until turned again, or told where nothing is given. Homing and moves of axes on their own are not "
+        "change feed and rapid, in percent of the programmed values, also while a job runs: on its path, within every "
+        "limit; kept until changed again; without options, prints them. Homing and moves of axes on their own are not "
         "touched");
     const auto options = std::make_shared<OverrideOptions>();
     const CLI::Range range(Overrides::kLeast, Overrides::kMost);

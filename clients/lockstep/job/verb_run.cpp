@@ -26,14 +26,14 @@ struct RunOptions : LiveOptions {
     GcodeSwitches switches;
     bool dry_run = false;
     RestartOptions restart;
-    std::string started_at;  // where the machine stood when it ran from its beginning
-    bool yes = false;        // nobody is asked
+    std::string started_at;  // the machine's position when it ran from its beginning
+    bool yes = false;        // do not ask
     bool detach = false;
 
     bool is_restart() const { return restart.from_line > 0; }
 };
 
-ExitCode say_dry_run(const Job& job, const std::vector<ApproachMove>& approach, Output& output) {
+ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approach, Output& output) {
     proto::RunReport report;
     report.set_kind(job.kind);
     report.set_name(job.name);
@@ -46,7 +46,7 @@ ExitCode say_dry_run(const Job& job, const std::vector<ApproachMove>& approach, 
     return kExitDone;
 }
 
-/// All of it, made for where the machine stands; to go on from a line, for where it stood when it ran first.
+/// The whole program, for the machine's position; with --from-line, for the position at its first run.
 std::expected<Program, Failure> read(const RunOptions& options, const MachineConfig& machine,
                                      const std::vector<double>& stands_mm) {
     const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
@@ -56,7 +56,7 @@ std::expected<Program, Failure> read(const RunOptions& options, const MachineCon
     return *std::move(program);
 }
 
-/// The program that is to run: all of it, or an approach and the rest, which a person is told of.
+/// The program to run: all of it, or an approach and the rest, which is printed.
 std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
                                     const std::vector<double>& stands_mm, Output& output) {
     auto program = read(options, machine, stands_mm);
@@ -70,19 +70,19 @@ std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view 
     return *std::move(rest);
 }
 
-/// A restart moves the machine before the program does: a person has seen how, or a script says --yes.
+/// A restart moves the machine before the program does: a person has seen the approach, or a script passes --yes.
 std::expected<void, Failure> confirm(const RunOptions& options, const Output& output) {
     if (options.yes || !options.is_restart()) { return {}; }
     if (options.json || !output.is_terminal() || isatty(STDIN_FILENO) != 1) {
         return std::unexpected(
-            bad_input("--from-line first moves the machine to where that line begins, and without a terminal nobody "
-                      "can be asked: look at it with --dry-run, then say --yes"));
+            bad_input("--from-line first moves the machine to where that line begins, and without a terminal it cannot "
+                      "ask: check it with --dry-run, then add --yes"));
     }
     std::cout << "begin? [y/N] " << std::flush;
     std::string answer;
     std::getline(std::cin, answer);
     if (answer == "y" || answer == "yes") { return {}; }
-    return std::unexpected(failed("nothing was begun; to begin, answer y, or say --yes"));
+    return std::unexpected(failed("nothing was begun; to begin, answer y, or add --yes"));
 }
 
 ExitCode run(const RunOptions& options) {
@@ -105,7 +105,7 @@ ExitCode run(const RunOptions& options) {
                   .program = std::move(chosen->program),
                   .planned_s = *planned_s,
                   .detach = options.detach};
-    if (options.dry_run) { return say_dry_run(job, chosen->approach, output); }
+    if (options.dry_run) { return report_dry_run(job, chosen->approach, output); }
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
     return run_job(*session, job, output);
 }
@@ -117,9 +117,9 @@ void add_restart_options(CLI::App& verb, RunOptions& options) {
                         "shows this and asks; to see it only: --dry-run")
             ->check(CLI::Range(1, 100'000'000));
     CLI::Option* lift = verb.add_option("--lift", options.restart.lift,
-                                        "with --from-line: which axes leave the work first, and where they are clear "
+                                        "with --from-line: the axes that leave the work first, and positions clear "
                                         "of it, in mm, Z=40; else those with a safe_height_mm, to it; else those that "
-                                        "home first, to where they are parked");
+                                        "home first, to their park positions");
     CLI::Option* straight = verb.add_flag("--straight", options.restart.straight,
                                           "with --from-line: go there in one line, as fast as the axes can");
     CLI::Option* yes = verb.add_flag("--yes", options.yes, "with --from-line: do not ask");

@@ -62,11 +62,11 @@ std::expected<std::vector<std::string>, Failure> spy_command(const SpyHost& host
     const auto lacks = [](const std::string& what) { return std::unexpected(failed("lcm-spy " + what)); };
     if (host.display.empty()) {
         return lacks(
-            "draws windows, and DISPLAY names no display: run it on a desktop, or over ssh -X; "
+            "opens windows, and DISPLAY names no display: run it on a desktop, or over ssh -X; "
             "without one: lockstep watch");
     }
     if (!host.display_answers) {
-        return lacks("draws windows, and display " + host.display +
+        return lacks("opens windows, and display " + host.display +
                      " does not answer, or refuses: set DISPLAY to that of your desktop (and XAUTHORITY, as another "
                      "user), or use ssh -X; without one: lockstep watch");
     }

@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-/// What lcm-spy needs of this host.
+/// The host's properties that lcm-spy depends on.
 struct SpyHost {
     std::string display;                        // $DISPLAY; empty: none
     bool display_answers = false;               // it takes our windows

@@ -30,7 +30,7 @@ namespace {
 using namespace std::chrono_literals;
 using doctor::Finding;
 using doctor::Findings;
-using doctor::Verdict;
+using doctor::Rating;
 
 constexpr auto kListening = 1500ms;
 
@@ -38,7 +38,7 @@ struct DoctorOptions : LiveOptions {
     double seconds = 3;
 };
 
-/// Where they are, or why they cannot be there.
+/// The file of the axes' states, or why it cannot exist.
 std::expected<std::string, std::string> shared_states(const MachineConfig& machine) {
     if (!machine.network.one_host) { return ""; }
     const auto board = StateBoardReader::open(shared_states_file(machine.name, machine.network.domain), std::nullopt);
@@ -49,29 +49,29 @@ std::expected<std::string, std::string> shared_states(const MachineConfig& machi
 void examine_network(const MachineConfig& machine, Findings& findings) {
     const NetworkConfig& network = machine.network;
     const auto facts = doctor::look_at_interface(network.interface);
-    findings.push_back(doctor::judge_interface(network, facts));
+    findings.push_back(doctor::rate_interface(network, facts));
     const auto route = check_multicast(network);
-    const auto heard = route ? doctor::hears_itself(network.lcm_url) : std::nullopt;
-    findings.push_back(doctor::judge_route(network, route, heard));
+    const auto received = route ? doctor::receives_own_message(network.lcm_url) : std::nullopt;
+    findings.push_back(doctor::rate_route(network, route, received));
     const std::int64_t asked = doctor::buffer_asked(network.lcm_url);
-    if (asked > 0) { findings.push_back(doctor::judge_buffer(asked, doctor::receive_buffer_given(asked))); }
-    findings.push_back(doctor::judge_states(machine, shared_states(machine)));
+    if (asked > 0) { findings.push_back(doctor::rate_buffer(asked, doctor::receive_buffer_given(asked))); }
+    findings.push_back(doctor::rate_states(machine, shared_states(machine)));
     if (network.peers.empty()) { return; }
     const std::int64_t needed = peer_send_buffer(network.peers.size());
-    findings.push_back(doctor::judge_send_buffer(needed, doctor::send_buffer_given(needed)));
+    findings.push_back(doctor::rate_send_buffer(needed, doctor::send_buffer_given(needed)));
 }
 
 void examine_host(const MachineConfig& machine, double seconds, Output& output, Findings& findings) {
     const auto real_time = doctor::look_at_real_time();
-    findings.push_back(doctor::judge_scheduler(machine.real_time, real_time));
-    findings.push_back(doctor::judge_memory(machine.real_time, real_time));
-    findings.push_back(doctor::judge_clock(machine.timing.time_source, doctor::look_at_clock()));
+    findings.push_back(doctor::rate_scheduler(machine.real_time, real_time));
+    findings.push_back(doctor::rate_memory(machine.real_time, real_time));
+    findings.push_back(doctor::rate_clock(machine.timing.time_source, doctor::look_at_clock()));
     const auto period = std::chrono::microseconds(machine.timing.slot_us) / 4;
     const auto during = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
-    findings.push_back(doctor::judge_stalls(machine.timing, doctor::look_for_stalls(period, during, [&](double done) {
-                                                output.progress("watching for stalls " +
-                                                                std::to_string(std::lround(done * 100)) + " %");
-                                            })));
+    findings.push_back(doctor::rate_stalls(machine.timing, doctor::look_for_stalls(period, during, [&](double done) {
+                                               output.progress("watching for stalls " +
+                                                               std::to_string(std::lround(done * 100)) + " %");
+                                           })));
 }
 
 std::expected<void, std::string> try_device(const AxisConfig& axis, std::int64_t tick_ns) {
@@ -85,15 +85,15 @@ void examine_parts_here(const MachineConfig& machine, Findings& findings) {
     const Placement here = placed_on(machine, host_name());
     for (const std::size_t i : here.axes) {
         const AxisConfig& axis = machine.axes[i];
-        if (axis.device != "sim") { findings.push_back(doctor::judge_device(axis, try_device(axis, machine.tick_ns))); }
+        if (axis.device != "sim") { findings.push_back(doctor::rate_device(axis, try_device(axis, machine.tick_ns))); }
     }
     if (here.empty() || !machine.record.own_logs) { return; }
     const std::string directory =
         machine.record.directory.empty() ? record_directory(machine.name).string() : machine.record.directory;
-    findings.push_back(doctor::judge_directory("own logs", directory, doctor::why_not_writable(directory)));
+    findings.push_back(doctor::rate_directory("own logs", directory, doctor::why_not_writable(directory)));
 }
 
-/// Of what is placed here, and of whoever else has keys here.
+/// The keys of the parts on this host, and of other members with keys here.
 void examine_keys(const MachineConfig& machine, Findings& findings) {
     if (!machine.security.enabled()) { return; }
     const Placement here = placed_on(machine, host_name());
@@ -104,40 +104,41 @@ void examine_keys(const MachineConfig& machine, Findings& findings) {
     for (const proto::MemberKeys& member : keys.members()) {
         if (!member.here() && !needed.contains(member.name())) { continue; }
         const auto& wrong = member.problems().empty() ? member.warnings() : member.problems();
-        findings.push_back(doctor::judge_keys({.member = member.name(),
-                                               .here = member.here(),
-                                               .is_out = !member.problems().empty(),
-                                               .trouble = wrong.empty() ? "" : wrong[0],
-                                               .days_left = member.days_left()}));
+        findings.push_back(doctor::rate_keys({.member = member.name(),
+                                              .here = member.here(),
+                                              .is_out = !member.problems().empty(),
+                                              .trouble = wrong.empty() ? "" : wrong[0],
+                                              .days_left = member.days_left()}));
     }
 }
 
 void examine_processes(const ChosenMachine& machine, Findings& findings) {
     auto session = Session::join(machine, Purpose::Look);
     if (!session) {
-        findings.push_back({Verdict::Bad, "DDS", session.error().errors.front().message, "see: interface"});
+        findings.push_back({Rating::Bad, "DDS", session.error().errors.front().message, "see: interface"});
         return;
     }
     for (const auto until = monotonic_now() + kListening; monotonic_now() < until;) { session->receive(100ms); }
     const std::vector<PresentProcess> present = session->present();
-    const auto say = [&](const std::string& name, std::optional<std::size_t> part, bool heard, std::uint64_t hash) {
-        doctor::ProcessFacts facts{name, heard, hash, {}, !part};
+    const auto add_process = [&](const std::string& name, std::optional<std::size_t> part, bool received,
+                                 std::uint64_t hash) {
+        doctor::ProcessFacts facts{name, received, hash, {}, !part};
         for (const PresentProcess& process : present) {
             if (process.axis == part && !process.host.empty()) { facts.hosts.push_back(process.host); }
         }
-        findings.push_back(doctor::judge_process(facts, machine.hash));
+        findings.push_back(doctor::rate_process(facts, machine.hash));
     };
     const auto& owner = session->state();
-    say("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
+    add_process("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
     for (std::size_t i = 0; i < machine.config.axes.size(); ++i) {
         const auto& axis = session->axis(i);
-        say("axis " + machine.config.axes[i].name, i, axis.has_value(), axis ? axis->state.config_hash : 0);
+        add_process("axis " + machine.config.axes[i].name, i, axis.has_value(), axis ? axis->state.config_hash : 0);
     }
 }
 
-std::string_view name_of(Verdict verdict) {
+std::string_view name_of(Rating rating) {
     constexpr std::string_view kNames[] = {"good", "doubtful", "bad"};
-    return kNames[static_cast<std::size_t>(verdict)];
+    return kNames[static_cast<std::size_t>(rating)];
 }
 
 proto::DoctorReport report_of(const Findings& findings, bool well) {
@@ -145,7 +146,7 @@ proto::DoctorReport report_of(const Findings& findings, bool well) {
     report.set_well(well);
     for (const Finding& finding : findings) {
         auto& message = *report.add_findings();
-        message.set_verdict(std::string(name_of(finding.verdict)));
+        message.set_verdict(std::string(name_of(finding.rating)));
         message.set_what(finding.what);
         message.set_found(finding.found);
         if (!finding.remedy.empty()) { message.set_remedy(finding.remedy); }
@@ -153,11 +154,11 @@ proto::DoctorReport report_of(const Findings& findings, bool well) {
     return report;
 }
 
-void say(const Finding& finding, Output& output) {
+void print(const Finding& finding, Output& output) {
     constexpr std::size_t kColumn = 16;
-    const std::string mark = finding.verdict == Verdict::Good  ? "ok   "
-                             : finding.verdict == Verdict::Bad ? "BAD  "
-                                                               : "?    ";
+    const std::string mark = finding.rating == Rating::Good  ? "ok   "
+                             : finding.rating == Rating::Bad ? "BAD  "
+                                                             : "?    ";
     std::string what = finding.what;
     what.resize(std::max(what.size() + 1, kColumn), ' ');
     output.print(mark + what + finding.found);
@@ -178,8 +179,8 @@ ExitCode examine(const DoctorOptions& options) {
     for (Finding& finding : findings) {
         if (!finding.host.empty()) { finding.found += " (" + finding.host + ")"; }
     }
-    const bool well = std::ranges::none_of(findings, [](const Finding& f) { return f.verdict == Verdict::Bad; });
-    for (const Finding& finding : findings) { say(finding, output); }
+    const bool well = std::ranges::none_of(findings, [](const Finding& f) { return f.rating == Rating::Bad; });
+    for (const Finding& finding : findings) { print(finding, output); }
     output.report(report_of(findings, well));
     return well ? kExitDone : kExitFailed;
 }
@@ -189,9 +190,9 @@ ExitCode examine(const DoctorOptions& options) {
 void add_doctor(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
         "doctor",
-        "say whether this host and its network are fit for a machine, and the command that mends what is not");
+        "check whether this host and its network are fit for a machine; prints the command that corrects each problem");
     const auto options = std::make_shared<DoctorOptions>();
-    verb->add_option("--seconds", options->seconds, "how long to watch for stalls; under the load of every day")
+    verb->add_option("--seconds", options->seconds, "how long to watch for stalls; under the usual load")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     add_live_options(*verb, *options);

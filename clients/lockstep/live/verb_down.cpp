@@ -28,7 +28,7 @@ struct DownOptions : LiveOptions {
 constexpr auto kRestPatience = 10s;
 constexpr auto kLastStates = 300ms;  // for clients that wait for the final states of the job's axes
 
-/// A machine in motion or homing comes to rest first, on its path. One that does not answer is taken down as it is.
+/// Brings a machine in motion or homing to rest first, on its path. One that does not answer is taken down directly.
 void bring_to_rest(const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session || !session->reach(1s)) { return; }
@@ -41,8 +41,8 @@ void bring_to_rest(const ChosenMachine& machine, Output& output) {
     if (!session->command({.kind = CommandKind::Stop})) { return; }
     const auto deadline = monotonic_now() + kRestPatience;
     while (moves() && monotonic_now() < deadline) { session->receive(50ms); }
-    const auto heard = monotonic_now() + kLastStates;
-    while (monotonic_now() < heard) { session->receive(heard - monotonic_now()); }
+    const auto until = monotonic_now() + kLastStates;
+    while (monotonic_now() < until) { session->receive(until - monotonic_now()); }
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -51,7 +51,7 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-ExitCode say_done(const std::string& text, Output& output) {
+ExitCode report_done(const std::string& text, Output& output) {
     proto::CommandReport report;
     report.set_accepted(true);
     report.set_text(text);
@@ -62,17 +62,19 @@ ExitCode say_done(const std::string& text, Output& output) {
 
 ExitCode down_here(const LiveOptions& options, Output& output) {
     const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
-    if (!is_named && machines_up().empty()) { return say_done("nothing is up", output); }
+    if (!is_named && machines_up().empty()) { return report_done("nothing is up", output); }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
     const auto trouble = state.record_trouble();
-    if (state.running().empty()) { return say_done("nothing of machine '" + machine->config.name + "' is up", output); }
+    if (state.running().empty()) {
+        return report_done("nothing of machine '" + machine->config.name + "' is up", output);
+    }
     if (trouble) { output.warn(*trouble + ": ends the processes that the host's process table shows"); }
     bring_to_rest(*machine, output);
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {
-        return say_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), output);
+        return report_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), output);
     }
     return output.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name +
                               "'; see " + state.path().string() + "/processes"));
@@ -97,7 +99,7 @@ void add_down(CLI::App& app, Action& action) {
     const auto options = std::make_shared<DownOptions>();
     add_all_hosts(*verb, options->all);
     add_live_options(*verb, *options);
-    verb->footer("Where nothing is up there is nothing to do: it says so, and that is done.\n" +
+    verb->footer("If nothing is up, it prints that, and exits with 0.\n" +
                  footer("  lockstep down\n  lockstep down --all\n"));
     verb->callback([&action, options] { action = [options] { return down(*options); }; });
 }

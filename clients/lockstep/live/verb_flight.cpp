@@ -34,11 +34,11 @@ ExitCode flight(const LiveOptions& options) {
 
 void add_flight(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "flight", "write down what each process of the machine on this host heard, decided and said last");
+        "flight", "write to files what each process of the machine on this host received, decided and published last");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(*verb, *options);
     verb->footer(
-        "At a fault each process writes this by itself; this asks at any time, also of processes that are stopped,\n"
+        "At a fault each process writes this by itself; this works at any time, also for processes that are stopped,\n"
         "hang, or have died.\n" +
         footer("  lockstep flight\n  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents\n"));
     verb->callback([&action, options] { action = [options] { return flight(*options); }; });

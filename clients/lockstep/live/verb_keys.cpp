@@ -35,10 +35,10 @@ std::expected<Keys, Failure> choose_keys(const KeysOptions& options) {
         options.directory.empty() ? machine->config.security.directory : fs::absolute(options.directory).string();
     if (!named.empty()) { return Keys{*std::move(machine), fs::path(named).lexically_normal()}; }
     return std::unexpected(bad_input(machine->file.string() +
-                                     ": has no security { directory: ... }; write it there, or say --directory DIR"));
+                                     ": has no security { directory: ... }; write it there, or give --directory DIR"));
 }
 
-void say_member(const proto::MemberKeys& member, bool with_fingerprint, Output& output) {
+void report_member(const proto::MemberKeys& member, bool with_fingerprint, Output& output) {
     constexpr std::size_t kColumn = 22;
     const std::string mark = !member.problems().empty() ? "BAD  " : member.here() ? "ok   " : "-    ";
     std::string name = member.name();
@@ -65,7 +65,7 @@ ExitCode look(const KeysOptions& options, bool with_fingerprint) {
     }
     output.report(report);
     output.print(keys->directory.string());
-    for (const proto::MemberKeys& member : report.members()) { say_member(member, with_fingerprint, output); }
+    for (const proto::MemberKeys& member : report.members()) { report_member(member, with_fingerprint, output); }
     const bool well =
         std::ranges::all_of(report.members(), [](const auto& member) { return member.problems().empty(); });
     return well ? kExitDone : kExitFailed;
@@ -88,7 +88,7 @@ ExitCode make(const KeysOptions& options) {
     }
     output.print(
         "each host needs identity-ca.pem, permissions-ca.pem, governance.p7s, and .pem, .key and .p7s of what runs\n"
-        "there; keep ca/ off the machine: who has it can make members");
+        "there; keep ca/ off the machine: with it anybody can make members");
     if (!machine.security.enabled()) {
         output.print("the machine's file does not ask for security yet; add to it:\n    security { directory: \"" +
                      keys->directory.string() + "\" }");
@@ -99,7 +99,8 @@ ExitCode make(const KeysOptions& options) {
 CLI::App* add_part(CLI::App& keys, const char* name, const char* what, const std::shared_ptr<KeysOptions>& options) {
     CLI::App* verb = keys.add_subcommand(name, what);
     add_live_options(*verb, *options);
-    verb->add_option("--directory", options->directory, "where the keys are; else the machine's security.directory");
+    verb->add_option("--directory", options->directory,
+                     "the directory of the keys; else the machine's security.directory");
     return verb;
 }
 
@@ -110,7 +111,7 @@ void add_make(CLI::App& keys, Action& action) {
     verb->add_option("--days", options->days, "how long they are valid")
         ->check(CLI::Range(1, 36500))
         ->capture_default_str();
-    verb->add_flag("--force", options->force, "where there are keys: put them aside and make all anew");
+    verb->add_flag("--force", options->force, "replace existing keys: move them aside and make new ones");
     verb->footer(
         footer("  lockstep keys make --machine mill.textproto\n"
                "  lockstep keys make --machine mill.textproto --directory /root/mill-keys --days 365\n"));
@@ -135,8 +136,7 @@ void add_keys(CLI::App& app, Action& action) {
     keys->footer("Example:\n  lockstep keys make --machine mill.textproto\n\nOptions: lockstep keys make --help");
     add_make(*keys, action);
     add_look(*keys, action, "show", "each member's certificate: subject, fingerprint, end", true);
-    add_look(*keys, action, "check", "whether the keys on this host are in date, kept from others, and this machine's",
-             false);
+    add_look(*keys, action, "check", "check that the keys on this host are valid, private, and this machine's", false);
 }
 
 }  // namespace lockstep

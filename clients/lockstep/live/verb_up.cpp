@@ -25,12 +25,12 @@ struct UpOptions : LiveOptions {
     bool standby = false;
     std::string on_takeover = "stop";
     bool foreground = false;
-    std::optional<double> wait_s;  // for what other hosts run
+    std::optional<double> wait_s;  // for the parts of other hosts
     AllHosts all;
 };
 
-constexpr double kGlance_s = 2;       // at what other hosts run: the last one of them says that all is ready
-constexpr double kWaitForAll_s = 60;  // where all of them are started
+constexpr double kGlance_s = 2;       // for the parts of other hosts: the last host to start reports that all is ready
+constexpr double kWaitForAll_s = 60;  // if all of them are started
 
 std::string names_here(const MachineConfig& machine, const Placement& placed) {
     std::string names = placed.coordinator ? "the coordinator" : "";
@@ -38,7 +38,7 @@ std::string names_here(const MachineConfig& machine, const Placement& placed) {
     return names;
 }
 
-ExitCode say_up(const Session& session, const StateDirectory& state, Output& output) {
+ExitCode report_up(const Session& session, const StateDirectory& state, Output& output) {
     const proto::StatusReport report = status_report(session);
     output.report(report);
     const bool is_spread = hosts_of(session.config()).size() > 1;
@@ -48,8 +48,8 @@ ExitCode say_up(const Session& session, const StateDirectory& state, Output& out
     return report.has_fault() ? kExitFailed : kExitDone;
 }
 
-/// This host's parts run; what the others are to run may come later.
-ExitCode say_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Output& output) {
+/// Reports that this host's parts run; parts of other hosts may start later.
+ExitCode report_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Output& output) {
     proto::StatusReport report = status_report(session);
     add_awaited(session, report);
     output.report(report);
@@ -61,15 +61,15 @@ ExitCode say_part_up(const Session& session, const Placement& placed, const Stat
     return kExitDone;
 }
 
-/// Of a machine on several hosts.
-ExitCode await_and_say(Session& session, const UpOptions& options, const Placement& placed, const StateDirectory& state,
-                       Output& output) {
+/// For a machine on several hosts.
+ExitCode await_and_report(Session& session, const UpOptions& options, const Placement& placed,
+                          const StateDirectory& state, Output& output) {
     const double asked_s = options.wait_s.value_or(options.all.asked ? kWaitForAll_s : 0);
     const bool whole =
         await_others(session, std::chrono::milliseconds(std::llround(std::max(asked_s, kGlance_s) * 1e3)));
-    if (whole && asked_s > 0) { return say_up(session, state, output); }
-    const ExitCode said = say_part_up(session, placed, state, output);
-    return whole || asked_s == 0 ? said : kExitUnreachable;
+    if (whole && asked_s > 0) { return report_up(session, state, output); }
+    const ExitCode code = report_part_up(session, placed, state, output);
+    return whole || asked_s == 0 ? code : kExitUnreachable;
 }
 
 ExitCode give_up(const ChosenMachine& machine, const StateDirectory& state, const ProcessRecord& supervisor,
@@ -97,18 +97,18 @@ ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Output&
     if (!supervisor) { return output.fail(supervisor.error()); }
     auto session = wait_until_up(machine, *parts, state, *supervisor);
     if (!session) { return give_up(machine, state, *supervisor, session.error(), output); }
-    return is_alone(machine.config, parts->placed) ? say_up(*session, state, output)
-                                                   : await_and_say(*session, options, parts->placed, state, output);
+    return is_alone(machine.config, parts->placed) ? report_up(*session, state, output)
+                                                   : await_and_report(*session, options, parts->placed, state, output);
 }
 
-/// Where every part belongs on another host.
+/// If every part belongs on another host.
 ExitCode up_elsewhere(const UpOptions& options, const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Look);
     if (!session) { return output.fail(session.error()); }
-    return await_and_say(*session, options, {}, StateDirectory(machine.config.name), output);
+    return await_and_report(*session, options, {}, StateDirectory(machine.config.name), output);
 }
 
-/// What the other hosts are to be told.
+/// The options for the other hosts.
 std::vector<std::string> words_of(const UpOptions& options) {
     std::vector<std::string> words{"up"};
     if (!options.fpga.empty()) { words.insert(words.end(), {"--fpga", options.fpga}); }
@@ -123,7 +123,7 @@ ExitCode up(const UpOptions& options) {
     OtherHosts others(options.all, machine->config, options.machine_file, words_of(options));
     const bool is_here = !options.all.asked || !placed_on(machine->config, host_name()).empty();
     const ExitCode here = is_here ? up_here(options, *machine, output) : up_elsewhere(options, *machine, output);
-    constexpr std::size_t kBrief = 1;  // what is up there; what it waits for is up by now
+    constexpr std::size_t kBrief = 1;  // the report that it is up; the parts that it waits for are up by now
     return others.finish(output, kBrief) ? here : std::max(here, kExitFailed);
 }
 
@@ -139,9 +139,10 @@ void add_up(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"sim", "shm"}));
     CLI::Option* standby = verb->add_flag(
         "--standby", options->standby, "start a second coordinator that takes over, at rest, when the first one fails");
-    verb->add_option("--on-takeover", options->on_takeover,
-                     "with --standby, what becomes of a program in motion then: stop; or continue, if every axis rests "
-                     "where the first one's frames end")
+    verb->add_option(
+            "--on-takeover", options->on_takeover,
+            "with --standby, for a program in motion at the takeover: stop it; or continue it, if every axis rests "
+            "where the first one's frames end")
         ->check(CLI::IsMember({"stop", "continue"}))
         ->needs(standby)
         ->capture_default_str();
@@ -150,14 +151,15 @@ void add_up(CLI::App& app, Action& action) {
                        "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_all_hosts(*verb, options->all)->excludes(foreground);
     verb->add_option("--wait", options->wait_s,
-                     "where the machine is on several hosts, also wait until all of it is ready, at most so many "
+                     "for a machine on several hosts: also wait until all of it is ready, at most so many "
                      "seconds; this host's part stays up in any case")
         ->check(CLI::Range(0.0, 86'400.0));
     add_live_options(*verb, *options);
     verb->footer(
-        "Where the machine is on several hosts, give it on each, in any order and at any time: it starts what belongs\n"
-        "there, says what the machine still waits for, and is done when this host's part is up.\n"
-        "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; where that is not set, in\n"
+        "For a machine on several hosts, run it on each, in any order and at any time: it starts the parts that "
+        "belong\n"
+        "there, prints what the machine still waits for, and ends when this host's part is up.\n"
+        "Configuration, process record and logs are kept in $LOCKSTEP_STATE/MACHINE; without it, in\n"
         "/run/lockstep/MACHINE (root) or $XDG_RUNTIME_DIR/lockstep/MACHINE.\n" +
         footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"
                "  lockstep up --machine mill.textproto --standby --on-takeover continue\n"

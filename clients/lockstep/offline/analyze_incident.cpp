@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kIncidentEnd = ".flight.lcm";
 
-/// The story stands out.
+/// Highlights the story.
 std::string coloured(const std::string& text) {
     const std::size_t from = text.find("\n\n") + 2;
     const std::size_t to = text.find("\n\n", from);
     return text.substr(0, from) + painted(text.substr(from, to - from), kBold) + text.substr(to);
 }
 
-/// Beside the files that it is made of, named as the first of them.
+/// Beside its incident files, named like the first of them.
 fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& report) {
     if (options.html) { return *options.html; }
     std::string first;
@@ -36,7 +36,7 @@ fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& 
     return file.parent_path() / (name.substr(0, name.find('-')) + ".html");
 }
 
-/// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
+/// Where it was written; empty: nowhere. An error is fatal only if the page was requested.
 std::expected<fs::path, std::string> write_page(const IncidentOptions& options, const proto::IncidentReport& report,
                                                 Output& output) {
     std::optional<analysis::Analysis> log;
@@ -92,11 +92,11 @@ ExitCode analyze_incident(const IncidentOptions& options) {
     }
     const std::size_t earlier = count - 1 - static_cast<std::size_t>(options.back);
     const incident::Incident& incident = input->incidents[earlier];
-    const incident::Verdict verdict = incident::judge(incident);
-    proto::IncidentReport report = incident::to_report(incident, verdict);
+    const incident::Evaluation evaluation = incident::evaluate(incident);
+    proto::IncidentReport report = incident::to_report(incident, evaluation);
     report.set_earlier(static_cast<std::int64_t>(earlier));
     std::string text = incident::to_text(
-        incident, verdict, {.least = options.all ? incident::Weight::Routine : incident::Weight::Notable});
+        incident, evaluation, {.least = options.all ? incident::Weight::Routine : incident::Weight::Notable});
     if (wants_colour() && !options.no_colour) { text = coloured(text); }
     if (earlier > 0) { text += earlier_text(options.back, earlier) + "\n"; }
     const auto page = write_page(options, report, output);

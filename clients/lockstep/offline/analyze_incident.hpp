@@ -1,4 +1,4 @@
-// lockstep analyze --incident: what the flight recorders of a machine's processes kept of a fault.
+// lockstep analyze --incident: the notes of the flight recorders of a machine's processes about a fault.
 #pragma once
 
 #include <filesystem>
@@ -14,15 +14,15 @@ struct IncidentOptions {
     std::vector<std::filesystem::path> incidents;  // files and directories
     std::optional<std::filesystem::path> log;      // of the run, for the page's curves
     int back = 0;                                  // so many incidents before the newest
-    bool all = false;                              // what is routine, too
+    bool all = false;                              // also routine events
     std::optional<std::filesystem::path> html;     // nothing: beside the incident files
     bool no_html = false;
     bool json = false;
     bool no_colour = false;
 };
 
-/// Which of the paths behind --incident are incidents, and which is the log: the one that is no directory and not named
-/// like an incident file, unless it is the only one.
+/// Splits the paths of --incident: the log is the one that is not a directory and not named like an incident file,
+/// unless it is the only one.
 IncidentOptions split_paths(const std::vector<std::string>& paths);
 
 ExitCode analyze_incident(const IncidentOptions& options);

@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-/// By file name. The directory is made where it is missing. Error: what cannot be written, and why.
+/// By file name. Creates the directory if it is missing. Error: which file cannot be written, and why.
 std::expected<void, std::string> write_figures(const std::filesystem::path& directory,
                                                const std::vector<std::pair<std::string, drawing::Figure>>& figures);
 

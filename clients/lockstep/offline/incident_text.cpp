@@ -32,25 +32,25 @@ std::string row(const std::string& time, const std::string& name, const std::str
 
 }  // namespace
 
-std::string to_text(const Incident& incident, const Verdict& verdict, const TextOptions& options) {
+std::string to_text(const Incident& incident, const Evaluation& evaluation, const TextOptions& options) {
     std::string text =
-        fmt::format("incident of machine {}, written down {}\n\n", incident.machine.name, wall_time(incident.wall_us));
-    for (std::size_t i = 0; i < verdict.story.size(); ++i) {
-        text += wrapped((i == 0 ? "" : "-> ") + verdict.story[i], options.width, "   ") + "\n";
+        fmt::format("incident of machine {}, recorded {}\n\n", incident.machine.name, wall_time(incident.wall_us));
+    for (std::size_t i = 0; i < evaluation.story.size(); ++i) {
+        text += wrapped((i == 0 ? "" : "-> ") + evaluation.story[i], options.width, "   ") + "\n";
     }
     const std::size_t names = name_width(incident);
-    text += "\n" + row("s", "process", "what it noted; 0 s: noticed first", names, options.width);
+    text += "\n" + row("s", "process", "event; 0 s: noticed first", names, options.width);
     std::size_t left_out = 0;
     for (const Entry& entry : incident.timeline) {
         if (weight_of(incident, entry) < options.least) {
             ++left_out;
             continue;
         }
-        const double at = incident.seconds(entry.tick - verdict.noticed);
+        const double at = incident.seconds(entry.tick - evaluation.noticed);
         text += row(fmt::format("{:+.3f}", at), incident.processes[entry.process].name, sentence(incident, entry),
                     names, options.width);
     }
-    if (left_out > 0) { text += fmt::format("\n{} more of routine: --all\n", left_out); }
+    if (left_out > 0) { text += fmt::format("\n{} more routine events: --all\n", left_out); }
     for (const std::string& note : notes_of(incident)) { text += wrapped(note, options.width, "   ") + "\n"; }
     return text;
 }

@@ -1,4 +1,4 @@
-// An incident for a terminal: what began it, who noticed, how it ended; then what was noted, in order.
+// An incident for a terminal: its cause, the first symptom, its end; then the events in order.
 #pragma once
 
 #include <string>
@@ -13,6 +13,6 @@ struct TextOptions {
     std::size_t width = 100;
 };
 
-std::string to_text(const Incident& incident, const Verdict& verdict, const TextOptions& options);
+std::string to_text(const Incident& incident, const Evaluation& evaluation, const TextOptions& options);
 
 }  // namespace lockstep::incident

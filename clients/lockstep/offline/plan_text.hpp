@@ -1,4 +1,4 @@
-// A plan in words, for a terminal.
+// A plan as text for a terminal.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What plan and simulate are given: a machine's configuration and a G-code file made for where it stands.
+// The input of plan and simulate: a machine's configuration and a G-code file read for the machine's position.
 #pragma once
 
 #include <expected>
@@ -19,7 +19,7 @@ struct ProgramInput {
     int lines = 0;  // of the G-code
 };
 
-/// `start`: "X=10,Y=5"; axes that it does not name stand at their park positions, as after homing. Errors: everything
+/// `start`: "X=10,Y=5"; axes that it does not name are at their park positions, as after homing. Errors: everything
 /// that is wrong with the configuration, the start or the program, by line and column.
 std::expected<ProgramInput, Failure> read_program(const std::string& file, const std::string& machine_file,
                                                   const std::string& start);

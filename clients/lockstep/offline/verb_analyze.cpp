@@ -22,7 +22,7 @@ namespace {
 
 struct AnalyzeOptions {
     std::vector<std::string> paths;
-    std::string log;  // of paths, where it is the only one
+    std::string log;  // of paths, if it is the only one
     bool incident = false;
     int back = 0;
     bool all = false;
@@ -39,7 +39,7 @@ bool tells_of_trouble(const std::string& line) {
     return line.starts_with("damaged") || (missing && !line.starts_with("axis "));  // not the table's head
 }
 
-/// What is missing or damaged stands out.
+/// Highlights missing and damaged data.
 std::string coloured(const std::string& text) {
     std::istringstream lines(text);
     std::string out;
@@ -49,14 +49,14 @@ std::string coloured(const std::string& text) {
     return out;
 }
 
-/// Beside the log, unless another place was asked for.
+/// Beside the log, unless another place was given.
 std::filesystem::path page_path(const AnalyzeOptions& options) {
     if (!options.html.empty()) { return options.html; }
     auto path = std::filesystem::path(options.log);
     return path.replace_extension(".html");
 }
 
-/// Where it was written; empty: nowhere. A page that nobody asked for fails nothing.
+/// Where it was written; empty: nowhere. An error is fatal only if the page was requested.
 std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
                                                              const analysis::Analysis& found, Output& output) {
     const bool asked = !options.html.empty();
@@ -123,17 +123,17 @@ ExitCode analyze(AnalyzeOptions options) {
 
 void add_analyze(CLI::App& app, Action& action) {
     CLI::App* verb =
-        app.add_subcommand("analyze", "say what a log holds, and what is missing; or what began an incident");
+        app.add_subcommand("analyze", "report the content of a log, and what is missing; or the cause of an incident");
     const auto options = std::make_shared<AnalyzeOptions>();
     verb->add_option("log", options->paths,
-                     "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or the "
-                     "directory that they are in, and perhaps the log of the run")
+                     "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or their "
+                     "directory, and optionally the log of the run")
         ->required();
     CLI::Option* incident =
         verb->add_flag("--incident", options->incident,
-                       "what all processes heard, decided and said around a fault, and what began it");
+                       "what all processes received, decided and published around a fault, and its cause");
     verb->add_option("--back", options->back, "with --incident: so many incidents before the newest")->needs(incident);
-    verb->add_flag("--all", options->all, "with --incident: list what is routine, too")->needs(incident);
+    verb->add_flag("--all", options->all, "with --incident: also list routine events")->needs(incident);
     verb->add_option("--html", options->html, "the report page to write; beside the log as LOG.html unless given");
     verb->add_flag("--no-html", options->no_html, "write no report page; with --json none is written unless --html is");
     verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
@@ -145,8 +145,8 @@ void add_analyze(CLI::App& app, Action& action) {
                "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
                "  lockstep analyze plate.lcm --json          # verdict: good, doubtful, unknown or bad\n"
                "  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents plate.lcm\n\n"
-               "A log that is damaged, cut short or partly of another version is read as far as it can be and\n"
-               "exits 0: what could not be read is listed by its bytes. 2: nothing in it could be read.\n"));
+               "A log that is damaged, cut short or partly of another version is read as far as possible and\n"
+               "exits 0: unreadable parts are listed by their bytes. 2: nothing in it could be read.\n"));
     verb->callback([&action, options] { action = [options] { return analyze(*options); }; });
 }
 

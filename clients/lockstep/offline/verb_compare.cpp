@@ -82,7 +82,7 @@ ExitCode compare_verb(const CompareOptions& options) {
 
 void add_compare(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("compare",
-                                        "make one move by five published methods, and say how far each is "
+                                        "make one move by five published methods, and report how far each is "
                                         "from the ideal; needs no machine");
     const auto options = std::make_shared<CompareOptions>();
     verb->add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
@@ -95,7 +95,7 @@ void add_compare(CLI::App& app, Action& action) {
     CLI::Option* csv =
         verb->add_flag("--csv", options->csv, "every step on standard output: method,step,time_s,error_us");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text")->excludes(csv);
-    verb->footer("A method that cannot express the move makes the nearest it can, and says what it changed.\n" +
+    verb->footer("A method that cannot express the move makes the nearest one it can, and reports the change.\n" +
                  footer("  lockstep compare\n  lockstep compare --move 4000,0,1000,1000 --svg compare.svg\n"
                         "  lockstep compare --method ranade --method carrica --csv > steps.csv\n"));
     verb->callback([&action, options] { action = [options] { return compare_verb(*options); }; });

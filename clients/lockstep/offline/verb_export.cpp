@@ -58,7 +58,7 @@ ExitCode export_verb(const ExportOptions& options) {
     const std::filesystem::path to = place_of(options);
     std::error_code ignored;
     if (std::filesystem::exists(to, ignored) && !options.force) {
-        return output.fail(bad_input(to.string() + ": is there already; name another with --out, or say --force"));
+        return output.fail(bad_input(to.string() + ": exists already; name another with --out, or add --force"));
     }
     if (std::filesystem::equivalent(options.log, to, ignored)) {
         return output.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
@@ -80,21 +80,20 @@ ExitCode export_verb(const ExportOptions& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("export",
-                                        "write a log's positions, states, health and jobs as PlotJuggler and Foxglove "
-                                        "open them");
+    CLI::App* verb = app.add_subcommand(
+        "export", "write a log's positions, states, health and jobs in a format of PlotJuggler and Foxglove");
     const auto options = std::make_shared<ExportOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
     verb->add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")
         ->check(CLI::IsMember({"csv", "mcap"}))
         ->capture_default_str();
     verb->add_option("--out", options->out, "the file to write; beside the log unless given");
-    verb->add_flag("--force", options->force, "replace a file that is there");
+    verb->add_flag("--force", options->force, "replace an existing file");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         "csv: one table; time_s first, from the log's first sample on, then a column for each signal with its unit in\n"
-        "its name, as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state, mill/X/fault; empty where nothing was\n"
-        "said at that time. In PlotJuggler: load the file, take time_s as time.\n"
+        "its name, as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state, mill/X/fault; empty if there was no\n"
+        "value at that time. In PlotJuggler: load the file, take time_s as time.\n"
         "mcap: a topic for each axis and kind, as /mill/X/position; messages as JSON with the same names.\n"
         "Every step's tick: lockstep analyze LOG --csv DIR.\n"
         "Exit 0: written. 2: no log, nothing in it to export, or the file cannot be written.\n" +

@@ -33,7 +33,7 @@ struct LogMergeOptions {
     bool json = false;
 };
 
-/// Empty: OUT may be written. The mistake to expect is to name the logs and forget OUT.
+/// Empty: OUT may be written. The likely mistake is to name the logs and forget OUT.
 std::string obstacle(const LogMergeOptions& options, const std::vector<merge::GivenLog>& logs) {
     std::error_code error;
     const auto is_out = [&](const merge::GivenLog& log) { return fs::equivalent(log.path, options.out, error); };
@@ -41,7 +41,7 @@ std::string obstacle(const LogMergeOptions& options, const std::vector<merge::Gi
         return options.out + ": is one of the logs to merge; name a new file first: lockstep log merge OUT IN...";
     }
     if (!options.force && fs::exists(options.out, error)) {
-        return options.out + ": is there already; name a new file, or say --force to replace it";
+        return options.out + ": exists already; name a new file, or add --force to replace it";
     }
     return "";
 }
@@ -75,8 +75,8 @@ ExitCode merge_into(const LogMergeOptions& options, const merge::MergeOptions& w
     std::string text = merge::to_text(*merged, options.out);
     text.pop_back();
     if (wants_colour()) {
-        const std::size_t verdict = text.rfind('\n') + 1;
-        text = text.substr(0, verdict) + painted(text.substr(verdict), merged->is_complete() ? kGood : kBad);
+        const std::size_t result = text.rfind('\n') + 1;
+        text = text.substr(0, result) + painted(text.substr(result), merged->is_complete() ? kGood : kBad);
     }
     output.print(text);
     output.report(merge::to_report(*merged, options.out));
@@ -103,7 +103,8 @@ ExitCode log_merge(const LogMergeOptions& options) {
 }
 
 void add_merge(CLI::App& log, Action& action) {
-    CLI::App* verb = log.add_subcommand("merge", "make one complete log of several, and say what none of them has");
+    CLI::App* verb =
+        log.add_subcommand("merge", "combine several logs to one complete log, and report what none of them contains");
     const auto options = std::make_shared<LogMergeOptions>();
     verb->add_option("out", options->out, "the log to write")->required();
     verb->add_option("in", options->in,
@@ -113,22 +114,24 @@ void add_merge(CLI::App& log, Action& action) {
                      "seconds by which a log may be out of order; more takes more memory, up to 256 MB")
         ->check(CLI::Range(0.01, 600.0))
         ->capture_default_str();
-    verb->add_option("--since", options->since_s, "only what is recorded from this second of machine time on");
+    verb->add_option("--since", options->since_s, "only messages from this second of machine time on");
     verb->add_option("--job", options->job,
                      "only this job, the newest of that number: from the end of the one before it to the next");
-    verb->add_flag("--all", options->all, "logs of earlier sessions as well, where a directory has them");
-    verb->add_flag("--force", options->force, "replace OUT where it is there");
+    verb->add_flag("--all", options->all, "also logs of earlier sessions in a directory");
+    verb->add_flag("--force", options->force, "replace OUT if it exists");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         "Example:\n"
         "  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n"
         "  lockstep verify whole.lcm\n\n"
         "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n\n"
-        "Messages come in the order of machine time, each once. All are numbered: what is in none of the logs is "
-        "said.\n"
-        "Each process marks in its log how much the others and itself have published, so messages that are missing at\n"
-        "the end are said, too, and logs that are missing altogether; or up to when the record is known to be whole.\n"
-        "Of a directory, the logs are merged that belong to the run that is named beside it, or to the newest "
+        "Messages come in the order of machine time, each once. All are numbered: messages that are in none of the "
+        "logs are "
+        "reported.\n"
+        "Each process records how much the others and itself have published, so messages that are missing at\n"
+        "the end are reported too, and logs that are missing altogether; or up to when the record is known to be "
+        "complete.\n"
+        "From a directory, it merges the logs that belong to the run that is named beside it, or to the newest "
         "session.\n\n"
         "Exit codes: 0 nothing is known to be missing, 1 written but messages are missing, 2 bad usage or a log that "
         "cannot be read:\n"

@@ -40,13 +40,13 @@ ExitCode plan(const PlanOptions& options) {
 
 void add_plan(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("plan",
-                                        "say how long a G-code file takes and what it asks of each axis; "
+                                        "report how long a G-code file takes and the load on each axis; "
                                         "needs no running machine");
     const auto options = std::make_shared<PlanOptions>();
     verb->add_option("file", options->file, "the G-code file")->required();
     verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
     verb->add_option("--start", options->start,
-                     "where the axes stand when it begins, in mm: X=10,Y=5; those not named are parked");
+                     "the start position in mm: X=10,Y=5; axes not named are at their park positions");
     verb->add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(

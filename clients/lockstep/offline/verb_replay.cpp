@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live_options.hpp"
-#include "clients/lockstep/offline/verdict_text.hpp"
+#include "clients/lockstep/offline/result_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/replay/replay.hpp"
 #include "clients/text/format.hpp"
@@ -45,7 +45,7 @@ ExitCode replay_verb(const ReplayOptions& options) {
         if (const auto kept = made->keep(); !kept) { return output.fail(failed(kept.error())); }
     }
     const bool exact = !findings->difference;
-    output.print(verdict_text(replay::to_text(*findings), exact));
+    output.print(result_text(replay::to_text(*findings), exact));
     output.report(replay::to_report(*findings, options.made));
     return exact ? kExitDone : kExitFailed;
 }
@@ -54,18 +54,18 @@ ExitCode replay_verb(const ReplayOptions& options) {
 
 void add_replay(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("replay",
-                                        "give what a log says each device was given to simulated devices, and compare "
-                                        "every step they make with the log, tick for tick");
+                                        "run the recorded frames of a log on simulated devices, and compare "
+                                        "every step with the log, tick for tick");
     const auto options = std::make_shared<ReplayOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
-    verb->add_option("--log", options->made, "write the replay's own log: as recorded, with the steps made now");
-    verb->add_flag("--force", options->force, "replace the file of --log whatever it is; without it only a log is");
+    verb->add_option("--log", options->made, "write the replay's own log: as recorded, with the new steps");
+    verb->add_flag("--force", options->force, "replace the file of --log even if it is not a log");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "Nothing is planned again: lockstep verify does that. A replay writes the recorded frames into a device's\n"
+        "It plans nothing again: lockstep verify does that. A replay writes the recorded frames into a device's\n"
         "registers, as the axis did, and so proves that they make those steps. Where pulses ceased early, by a switch\n"
         "or a stop, the device is stopped at the recorded step.\n"
-        "Exit 0: exact. 1: not exact; the first difference is said. 2: not a log, or no run in it.\n" +
+        "Exit 0: exact. 1: not exact, with the first difference. 2: not a log, or no run in it.\n" +
         footer("  lockstep replay plate.lcm\n"
                "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n"));
     verb->callback([&action, options] { action = [options] { return replay_verb(*options); }; });

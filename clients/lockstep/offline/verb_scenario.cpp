@@ -47,7 +47,7 @@ std::optional<scenario::Asked::Place> place_of(const ScenarioOptions& options) {
     return place;
 }
 
-/// Nothing where a file has errors: all errors of all files have been printed.
+/// Nothing if a file has errors: all errors of all files have been printed.
 std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Output& output) {
     std::vector<Scenario> scenarios;
     std::vector<Failure> failures;
@@ -116,7 +116,8 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
                    const std::shared_ptr<ScenarioOptions>& options) {
     CLI::App* part = verb.add_subcommand(name, what);
     part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
-    part->add_option("--place", options->place, "run all there, whatever they say: PROCESS, NAMESPACE or CONTAINER")
+    part->add_option("--place", options->place,
+                     "run all there, whatever the files contain: PROCESS, NAMESPACE or CONTAINER")
         ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
     part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     return part;
@@ -135,7 +136,7 @@ void add_scenario_run(CLI::App& verb, Action& action) {
     part->add_option("--junit", options->junit, "also write the results as JUnit's XML into this file");
     part->add_flag("--story", options->events, "also report what happened when");
     part->footer(
-        "Each runs in network, process and mount namespaces of its own, which takes root and leaves nothing "
+        "Each runs in network, process and mount namespaces of its own, which requires root and leaves nothing "
         "behind.\n"
         "Examples:\n  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
         "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
@@ -149,7 +150,7 @@ void add_scenario_run(CLI::App& verb, Action& action) {
 
 void add_scenario_check(CLI::App& verb, Action& action) {
     const auto options = std::make_shared<ScenarioOptions>();
-    CLI::App* part = add_part(verb, "check", "read scenarios and say what would be done; nothing runs", options);
+    CLI::App* part = add_part(verb, "check", "read scenarios and print what they would do; nothing runs", options);
     part->footer(
         "Examples:\n  lockstep scenario check deploy/scenarios/axis-killed.textproto\n"
         "Exit codes: 0 they can run, 2 bad usage or a scenario that cannot be read");

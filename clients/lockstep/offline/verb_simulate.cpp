@@ -99,14 +99,14 @@ ExitCode simulate_verb(const SimulateOptions& options) {
 
 void add_simulate(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("simulate",
-                                        "home a simulated machine, run a G-code file on it, and write the "
-                                        "log that a live run gives");
+                                        "home a simulated machine, run a G-code file on it, and write the same "
+                                        "log as a live run");
     const auto options = std::make_shared<SimulateOptions>();
-    verb->add_option("file", options->file, "the G-code file; its pauses are passed at once")->required();
+    verb->add_option("file", options->file, "the G-code file; its pauses are skipped")->required();
     verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
     verb->add_option("--log", options->log, "the LCM log to write; a log of that name is replaced")->required();
-    verb->add_flag("--force", options->force, "replace the file whatever it is");
-    verb->add_flag("--speed-report", options->speed_report, "say how fast each stage was simulated");
+    verb->add_flag("--force", options->force, "replace the file even if it is not a log");
+    verb->add_flag("--speed-report", options->speed_report, "report how fast each stage was simulated");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live_options.hpp"
-#include "clients/lockstep/offline/verdict_text.hpp"
+#include "clients/lockstep/offline/result_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
@@ -27,7 +27,7 @@ ExitCode verify(const VerifyOptions& options) {
     const auto findings = verification::verify_log(options.log, progress);
     if (!findings) { return output.fail(bad_input(findings.error())); }
     const bool exact = findings->is_exact();
-    output.print(verdict_text(verification::to_text(*findings), exact));
+    output.print(result_text(verification::to_text(*findings), exact));
     output.report(verification::to_report(*findings));
     return exact ? kExitDone : kExitFailed;
 }
@@ -36,14 +36,16 @@ ExitCode verify(const VerifyOptions& options) {
 
 void add_verify(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("verify",
-                                        "compare every step in a log with what its programs must give, tick "
+                                        "compare every step in a log with the steps that its programs give, tick "
                                         "for tick");
     const auto options = std::make_shared<VerifyOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "What a killed process left is held to all that the plan allows it; notes say what is not on record.\n"
-        "A log that begins late or ends early is exact in what it has; where that does not suffice, it is unknown.\n"
+        "Steps that a killed process left are compared with all that the plan allows; notes list what is not on "
+        "record.\n"
+        "A log that begins late or ends early is exact in what it has; if that does not suffice, the result is "
+        "unknown.\n"
         "Exit 0: exact. 1: not exact, with the first difference; or unknown, with what the log lacks. 2: not a log, "
         "or\n"
         "nothing in it.\n" +

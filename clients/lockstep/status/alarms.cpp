@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kStepSlack_us = 2;  // what is left of mapping a frame onto another clock
+constexpr double kStepSlack_us = 2;  // the remaining error of mapping a frame onto another clock
 
 std::string sentence(const proto::FaultReport& fault) {
     const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
@@ -18,14 +18,14 @@ std::string sentence(const proto::FaultReport& fault) {
 
 std::string refusals(const proto::HealthReport& health) {
     std::string text;
-    const auto say = [&](std::uint64_t count, const char* what) {
+    const auto add = [&](std::uint64_t count, const char* what) {
         if (count > 0) { text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what; }
     };
-    say(health.refused_frames(), "frames refused");
-    say(health.refused_commands(), "commands refused");
-    say(health.refused_messages(), "messages not believed");
-    say(health.refused_orders(), "orders refused by the device");
-    say(health.lost_captures(), "steps without their time");
+    add(health.refused_frames(), "frames refused");
+    add(health.refused_commands(), "commands refused");
+    add(health.refused_messages(), "messages refused");
+    add(health.refused_orders(), "orders refused by the device");
+    add(health.lost_captures(), "steps without their time");
     return text;
 }
 
@@ -34,8 +34,8 @@ void add_health_alarms(const proto::AxisStatus& axis, const SlackScale& scale, s
     const std::string who = "axis " + axis.name() + ": ";
     const double slack_ms = health.setpoint_slack_ms().min();
     if (health.has_setpoint_slack_ms() && slack_ms < scale.deadline_ms) {
-        alarms.push_back(who + "a setpoint came " + fixed(slack_ms, 0) + " ms before its start, and is needed " +
-                         fixed(scale.deadline_ms, 0) + " ms before: look for what stalls the coordinator");
+        alarms.push_back(who + "a setpoint came " + fixed(slack_ms, 0) + " ms before its start, and the deadline is " +
+                         fixed(scale.deadline_ms, 0) + " ms before: find out what stalls the coordinator");
     }
     const proto::Spread& late = health.step_lateness_us();
     const double furthest_us = std::max(std::abs(late.min()), std::abs(late.max()));
@@ -57,10 +57,12 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
     if (status.has_fault()) { add(sentence(status.fault())); }
     for (const proto::AxisStatus& axis : status.axes()) {
         if (axis.has_fault()) { add(sentence(axis.fault())); }
-        if (!axis.present()) { add("axis " + axis.name() + " is not heard: is its process running? lockstep status"); }
+        if (!axis.present()) {
+            add("axis " + axis.name() + " is not received: is its process running? lockstep status");
+        }
     }
     if (status.has_fault() && status.has_incidents()) {
-        add("what led to it: lockstep analyze --incident " + status.incidents().directory());
+        add("the events before it: lockstep analyze --incident " + status.incidents().directory());
     }
     for (const proto::AxisStatus& axis : status.axes()) {
         if (axis.has_health()) { add_health_alarms(axis, scale, alarms); }

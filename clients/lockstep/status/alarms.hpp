@@ -1,4 +1,4 @@
-// What of a machine's status a person should look at, in sentences, the worst first. Pure.
+// The parts of a machine's status that need attention, as sentences, the worst first. Pure.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// Faults with their remedies, axes that are not heard, setpoints after their deadline, steps beside their time, and
+/// Faults with their remedies, axes that are not received, setpoints after their deadline, steps off their time, and
 /// everything that was refused or lost. Empty: all is well.
 std::vector<std::string> alarms_of(const proto::StatusReport& status, const SlackScale& scale);
 

@@ -11,7 +11,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kUsualRows = 24;
-constexpr const char* kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l";  // the other screen, no cursor, long lines cut
+constexpr const char* kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l";  // the alternate screen, no cursor, long lines cut
 constexpr const char* kLeave = "\x1b[?7h\x1b[?25h\x1b[?1049l";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A terminal's other screen, for as long as the object lives: what stood there before comes back, however it ends.
+// A terminal's alternate screen, while the object exists: the previous content returns, however it ends.
 #pragma once
 
 #include <termios.h>
@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// Keys are not echoed meanwhile. Ctrl-C is a signal as ever: see StopSignal.
+/// Keys are not echoed meanwhile. Ctrl-C still sends its signal: see StopSignal.
 class Screen {
 public:
     Screen();
@@ -17,7 +17,7 @@ public:
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
-    /// The whole screen anew, without flicker. Lines that are too long are cut off by the terminal.
+    /// Redraws the whole screen, without flicker. The terminal cuts off lines that are too long.
     void draw(const std::string& text);
     /// Whether this key was pressed since the last call.
     bool pressed(char key);
@@ -26,7 +26,7 @@ private:
     std::optional<termios> keyboard_before_;  // nothing: standard input is no terminal
 };
 
-/// What draw() writes on a screen of so many rows: where they are too few, the last one says so. Pure.
+/// The output of draw() on a screen of so many rows: if they are too few, the last row reports it. Pure.
 std::string redrawn(const std::string& text, std::size_t rows);
 
 }  // namespace lockstep

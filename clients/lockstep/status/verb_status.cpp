@@ -39,7 +39,7 @@ ExitCode status(const LiveOptions& options) {
 }  // namespace
 
 void add_status(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("status", "what the machine does and where its axes are");
+    CLI::App* verb = app.add_subcommand("status", "the machine's state and the positions of its axes");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep status\n  lockstep status --json | jq .phase\n"));

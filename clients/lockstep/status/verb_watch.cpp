@@ -22,19 +22,19 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kRedrawPeriod = 100ms;  // on a terminal
 constexpr nanoseconds kLinePeriod = 1s;       // elsewhere
 
-/// With the incident files where there is a fault that they may explain.
+/// With the incident files if there is a fault that they may explain.
 proto::StatusReport watched(const Session& session) {
     proto::StatusReport report = status_report(session);
     if (report.has_fault()) { add_incidents(session.config(), report); }
     return report;
 }
 
-/// Both go on while nobody speaks, which the age then shows.
+/// Both continue without messages, which the age then shows.
 void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
     const SlackScale scale = slack_scale(session.config().timing);
     Screen screen;
     while (!stop.requested() && !screen.pressed('q')) {
-        screen.draw(watch_text(watched(session), scale, ink) + "\nq or Ctrl-C leaves; the machine goes on\n");
+        screen.draw(watch_text(watched(session), scale, ink) + "\nq or Ctrl-C quits; the machine continues\n");
         const nanoseconds next = monotonic_now() + kRedrawPeriod;
         while (!stop.requested() && monotonic_now() < next) { session.receive(next - monotonic_now()); }
     }
@@ -76,8 +76,8 @@ ExitCode watch(const LiveOptions& options) {
 }  // namespace
 
 void add_watch(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
-        "watch", "the machine at a glance, ten times a second; where there is no terminal, a line a second");
+    CLI::App* verb =
+        app.add_subcommand("watch", "the machine's status, ten times a second; without a terminal, a line a second");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(*verb, *options);
     verb->footer(

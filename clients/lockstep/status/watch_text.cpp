@@ -52,7 +52,7 @@ std::string slack_bar(const proto::HealthReport& health, const SlackScale& scale
     return "[" + painted(bar, colour, ink) + "]" + padded(known ? fixed(slack_ms, 0) : "-", 5);
 }
 
-/// The one furthest from its time; after its time, above 0.
+/// The lateness furthest from 0; above 0: late.
 std::string lateness(const proto::HealthReport& health) {
     if (!health.has_step_lateness_us()) { return "-"; }
     const proto::Spread& late = health.step_lateness_us();
@@ -67,7 +67,7 @@ std::string_view colour_of(const proto::AxisStatus& axis) {
 std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink ink) {
     std::array<char, 128> name{};
     std::snprintf(name.data(), name.size(), "%-10s", cut(axis_label(axis.name()), 10).c_str());
-    if (!axis.present()) { return name.data() + painted("   not heard", kBad, ink); }
+    if (!axis.present()) { return name.data() + painted("   not received", kBad, ink); }
     std::array<char, 32> state{};
     std::snprintf(state.data(), state.size(), "%-10s", axis.state().c_str());
     const std::string place = axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
@@ -79,7 +79,7 @@ std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink
 }
 
 std::string place_text(const proto::AxisStatus& axis) {
-    if (!axis.present()) { return "not heard"; }
+    if (!axis.present()) { return "not received"; }
     return axis.homed() ? fixed(axis.position_mm(), 3) + " " + std::string(unit_of(axis.name())) + " " + axis.state()
                         : "not homed";
 }

@@ -1,4 +1,4 @@
-// The machine at a glance, as text for a terminal of 80 columns: what is shown is a function of the status alone.
+// The machine's status as text for a terminal of 80 columns: the text is a function of the status alone.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// What the slack of setpoints is measured against.
+/// The scale of the slack of setpoints.
 struct SlackScale {
     double ahead_ms = 0;     // so long before its start the coordinator sends a frame
     double deadline_ms = 0;  // so long before its start an axis must hold it, or it is not run
@@ -19,11 +19,11 @@ enum class Ink { Plain, Colour };
 
 /// Lines of at most 80 columns: machine and job, a row for each axis, alarms with what to do.
 ///
-/// The bar of a row is the least slack of the second before, filled from the left: a whole bar is a frame that came as
+/// The bar of a row is the least slack of the second before, filled from the left: a full bar is a frame that came as
 /// early as it was sent, the mark | is the deadline.
 std::string watch_text(const proto::StatusReport& status, const SlackScale& scale, Ink ink);
 
-/// One line, where there is no terminal.
+/// One line, without a terminal.
 std::string watch_line(const proto::StatusReport& status, const SlackScale& scale);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Charts over time, joined: they share cursor and zoom. And the path in a plane, a millimetre as long up as sideways.
+// Charts over time with common cursor and zoom. And the path in a plane, with equal scales in both directions.
 "use strict";
 
 const colours = ["#1f6fb4", "#e07b00", "#1a9367", "#b5559b", "#3aa6d8", "#a8710f", "#6b5fc7"];
@@ -118,7 +118,7 @@ function pathChart(host, path) {
     const ratio = (y[1] - y[0] || 1) / (x[1] - x[0] || 1);
     return { width, height: Math.round(Math.min(700, Math.max(220, inner() * ratio))) + 120 };
   };
-  // Shows at least what is asked for, and a millimetre equally long both ways.
+  // Shows at least the requested range, with equal scales in both directions.
   const even = (u, low, high, key) => {
     const other = key === "x" ? "y" : "x";
     const box = { x: u.bbox.width, y: u.bbox.height };
@@ -152,7 +152,7 @@ function pathChart(host, path) {
   addEventListener("resize", () => chart.setSize(size()));
 }
 
-// How many steps were how far from their time: a bar for each class, as long as the logarithm of its number.
+// The distribution of step time errors: a bar for each class, as long as the logarithm of its number.
 function barChart(host, axes) {
   const most = Math.log10(1 + Math.max(1, ...axes.flatMap((axis) => axis.counts)));
   const rows = [];

@@ -1,4 +1,4 @@
-// Puts an incident's page together: a lane for each process, the axes' speeds and places below, then all that was noted.
+// Builds an incident's page: a lane for each process, the axes' speeds and positions below, then all events.
 "use strict";
 
 const report = JSON.parse(document.getElementById("report").textContent);
@@ -17,7 +17,7 @@ const lanes = report.processes.map((process) => process.name);
 const bar = (event) => ["stalled", "peer-silent", "peer-heard"].includes(event.what) && event.lasts_s ? -event.lasts_s
   : event.what === "tail-run" ? event.lasts_s : 0;
 
-// What is looked at first: from before the cause until all have come to rest.
+// The initial range: from before the cause until all axes are at rest.
 function aroundIt() {
   const from = Math.min(report.cause_at_s ?? 0, 0);
   const to = Math.max(report.rest_s ?? 0, 0.3);
@@ -25,7 +25,7 @@ function aroundIt() {
   return [from - room, to + room];
 }
 
-function lanesPlugin(shown, say) {
+function lanesPlugin(shown, show) {
   const radius = { telling: 4.5, notable: 3, routine: 1.5 };
   const place = (u, event) => [u.valToPos(event.at_s, "x", true), u.valToPos(lanes.length - 1 - lanes.indexOf(event.process), "y", true)];
   const colour = (event) => (event.weight === "telling" ? css("--alarm") : event.weight === "notable" ? css("--ink") : css("--soft"));
@@ -82,17 +82,17 @@ function lanesPlugin(shown, say) {
       const far = Math.hypot(x - u.cursor.left, y - u.cursor.top);
       if (far < least) { [best, least] = [event, far]; }
     }
-    if (best) { say(best); }
+    if (best) { show(best); }
   };
   return { hooks: { draw, setCursor: nearest } };
 }
 
 function lanesChart() {
-  const words = make("p", { className: "soft" }, "Point at a mark to read it. Red: what tells; bars: standstills, silences, ways to rest; a cross: the process ended.");
+  const words = make("p", { className: "soft" }, "Point at a mark to read it. Red: of a fault; bars: standstills, silences, motion to rest; a cross: the process ended.");
   const host = make("figure");
   let all = false;
   const shown = () => report.events.filter((event) => all || event.weight !== "routine");
-  const part = section("Who did what", host, words);
+  const part = section("Events by process", host, words);
   part.id = "time";
   const width = () => Math.max(240, host.clientWidth);
   const chart = new uPlot({
@@ -108,16 +108,16 @@ function lanesChart() {
   timeCharts.push(chart);
   joined.sub(chart);
   addEventListener("resize", () => chart.setSize({ width: width(), height: chart.height }));
-  const zoom = (range) => make("button", { type: "button", onclick: () => zoomTo(...range) }, range === whole ? "all of it" : "around it");
+  const zoom = (range) => make("button", { type: "button", onclick: () => zoomTo(...range) }, range === whole ? "everything" : "the incident");
   const routine = make("button", { type: "button", onclick: () => {
     all = !all;
     routine.setAttribute("aria-pressed", all);
     chart.redraw();
-  } }, "routine too");
+  } }, "also routine");
   host.before(make("p", {}, zoom(aroundIt()), zoom(whole), routine));
 }
 
-// From the states that axes noted ten times a second; from the log, where there is one.
+// From the states that axes noted ten times a second; from the log, if there is one.
 function rows() {
   if (log) {
     return log.rows.filter((row) => row.kind === "speed" || row.kind === "position")
@@ -136,7 +136,7 @@ function rows() {
 function curves() {
   const all = rows();
   if (all.length === 0) { return; }
-  const part = section("How the axes moved", make("p", { className: "soft" }, "Drag to zoom, double-click to see all again. Red: vetoes and faults."));
+  const part = section("Motion of the axes", make("p", { className: "soft" }, "Drag to zoom, double-click to see all again. Red: vetoes and faults."));
   const moved = all.filter((row) => row.kind === "speed" ? row.y.some((y) => y) : true);
   ["speed", "position"].forEach((kind) => moved.filter((row) => row.kind === kind).forEach((row, i, same) => {
     const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
@@ -150,15 +150,15 @@ function noted() {
   const columns = [
     { head: "s", of: (event) => event.at_s, show: fixed(4) },
     { head: "process", of: (event) => event.process, text: true },
-    { head: "what it noted", of: (event) => event.text, text: true, long: true, grade: (event) => weights[event.weight] },
+    { head: "event", of: (event) => event.text, text: true, long: true, grade: (event) => weights[event.weight] },
     { head: "weight", of: (event) => event.weight, text: true },
   ];
   const onRow = (event) => {
     zoomTo(event.at_s - 0.3, event.at_s + 0.3);
     document.getElementById("time").scrollIntoView({ behavior: "smooth" });
   };
-  section("What tells", table(columns, report.events.filter((event) => event.weight !== "routine"), { first: 60, onRow }));
-  section("All that was noted", table(columns, [...report.events], { first: 0, onRow }));
+  section("Notable events", table(columns, report.events.filter((event) => event.weight !== "routine"), { first: 60, onRow }));
+  section("All events", table(columns, [...report.events], { first: 0, onRow }));
 }
 
 function processes() {
@@ -166,7 +166,7 @@ function processes() {
     { head: "process", of: (process) => process.name, text: true },
     { head: "noted from, s", of: (process) => process.first_s, show: fixed(3) },
     { head: "to, s", of: (process) => process.last_s, show: fixed(3) },
-    { head: "ended unasked", of: (process) => (process.ended ? "yes" : "no"), text: true, grade: (process) => (process.ended ? "bad" : "") },
+    { head: "ended unexpectedly", of: (process) => (process.ended ? "yes" : "no"), text: true, grade: (process) => (process.ended ? "bad" : "") },
     { head: "clock within, \u00b5s", of: (process) => process.clock_error_us, show: fixed(1) },
     { head: "files", of: (process) => process.files.map((file) => file.split("/").pop()).join(" "), text: true, long: true },
   ], report.processes));

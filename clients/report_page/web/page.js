@@ -1,4 +1,4 @@
-// Puts the page together: what was asked and made, then what it looked like, then what went wrong.
+// Builds the page: commanded and made motion, its charts, then the errors.
 "use strict";
 
 const report = JSON.parse(document.getElementById("report").textContent);
@@ -16,7 +16,7 @@ function showTime(from, to) {
   document.getElementById("time")?.scrollIntoView({ behavior: "smooth" });
 }
 
-// Along the linear axes; where only rotary ones move, theirs.
+// Along the linear axes; if only rotary ones move, theirs.
 const unitOfAxes = (axes) => (axes.length > 0 && axes.every((axis) => unitOf(axis.name) === "deg") ? "deg" : "mm");
 const unitOfMove = (move) => unitOfAxes(move.axes);
 const unitOfJob = (job) => unitOfAxes(job.moves.flatMap((move) => move.axes));
@@ -29,7 +29,7 @@ const sum = (key) => (move) => move.axes.reduce((all, axis) => all + Number(axis
 const isWhole = (move) => move.axes.every((axis) => axis.asked_steps === axis.made_steps);
 
 const stepColumns = (asked, made, grade) => [
-  { head: "steps asked", of: asked, show: count },
+  { head: "steps commanded", of: asked, show: count },
   { head: "made", of: made, show: count, grade },
 ];
 
@@ -84,7 +84,7 @@ function moves() {
     const lasts = move.real_s ?? move.planned_s;
     showTime(move.begun_s - 0.1 * lasts, move.begun_s + 1.1 * lasts);
   };
-  section("Moves", make("p", { className: "soft" }, `Peaks are the fastest axis's, from its steps. A click on a head sorts, one on a move shows it. ${note}`),
+  section("Moves", make("p", { className: "soft" }, `Peaks are the fastest axis's, from its steps. Click a head to sort, a move to show it. ${note}`),
     table(columns, all, { first: 25, onRow }));
 }
 
@@ -137,7 +137,7 @@ function record() {
     ], gaps, { first: 50 }));
   }
   if (report.unread.length > 0) {
-    section("What could not be read", table([
+    section("Unreadable parts", table([
       { head: "reason", of: (part) => part.reason, text: true, long: true },
       { head: "first byte", of: (part) => Number(part.first_byte), show: count },
       { head: "last byte", of: (part) => Number(part.last_byte), show: count },
@@ -172,7 +172,7 @@ function overTime() {
     [...buttons.children].forEach((button) => button.setAttribute("aria-pressed", button.textContent === kind));
   };
   kinds.forEach((kind) => buttons.append(make("button", { type: "button", onclick: () => draw(kind) }, kind)));
-  buttons.append(make("button", { type: "button", onclick: () => zoomTo(...whole) }, "all of it"));
+  buttons.append(make("button", { type: "button", onclick: () => zoomTo(...whole) }, "everything"));
   draw(kinds[0]);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
 }
@@ -186,7 +186,7 @@ function path() {
 
 function stepTimes() {
   if (charts.step_times.length === 0) { return; }
-  barChart(section("Step times against those commanded"), charts.step_times);
+  barChart(section("Step times against the commanded ones"), charts.step_times);
 }
 
 jobs();

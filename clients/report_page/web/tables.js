@@ -7,7 +7,7 @@ const make = (tag, attributes = {}, ...children) => {
   return element;
 };
 
-// Of an axis's places, by its name: A, B and C turn (core/axis_unit.hpp). The report's keys say mm for both.
+// The unit of an axis's positions, by its name: A, B and C rotate (core/axis_unit.hpp). The report's keys have mm for both.
 const unitOf = (axis) => (/^[ABC]$/i.test(axis) ? "deg" : "mm");
 const smallUnitOf = { mm: "\u00b5m", deg: "mdeg" };
 

@@ -18,7 +18,7 @@ public:
         check_what(act);
         const bool can_be_undone = act.has_pause() || act.has_cut() || act.has_lose();
         problems_.require(can_be_undone || !act.has_for_s(), path_ + ".for_s",
-                          "for_s goes with pause, cut and lose: nothing else is undone by itself");
+                          "for_s goes with pause, cut and lose: other acts are not undone automatically");
         if (act.has_for_s()) { problems_.require_range(path_, "for_s", act.for_s(), 0, kMostSeconds); }
     }
 
@@ -34,12 +34,12 @@ private:
             case Act::kHeal: return check_heal(act.heal());
             case Act::kCommand:
                 return problems_.require(act.command() != Asked::NONE, path_ + ".command",
-                                         "NONE asks for nothing; say HOLD, RESUME, STOP, EMERGENCY_STOP or RESET");
+                                         "NONE is not a command; use HOLD, RESUME, STOP, EMERGENCY_STOP or RESET");
             case Act::kOverride: return check_override(act.override());
             case Act::WHAT_NOT_SET: break;
         }
         problems_.add(path_,
-                      "this act does nothing; say what: kill, restart, pause, unpause, cut, lose, heal, command "
+                      "this act is empty; use one of: kill, restart, pause, unpause, cut, lose, heal, command "
                       "or override");
     }
 
@@ -49,10 +49,10 @@ private:
 
     void require_links(const std::string& key) {
         problems_.require(has_links(asked_.place()), path_ + "." + key,
-                          key + " needs links between the processes; say place: NAMESPACE or CONTAINER");
+                          key + " needs links between the processes; set place: NAMESPACE or CONTAINER");
     }
 
-    /// A device has no link: its axis reaches it by memory.
+    /// A device has no link: its axis reaches it through memory.
     std::vector<std::string> linked() const {
         std::vector<std::string> names;
         for (const std::string& name : processes_) {
@@ -84,7 +84,7 @@ private:
 
     void check_override(const Asked::Override& turn) {
         problems_.require(turn.has_feed() || turn.has_rapid(), path_ + ".override",
-                          "override turns nothing; say feed, rapid or both, in percent");
+                          "override changes nothing; set feed, rapid or both, in percent");
         const std::string block = path_ + ".override";
         if (turn.has_feed()) {
             problems_.require_range(block, "feed", turn.feed(), Overrides::kLeast, Overrides::kMost);

@@ -43,7 +43,7 @@ private:
     void check_rest(const AwaitedRest& rest) {
         const std::string asked =
             rest.act + ": " + listed(rest.axes) + " at rest within " + std::to_string(rest.within_frames) + " frames";
-        if (rest.axes.empty()) { return add(asked, "no process of an axis was running", kAsObserved, false); }
+        if (rest.axes.empty()) { return add(asked, "no axis process was running", kAsObserved, false); }
         const auto at = evidence_.record.all_at_rest(rest.axes, rest.at);
         if (!at) { return add(asked, "the record has no rest after it", kWholeLog, false); }
         const double frames =
@@ -51,7 +51,7 @@ private:
         add(asked, "after " + fixed(frames, 2) + " frames", place_at(*at), frames <= rest.within_frames);
     }
 
-    /// Where --keep keeps the incident files.
+    /// The directory of the incident files with --keep.
     std::string notes() const { return "state/" + machine_.name + "/record/incidents"; }
 
     static std::string place_at(Tick tick) { return std::string(kWholeLog) + ", tick " + std::to_string(tick.value); }
@@ -76,7 +76,7 @@ private:
     }
 
     void check_path() {
-        const std::string asked = "every step within " + mm_text(expect_.path_within_mm()) + " of the line asked";
+        const std::string asked = "every step within " + mm_text(expect_.path_within_mm()) + " of the commanded line";
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
         if (!evidence_.analysis->has_largest_distance_mm()) { return add(asked, "not on record", kWholeLog, false); }
         const double found = evidence_.analysis->largest_distance_mm();
@@ -129,7 +129,7 @@ private:
             add(end.name() + (asked ? " " : " not ") + what, found ? what : "not " + what, "status at the end",
                 asked == found);
         };
-        if (end.has_heard()) { yes_no(end.heard(), is_present, "heard"); }
+        if (end.has_heard()) { yes_no(end.heard(), is_present, "received"); }
         if (end.has_homed()) { yes_no(end.homed(), is_present && axis->homed(), "homed"); }
         if (!end.has_fault()) { return; }
         const std::string fault = !is_present ? "not received" : axis->has_fault() ? axis->fault().name() : "none";

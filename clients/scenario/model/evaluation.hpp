@@ -11,7 +11,7 @@ namespace lockstep::scenario {
 /// The file with all logs merged, among those that --keep keeps.
 inline constexpr const char* kWholeLog = "whole.lcm";
 
-/// One check for each expectation and for each awaited rest: what was asked, what was found, and where.
+/// One check for each expectation and for each awaited rest: the expectation, the result, and its source.
 std::vector<Check> evaluate(const Scenario& scenario, const Observations& observed, const Evidence& evidence);
 
 }  // namespace lockstep::scenario

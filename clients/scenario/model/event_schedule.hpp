@@ -23,10 +23,10 @@ public:
     /// `axes`: the names of those in Moment::at_mm. `step` outlives this.
     EventSchedule(const Asked::Step& step, std::vector<std::string> axes) : step_(step), axes_(std::move(axes)) {}
 
-    /// The next that is due now; null: none is, yet. Call it until it is null.
+    /// The next event that is due now; null: none is due yet. Call it until it returns null.
     const Asked::During* next(const Moment& now);
 
-    /// How many have been due.
+    /// How many events have been due.
     int done() const { return done_; }
 
 private:
@@ -36,11 +36,11 @@ private:
     const Asked::Step& step_;
     std::vector<std::string> axes_;
     int done_ = 0;
-    std::optional<double> event_at_s_;  // of the one that is next; since the job's beginning
+    std::optional<double> event_at_s_;  // of the next event; since the job's beginning
     std::optional<Moment> before_;
 };
 
-/// Whether the machine is in the phase that is asked for.
+/// Whether the machine is in the requested phase.
 bool is_in(Asked::Phase asked, MachinePhase phase);
 
 }  // namespace lockstep::scenario

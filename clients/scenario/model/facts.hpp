@@ -15,7 +15,7 @@ namespace lockstep::scenario {
 
 using Check = proto::ScenarioCheck;
 
-inline constexpr const char* kAsObserved = "as observed in the run";  // the source of what is not on record
+inline constexpr const char* kAsObserved = "as observed in the run";  // the source of results that are not on record
 
 inline Check check_of(const std::string& asked, const std::string& found, const std::string& where, bool held) {
     Check check;
@@ -28,7 +28,7 @@ inline Check check_of(const std::string& asked, const std::string& found, const 
 
 /// An act after which the machine must come to rest.
 struct AwaitedRest {
-    std::string act;  // in words
+    std::string act;  // as text
     Tick at;          // machine time
     int within_frames = 0;
     std::vector<std::string> axes;  // whose processes were still running

@@ -34,7 +34,7 @@ struct RecordFacts {
     /// How many epochs two of these axes, or more, have run.
     std::ptrdiff_t epochs_of(const std::vector<std::string>& axes) const;
 
-    /// The first epoch that axes of these ended differently, in words; nothing: there is none.
+    /// The first epoch that axes of these ended differently, as text; nothing: there is none.
     std::optional<std::string> parting(const std::vector<std::string>& axes) const;
 };
 

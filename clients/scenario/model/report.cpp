@@ -21,7 +21,7 @@ std::string name_of(const proto::ScenarioReport& report) {
     return std::filesystem::path(report.file()).stem().string();
 }
 
-/// What did not hold, a line each.
+/// The failed checks, a line each.
 std::string failures(const proto::ScenarioReport& report) {
     std::string text = report.broken().empty() ? "" : report.broken() + "\n";
     for (const Check& check : report.checks()) {

@@ -7,10 +7,10 @@
 
 namespace lockstep::scenario {
 
-/// A line for each check: asked, found, where. `events`: also the events with their times. No newline at the end.
+/// A line for each check: expected, found, source. `events`: also the events with their times. No newline at the end.
 std::string to_text(const proto::ScenarioReport& report, bool events);
 
-/// As JUnit has it: a test suite, a case for each scenario, what did not hold as its failure.
+/// In JUnit's format: a test suite, a case for each scenario, its failed checks as its failure.
 std::string junit_xml(const proto::ScenarioRunReport& report);
 
 }  // namespace lockstep::scenario

@@ -30,7 +30,7 @@ public:
         for (int i = 0; i < asked_.wrong_clock_size(); ++i) {
             check_clock(asked_.wrong_clock(i), nth("wrong_clock", i));
         }
-        problems_.require(asked_.step_size() > 0, "", "no step: say what the machine is to do, step { home {} }");
+        problems_.require(asked_.step_size() > 0, "", "no step: add one, such as step { home {} }");
         problems_.require(
             asked_.step_size() <= kMostSteps, nth("step", kMostSteps),
             std::to_string(asked_.step_size()) + " steps; there are " + std::to_string(kMostSteps) + " at most");
@@ -41,12 +41,13 @@ public:
 
 private:
     void check_setup() {
-        problems_.require(!asked_.shows().empty(), "shows", "no shows: say in one sentence what this scenario shows");
+        problems_.require(!asked_.shows().empty(), "shows",
+                          "no shows: describe in one sentence what this scenario shows");
         problems_.require(asked_.standby() || !asked_.continues(), "continues",
                           "continues goes with standby: without one, no coordinator takes over");
         const bool may_stand_by = !asked_.standby() || machine_.timing.time_source != TimeSource::Network;
         problems_.require(may_stand_by, "standby",
-                          "standby goes with time_source SHARED or PTP: over NETWORK time is one coordinator's");
+                          "standby goes with time_source SHARED or PTP: with NETWORK the time is one coordinator's");
     }
 
     void check_clock(const Asked::WrongClock& clock, const std::string& path) {
@@ -54,9 +55,9 @@ private:
         const auto& clocks = asked_.wrong_clock();
         const auto of_axis = [&](const Asked::WrongClock& other) { return other.axis() == clock.axis(); };
         problems_.require(&*std::ranges::find_if(clocks, of_axis) == &clock, path + ".axis",
-                          "axis " + clock.axis() + " has a clock already; say all of it in one block");
+                          "axis " + clock.axis() + " has a clock already; combine both blocks");
         problems_.require(machine_.timing.time_source == TimeSource::Network, path,
-                          "a wrong clock needs clocks that differ; say timing { time_source: NETWORK } in the machine");
+                          "a wrong clock needs clocks that differ; set timing { time_source: NETWORK } in the machine");
         problems_.require(!asked_.separate_devices(), path,
                           "a wrong clock goes with devices in the axes' processes; leave out separate_devices");
         problems_.require_range(path, "offset_s", clock.offset_s(), -1e6, 1e6);
@@ -73,7 +74,7 @@ private:
             case Asked::Step::kWait: check_wait(step.wait(), path + ".wait"); break;
             case Asked::Step::kAct: check_act(step.act(), path + ".act", asked_, processes_, problems_); break;
             case Asked::Step::WHAT_NOT_SET:
-                problems_.add(path, "this step does nothing; say what: home, run, move, wait or act");
+                problems_.add(path, "this step is empty; use one of: home, run, move, wait or act");
         }
         const bool is_job = !step.has_wait() && !step.has_act();
         problems_.require(is_job || step.during_size() == 0, path + ".during",
@@ -88,10 +89,10 @@ private:
         for (int i = 0; i < home.axis_size(); ++i) { require_axis(path + "." + nth("axis", i), home.axis(i)); }
     }
 
-    /// From where a homed machine stands: a program is read again from where it stands then.
+    /// Checked from the position of a homed machine: the program is read again from the actual position.
     void check_run(const Asked::Run& run, const std::string& path) {
         if (run.has_file() == run.has_gcode()) {
-            return problems_.add(path, "a run is of one program; say file: \"FILE\" or gcode: \"G1 X10 F600\"");
+            return problems_.add(path, "a run has one program; set file: \"FILE\" or gcode: \"G1 X10 F600\"");
         }
         const auto program = program_of(run, scenario_.folder(), machine_, parked_mm(machine_));
         if (program) { return; }
@@ -101,7 +102,7 @@ private:
     }
 
     void check_move(const Asked::Move& move, const std::string& path) {
-        if (move.to().empty()) { return problems_.add(path, "a move goes somewhere; say to: \"X=10\""); }
+        if (move.to().empty()) { return problems_.add(path, "a move needs a target; set to: \"X=10\""); }
         MoveOptions options{.targets = {move.to().begin(), move.to().end()}};
         if (move.has_feed_mm_min()) { options.feed_mm_min = move.feed_mm_min(); }
         const auto program = move_program(machine_, parked_mm(machine_), options);
@@ -110,15 +111,15 @@ private:
 
     void check_wait(const Asked::Wait& wait, const std::string& path) {
         problems_.require(wait.has_seconds() != wait.has_phase(), path,
-                          "a wait is for one thing; say seconds: 0.5 or phase: IDLE");
+                          "a wait is for one condition; set seconds: 0.5 or phase: IDLE");
         if (wait.has_seconds()) { problems_.require_range(path, "seconds", wait.seconds(), 0, kMostSeconds); }
     }
 
     void check_during(const Asked::Step& step, int index, const std::string& path) {
         const Asked::During& during = step.during(index);
-        problems_.require(during.has_act(), path, "nothing befalls the machine here; say act { kill: \"axis-X\" }");
+        problems_.require(during.has_act(), path, "this injects nothing; add act { kill: \"axis-X\" }");
         problems_.require(!during.has_line() || step.has_run(), path + ".line",
-                          "only a run has lines; say another event, or after_s alone");
+                          "only a run has lines; use another event, or after_s alone");
         problems_.require(!during.has_line() || during.line() >= 1, path + ".line",
                           "line is " + std::to_string(during.line()) + "; lines are counted from 1");
         if (during.has_passes()) { require_place(during.passes(), path + ".passes"); }
@@ -137,8 +138,7 @@ private:
                               "; it is above 0: a step, 1 / steps_per_mm, is the least that can be held");
         problems_.require(expect.interruptions() >= 0, "expect.interruptions",
                           "interruptions is " + std::to_string(expect.interruptions()) + "; it is at least 0");
-        problems_.require(expect.together_size() != 1, "expect.together[0]",
-                          "one axis is not together with another; name two at least");
+        problems_.require(expect.together_size() != 1, "expect.together[0]", "this compares axes; name two at least");
         for (int i = 0; i < expect.together_size(); ++i) {
             require_axis(nth("expect.together", i), expect.together(i));
         }
@@ -182,7 +182,7 @@ private:
         require_axis(path + ".axis", target.axis());
         const auto axis = std::ranges::find(machine_.axes, target.axis(), &AxisConfig::name);
         if (axis == machine_.axes.end()) { return; }
-        problems_.require(target.has_mm(), path, "no mm: say the place, in machine coordinates");
+        problems_.require(target.has_mm(), path, "no mm: set the place, in machine coordinates");
         if (target.has_mm()) {
             problems_.require_range(path, "mm", target.mm(), axis->position_min_mm, axis->position_max_mm);
         }
@@ -191,7 +191,7 @@ private:
     void require_fault(const std::string& path, const std::string& name, bool may_be_none = false) {
         const bool is_one = find_fault(name) != nullptr || (may_be_none && name == "none");
         problems_.require(is_one, path,
-                          "there is no fault '" + name + "'; say its name as lockstep status does, such as axis-lost");
+                          "there is no fault '" + name + "'; use its name in lockstep status, such as axis-lost");
     }
 
     const Scenario& scenario_;

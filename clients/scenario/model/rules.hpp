@@ -1,5 +1,5 @@
-// The rules that a scenario must satisfy before it runs: every name exists, numbers are within their limits, nothing
-// contradicts itself.
+// The rules that a scenario must satisfy before it runs: every name exists, numbers are within their limits, no
+// contradictions.
 #pragma once
 
 #include "clients/scenario/model/scenario.hpp"

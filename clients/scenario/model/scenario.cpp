@@ -19,7 +19,7 @@ Diagnostics at_key(const TextSource& source, std::string_view key, const std::st
     return {{place.line, place.column, message}};
 }
 
-/// Error: of a machine's file, at the key that names it, with the place in that file.
+/// Error: an error in a machine's file, at the key that names it, with the place in that file.
 std::expected<MachineConfig, Diagnostics> machine_of_file(const Asked& asked, const TextSource& source,
                                                           const fs::path& folder) {
     const fs::path path = folder / asked.machine_file();
@@ -37,11 +37,11 @@ std::expected<MachineConfig, Diagnostics> machine_of(const Asked& asked, const T
                                                      const fs::path& folder) {
     if (asked.has_machine() && asked.has_machine_file()) {
         return std::unexpected(
-            at_key(source, "machine_file", "machine and machine_file both say which machine; keep one"));
+            at_key(source, "machine_file", "machine and machine_file both name a machine; keep one"));
     }
     if (asked.has_machine_file()) { return machine_of_file(asked, source, folder); }
     if (!asked.has_machine()) {
-        return std::unexpected(at_key(source, "", "no machine: say machine_file: \"FILE\", or machine { ... }"));
+        return std::unexpected(at_key(source, "", "no machine: set machine_file: \"FILE\", or machine { ... }"));
     }
     MachineDraft draft = machine_from_proto(asked.machine());
     Diagnostics errors = machine_errors(draft, source, *Asked::descriptor(), "machine.");

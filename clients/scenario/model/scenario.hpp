@@ -1,4 +1,4 @@
-// A scenario as read from its file: what is asked (idl/proto/scenario.proto), and the machine that does it.
+// A scenario as read from its file: its content (idl/proto/scenario.proto), and its machine.
 #pragma once
 
 #include <expected>
@@ -27,20 +27,20 @@ struct Scenario {
     std::filesystem::path folder() const { return file.parent_path(); }
 };
 
-/// `file`: names the scenario, and its folder is where other files are looked for. `place`: in place of its own.
+/// `file`: names the scenario, and other files are searched for in its folder. `place`: replaces the scenario's own.
 /// Errors: everything that is wrong with it, in the order of the text.
 std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const std::filesystem::path& file,
                                                     std::optional<Asked::Place> place = {});
 std::expected<Scenario, Diagnostics> load_scenario(const std::filesystem::path& file,
                                                    std::optional<Asked::Place> place = {});
 
-/// Whether each process has a link of its own to the others.
+/// Whether each process has its own link to the others.
 bool has_links(Asked::Place place);
 
 /// The processes of the machine, by the names that `lockstep up` gives them.
 std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine);
 
-/// A step's program for a machine that stands there. Errors: places in the program.
+/// The program of a step, for a machine at that position. Errors: places in the program.
 std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
                                                const MachineConfig& machine, const std::vector<double>& start_mm);
 

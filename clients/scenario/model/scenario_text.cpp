@@ -70,7 +70,7 @@ void add_expectations(const Asked::Expect& expect, std::string& text) {
         text += "  expect   " + end.axis() + " at " + number_text(end.mm()) + " mm\n";
     }
     if (expect.has_path_within_mm()) {
-        text += "  expect   every step within " + number_text(expect.path_within_mm()) + " mm of the line asked\n";
+        text += "  expect   every step within " + number_text(expect.path_within_mm()) + " mm of the commanded line\n";
     }
     if (expect.together_size() > 0) {
         text += "  expect   the same frames: " + listed({expect.together().begin(), expect.together().end()}) + "\n";

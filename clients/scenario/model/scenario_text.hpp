@@ -1,4 +1,4 @@
-// Texts of what a scenario asks: for `scenario check`, for the events and for the checks.
+// Texts of the content of a scenario: for `scenario check`, for the events and for the checks.
 #pragma once
 
 #include <string>

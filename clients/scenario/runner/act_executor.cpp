@@ -97,7 +97,7 @@ Done ActExecutor::reset() {
     return {};
 }
 
-/// The axes receive the command themselves, whether a coordinator answers or not.
+/// The axes receive the command directly, whether a coordinator answers or not.
 Done ActExecutor::stop_at_once() {
     const auto reply = session_.stop_at_once(kStopPatience);
     if (!reply || reply->status == ReplyStatus::Accepted) { return {}; }

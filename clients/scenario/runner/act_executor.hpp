@@ -1,5 +1,5 @@
-// Executes the acts of a scenario on processes, on the network, or by commands to the machine, and undoes those that
-// last for a given time.
+// Executes the acts of a scenario on processes, on the network, or by commands to the machine, and undoes the acts
+// with a duration.
 #pragma once
 
 #include <chrono>

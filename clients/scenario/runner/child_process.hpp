@@ -18,7 +18,7 @@ CommandLine split_words(const std::string& text);
 /// Appends its output to the log. Error: it cannot be started, and the remedy.
 std::expected<pid_t, std::string> start_program(const CommandLine& words, const std::filesystem::path& log);
 
-/// Error: it cannot be started, or ended with another code than 0; with its last output.
+/// Error: it cannot be started, or ended with a code other than 0; with its last output.
 std::expected<void, std::string> run_program(const CommandLine& words, const std::filesystem::path& log);
 
 /// Its whole output. Error: as above.

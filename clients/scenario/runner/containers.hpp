@@ -1,5 +1,5 @@
 // A container for each process of a scenario: podman runs the image that deploy/Dockerfile builds, on the network of
-// the sandbox. The image is read where the host keeps it; all that podman writes is in the sandbox and removed with it.
+// the sandbox. The image is read from the host's store; podman writes only in the sandbox, which is removed after it.
 #pragma once
 
 #include <filesystem>

@@ -33,7 +33,7 @@ bool is_left(const std::string& group) {
     return group == own_control_group() || !fs::exists("/proc/" + group.substr(kName.size()), error);
 }
 
-/// Of the one hierarchy of groups, or of each where there are several.
+/// In the single hierarchy of groups, or in each if there are several.
 std::vector<fs::path> groups_left() {
     std::vector<fs::path> hierarchies = folders_in("/sys/fs/cgroup");
     hierarchies.emplace_back("/sys/fs/cgroup");

@@ -35,16 +35,16 @@ std::string name_of_peer(const incident::Incident& incident, const FlightPeer& p
     return peer.kind == FlightPeer::Kind::Axis ? "axis-" + incident.machine.axes[peer.axis].name : "coordinator";
 }
 
-/// An axis also vetoes because of a fault or a stop of its own: those do not count.
+/// An axis also vetoes because of its own fault or stop: those do not count.
 bool lacks_something(const FlightEvent& event) {
     return event.kind == FlightKind::Vetoed && event.detail != static_cast<std::uint8_t>(VetoReason::Own);
 }
 
 void read_incident_files(const MachineConfig& machine, Evidence& evidence) {
     const auto input = read_incidents({incident_directory(machine)});
-    if (!input) { return; }  // no process wrote any
+    if (!input) { return; }  // no process wrote one
     for (const incident::Incident& incident : input->incidents) {
-        const incident::Cause cause = incident::judge(incident).cause;
+        const incident::Cause cause = incident::evaluate(incident).cause;
         evidence.causes.push_back(
             {std::string(name_of(cause.kind)), cause.who ? name_of_peer(incident, *cause.who) : "", cause.text});
         for (const incident::Entry& entry : incident.timeline) {

@@ -1,4 +1,4 @@
-// Reads what a scenario's machine leaves: its merged record and its incident files.
+// Reads the results of a scenario's machine: its merged record and its incident files.
 #pragma once
 
 #include <filesystem>

@@ -6,7 +6,7 @@ namespace lockstep::scenario {
 namespace {
 
 constexpr const char* kBridge = "eth0";  // by the same name everywhere: the machine's file names one interface
-constexpr const char* kMtu = "65535";    // no datagram in pieces: a firewall knows the first piece's port alone
+constexpr const char* kMtu = "65535";    // no fragmented datagrams: a firewall sees the port only in the first fragment
 constexpr const char* kRecordPort = "7667";
 constexpr const char* kMulticast = "224.0.0.0/4";
 
@@ -29,7 +29,7 @@ std::expected<Network, std::string> Network::make(Asked::Place place, const std:
     if (const auto made = network.make_bridge(); !made) { return std::unexpected(made.error()); }
     int number = 2;  // the bridge's own end is 1
     for (const std::string& process : processes) {
-        if (process.starts_with("fpga-")) { continue; }  // reached by memory
+        if (process.starts_with("fpga-")) { continue; }  // reached through memory
         if (const auto added = network.add(process, number++); !added) { return std::unexpected(added.error()); }
     }
     return network;

@@ -14,7 +14,7 @@ namespace lockstep::scenario {
 
 class Network {
 public:
-    /// In the sandbox of the caller. `log`: for the output of the programs that make it. Error: what failed.
+    /// In the sandbox of the caller. `log`: for the output of the programs that it runs. Error: what failed.
     static std::expected<Network, std::string> make(Asked::Place place, const std::vector<std::string>& processes,
                                                     const std::filesystem::path& log);
 

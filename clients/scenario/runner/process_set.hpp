@@ -1,5 +1,5 @@
-// The processes of a scenario's machine: started, killed, paused and continued as the scenario asks. None is restarted
-// by itself.
+// The processes of a scenario's machine: started, killed, paused and continued by the scenario. None is restarted
+// automatically.
 #pragma once
 
 #include <sys/types.h>
@@ -25,7 +25,7 @@ public:
     std::expected<void, std::string> kill(const std::string& name);
     std::expected<void, std::string> pause(const std::string& name);
     std::expected<void, std::string> unpause(const std::string& name);
-    /// Terminates the process, by force where it does not end in time, and starts it.
+    /// Terminates the process, by force if it does not end in time, and starts it.
     std::expected<void, std::string> restart(const std::string& name);
 
     /// Running and not paused.
@@ -33,7 +33,7 @@ public:
     /// Continues and terminates all.
     void end_all();
 
-    /// A check that no process ended unasked, with how it ended.
+    /// A check that no process ended unexpectedly, with how it ended.
     Check exit_check();
 
 private:

@@ -77,7 +77,7 @@ private:
     std::expected<pid_t, std::string> pid_;
 };
 
-/// Waits for each device, so that no time of the scenario passes before axes can attach.
+/// Waits for each device, so that the scenario's time starts when axes can attach.
 std::expected<void, std::string> start_devices(const Scenario& scenario, ProcessSet& processes) {
     for (const AxisConfig& axis : scenario.machine.axes) {
         const std::string name = "fpga-" + axis.name;

@@ -59,7 +59,7 @@ std::string make_own_folders() {
 /// The process outside, which waits for the first one inside.
 [[noreturn]] void run_keeper(const std::function<std::string()>& run, int pipe, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) { _exit(0); }  // it died before that took effect
+    if (getppid() != parent) { _exit(0); }  // the parent died before that took effect
     if (unshare(CLONE_NEWNET | CLONE_NEWNS | CLONE_NEWPID) != 0) {
         write_all(pipe, kError + why("cannot make namespaces"));
         _exit(0);

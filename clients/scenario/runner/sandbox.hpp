@@ -1,4 +1,4 @@
-// Network, process and mount namespaces of its own for one scenario. However this process ends, nothing is left behind:
+// Network, process and mount namespaces of its own for one scenario. However this process ends, it leaves nothing:
 // the kernel ends the sandbox's processes and removes its networks and files.
 #pragma once
 
@@ -28,7 +28,7 @@ public:
 
     /// Becomes readable when there is output.
     int readable() const { return pipe_; }
-    /// Reads what is there. True: the sandbox has ended, and its result is complete.
+    /// Reads the available output. True: the sandbox has ended, and its result is complete.
     bool read_output();
     /// Once it has ended. Error: how it ended without a result.
     std::expected<std::string, std::string> result() const;

@@ -24,12 +24,12 @@ nanoseconds to_time(double seconds) {
 
 double to_seconds(nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
 
-Step::Ending ending_of(JobVerdict verdict) {
-    switch (verdict) {
-        case JobVerdict::Done: return Step::DONE;
-        case JobVerdict::Stopped: return Step::STOPPED;
-        case JobVerdict::CutShort: return Step::CUT_SHORT;
-        case JobVerdict::Lost: return Step::LOST;
+Step::Ending ending_of(JobResult result) {
+    switch (result) {
+        case JobResult::Done: return Step::DONE;
+        case JobResult::Stopped: return Step::STOPPED;
+        case JobResult::CutShort: return Step::CUT_SHORT;
+        case JobResult::Lost: return Step::LOST;
         default: return Step::FAILED;
     }
 }
@@ -96,8 +96,8 @@ bool ScenarioExecutor::wait_for(Asked::Phase phase) {
     const nanoseconds deadline = monotonic_now() + kWaitPatience;
     const nanoseconds since = monotonic_now();
     const auto is_there = [&] {
-        const auto& heard = session_.state();
-        return heard && heard->time > since && is_in(phase, heard->state.phase) && receives_all(since);
+        const auto& received = session_.state();
+        return received && received->time > since && is_in(phase, received->state.phase) && receives_all(since);
     };
     while (!is_there() && monotonic_now() < deadline) { poll_session(); }
     return is_there();
@@ -187,13 +187,13 @@ std::optional<ScenarioExecutor::Ended> ScenarioExecutor::watch(WatchedJob watche
 std::optional<ScenarioExecutor::Ended> ScenarioExecutor::ended(WatchedJob& watched) {
     if (session_.is_silent()) { return all_present_rest() ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt; }
     const MachineState& state = session_.state()->state;
-    const JobVerdict verdict = lockstep::verdict_of(state, watched.job, watched.asked, watched.runs_it);
-    if (verdict == JobVerdict::InProgress) {
+    const JobResult result = lockstep::result_of(state, watched.job, watched.asked, watched.runs_it);
+    if (result == JobResult::InProgress) {
         if (state.phase != MachinePhase::Waiting) { watched.runs_it = state.term; }
         return std::nullopt;
     }
     const auto fault = fault_of(state, scenario_.machine);
-    return Ended{ending_of(verdict), fault ? fault->name() : ""};
+    return Ended{ending_of(result), fault ? fault->name() : ""};
 }
 
 /// Axes whose states are overdue do not count.

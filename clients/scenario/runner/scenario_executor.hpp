@@ -7,7 +7,7 @@
 #include "clients/scenario/model/event_schedule.hpp"
 #include "clients/scenario/model/facts.hpp"
 #include "clients/scenario/runner/act_executor.hpp"
-#include "clients/session/job_verdict.hpp"
+#include "clients/session/job_result.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {

@@ -22,7 +22,7 @@ constexpr int kPollInterval_ms = 100;
 std::expected<int, std::string> open_folder(const fs::path& path) {
     std::error_code error;
     if (fs::exists(path, error)) {
-        return std::unexpected(path.string() + ": is there already; name a new directory for the logs");
+        return std::unexpected(path.string() + ": exists already; name a new directory for the logs");
     }
     fs::create_directories(path, error);
     const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    /// All before the first one runs.
+    /// Creates all of them before the first scenario runs.
     std::expected<void, std::string> open_folders() {
         for (const Scenario& scenario : scenarios_) {
             if (!options_.keep) { break; }

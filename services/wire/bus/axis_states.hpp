@@ -18,12 +18,9 @@ public:
     explicit AxisStateWriter(Participant& participant);
 
     /// Never waits. False: the network's buffers are full, or DDS is shutting down.
-    The path of the memory file no longer names the open file.
-        /// The file of the memory is no longer the one that is open.
-        bool
-        is_memory_replaced() const {
-        return board_ && !board_->is_current();
-    }
+    bool write(const AxisState& state);
+    /// The path of the memory file no longer names the open file.
+    bool is_memory_replaced() const { return board_ && !board_->is_current(); }
 
 private:
     Writer<AxisState> network_;

@@ -61,7 +61,7 @@ class Story:
         time.sleep(self.RUNS_ON_S)
         chapter.watched_us = self.now_us()
         status = self._wait_for(lambda found: found.get("phase") not in (None, "Waiting", "Stopping"))
-        chapter.phase = status.get("phase", "not heard")
+        chapter.phase = status.get("phase", "not received")
         chapter.fault = status.get("fault", {}).get("name", "")
         if chapter.phase in ("Holding", "Paused") and chapter.injected.kind == "hold":
             self._remedy("resume")

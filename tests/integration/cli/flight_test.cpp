@@ -121,7 +121,7 @@ TEST_F(Flight, WhatIsNoIncidentIsRefusedWithItsPlaceAndRemedy) {
         return ran.err;
     };
     const std::string foreign = write("foreign.flight.lcm", "no log at all");
-    EXPECT_THAT(refused({"analyze", "--incident", foreign}), HasSubstr(foreign + ": holds nothing"));
+    EXPECT_THAT(refused({"analyze", "--incident", foreign}), HasSubstr(foreign + ": contains no notes"));
     EXPECT_THAT(refused({"analyze", "--incident", foreign + ".gone"}), HasSubstr(foreign + ".gone"));
     EXPECT_THAT(refused({"analyze", "--incident", testing::TempDir() + "/nowhere"}), HasSubstr("nowhere"));
     EXPECT_THAT(refused({"analyze", foreign, foreign}), HasSubstr("one log at a time"));

@@ -120,8 +120,9 @@ TEST_F(Processes, ThatCannotKeepTheRecordAreSaidNotTo) {
     std::ofstream(state().path() / "record") << "no directory";
     const Ran up = run_lockstep({"up"});
     EXPECT_EQ(up.code, 0) << up.out << up.err;
-    EXPECT_THAT(up.err, AllOf(HasSubstr("no log of its own is kept"), HasSubstr((state().path() / "record").string()),
-                              HasSubstr("install -d"), HasSubstr("record { directory }")));
+    EXPECT_THAT(up.err,
+                AllOf(HasSubstr("no process here keeps its own log"), HasSubstr((state().path() / "record").string()),
+                      HasSubstr("install -d"), HasSubstr("record { directory }")));
 }
 
 /// Nobody reads the FIFO in the place of the file that Y writes its position to.

@@ -70,7 +70,7 @@ TEST_F(TwoCoordinators, AnOwnerThatWasStoppedWakesUpAndStandsDown) {
     EXPECT_EQ(run.wait().json<proto::RunReport>().outcome(), "cut-short");
     EXPECT_EQ(run_lockstep({"move", "X=10", "Y=0"}).code, 0);
     kill(pid, SIGCONT);
-    ASSERT_TRUE(eventually([&] { return text_of_log(stopped).find("stands down") != std::string::npos; }));
+    ASSERT_TRUE(eventually([&] { return text_of_log(stopped).find("gives up the machine") != std::string::npos; }));
     ASSERT_TRUE(becomes("Idle"));
     expect_at_rest();
     EXPECT_EQ(status().axes(0).position_steps(), 800) << "nothing moved when it woke up";

@@ -84,8 +84,8 @@ TEST_F(Strangers, PermissionsThatWereChangedAreRefusedAtOnce) {
 TEST_F(Strangers, AnAxisMayNotSpeakForAnother) {
     EXPECT_THAT(stranger("0", keys(), "axis-Y"), HasSubstr("refused: cannot open the DDS topic"));
     EXPECT_THAT(stranger("1", keys(), "axis-Y", {"3"}), HasSubstr("matched 3\n")) << "it may speak, for itself";
-    EXPECT_TRUE(is_logged("coordinator", "speaks for axis 0, which its writer is not"));
-    EXPECT_TRUE(is_logged("axis-X", "speaks for axis 0, which its writer is not"));
+    EXPECT_TRUE(is_logged("coordinator", "is about axis 0, but its writer is not that axis"));
+    EXPECT_TRUE(is_logged("axis-X", "is about axis 0, but its writer is not that axis"));
     expect_untouched();
 }
 

@@ -151,7 +151,8 @@ TEST(Dds, WhatIsSaidOfAnAxisIsBelievedFromItAlone) {
         return coordinator.states.refusals().count > 3;
     }));
     EXPECT_EQ(believed, 0U);
-    EXPECT_EQ(coordinator.states.refusals().last, "lockstep/axis_state: speaks for axis 0, which its writer is not");
+    EXPECT_EQ(coordinator.states.refusals().last,
+              "lockstep/axis_state: is about axis 0, but its writer is not that axis");
     ASSERT_TRUE(eventually([&] {
         axis.state.write({.axis = 1});
         return coordinator.states.take([](AxisState&&) {}) > 0;

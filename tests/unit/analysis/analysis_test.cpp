@@ -246,7 +246,7 @@ TEST_F(AnalysisTest, SaysClearlyWhatIsNoLog) {
     std::ofstream(log) << "G1 X10 F100\nG1 X0\n";
     EXPECT_NE(error().find("not an LCM log"), std::string::npos) << error();
     { LogMaker(log).foreign("CAMERA"); }
-    EXPECT_NE(error().find("nothing in it is recorded by Lockstep"), std::string::npos) << error();
+    EXPECT_NE(error().find("it contains no record of Lockstep"), std::string::npos) << error();
     log = directory;
     EXPECT_NE(error().find("directory"), std::string::npos) << error();
 }

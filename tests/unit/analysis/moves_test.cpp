@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "clients/analysis/analysis.hpp"
+#include "clients/analysis/findings.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/verdict.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 
 namespace lockstep::analysis {
@@ -64,7 +64,7 @@ TEST_F(Moves, ThatAreNotAsAskedAreBad) {
     const auto report = there_and_back(1003);
     EXPECT_EQ(report.jobs(0).unasked_steps(), 6) << "three there, and three to come back";
     EXPECT_EQ(report.verdict(), "bad");
-    EXPECT_NE(report.findings(0).text().find("6 steps were not asked for"), std::string::npos);
+    EXPECT_NE(report.findings(0).text().find("6 were not commanded"), std::string::npos);
 }
 
 TEST_F(Moves, OfAJobWithoutItsEndAreDoubtful) {
@@ -87,7 +87,7 @@ TEST_F(Moves, OfADamagedLogAreDoubtful) {
     const auto report = to_report(analyze_log(log).value());
     EXPECT_EQ(report.verdict(), "doubtful");
     ASSERT_EQ(report.unread_size(), 1);
-    EXPECT_EQ(report.unread(0).reason(), "bytes that are no event");
+    EXPECT_EQ(report.unread(0).reason(), "bytes that are not an event");
     EXPECT_EQ(report.unread(0).first_byte(), event);
     EXPECT_EQ(report.unread(0).bytes(), report.unread(0).last_byte() - event + 1);
 }
@@ -125,7 +125,7 @@ TEST_F(Moves, OfWhichEventsWereLostAreDoubtful) {
     EXPECT_EQ(report.axes(0).missing_positions(), 3);
     EXPECT_EQ(report.axes(0).missing_figures(), 0);
     EXPECT_EQ(report.verdict(), "doubtful");
-    EXPECT_EQ(report.findings(0).text(), "3 events of jobs not in the log: what was asked may not all be known");
+    EXPECT_EQ(report.findings(0).text(), "3 events of jobs not in the log: the commanded motion may be incomplete");
     ASSERT_EQ(report.notes_size(), 1);
     EXPECT_EQ(report.notes(0), "X: 3 messages of positions missing");
 }

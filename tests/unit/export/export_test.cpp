@@ -104,8 +104,7 @@ TEST_F(Export, ReportsWhatTheRecordLacks) {
     write({position("X", 1'000'000, 1)});
     (void)table();
     EXPECT_TRUE(exported.record.is_complete());
-    EXPECT_THAT(to_text(exported.record), StartsWith("complete as far as is known: "))
-        << "no mark says how much it was";
+    EXPECT_THAT(to_text(exported.record), StartsWith("complete as far as is known: ")) << "no mark states how much was";
 }
 
 TEST_F(Export, IsNotBegunWhereThereIsNothingToExport) {

@@ -83,10 +83,10 @@ protected:
         }
         return files;
     }
-    incident::Verdict verdict() const {
+    incident::Evaluation evaluation() const {
         const auto incidents = incident::incidents_of(files());
         EXPECT_FALSE(incidents.empty());
-        return incidents.empty() ? incident::Verdict{} : incident::judge(incidents.back());
+        return incidents.empty() ? incident::Evaluation{} : incident::evaluate(incidents.back());
     }
 
     VirtualFlights flights;

@@ -77,15 +77,14 @@ TEST_F(IncidentFiles, DamagedAnywhereAreReadOrRefused) {
         bytes[at] = static_cast<char>(bytes[at] ^ 0xFF);
         std::ofstream(path, std::ios::binary) << bytes;
         const auto file = read_flight_file(path);
-        if (file) { (void)judge(incidents_of({*file}).at(0)); }
+        if (file) { (void)evaluate(incidents_of({*file}).at(0)); }
     }
 }
 
 TEST_F(IncidentFiles, OfSomethingElseAreRefused) {
     fs::create_directories(folder);
     std::ofstream(folder / "notes.txt") << "something else";
-    EXPECT_THAT(read_flight_file(folder / "notes.txt").error(),
-                HasSubstr("holds nothing that a flight recorder wrote"));
+    EXPECT_THAT(read_flight_file(folder / "notes.txt").error(), HasSubstr("contains no notes of a flight recorder"));
     EXPECT_THAT(read_flight_file(folder / "none").error(), HasSubstr((folder / "none").string()));
 }
 
@@ -109,10 +108,10 @@ TEST_F(IncidentFiles, TheSameTwiceCountsOnce) {
 TEST_F(IncidentFiles, WhoLeftNoneIsNamedAndWhatToDo) {
     const auto incident = incidents_of({read_flight_file(write_veto(2'000'000)).value()}).at(0);
     EXPECT_THAT(incident.absent, ElementsAre("coordinator", "axis Y"));
-    const Verdict verdict = judge(incident);
-    EXPECT_EQ(verdict.cause.kind, CauseKind::Unknown);
-    EXPECT_THAT(verdict.story[0], HasSubstr("axis Y left no file here: lockstep flight"));
-    EXPECT_EQ(verdict.story[1], "axis X vetoes frame 17: nothing fresh from axis Y says that it is held there");
+    const Evaluation evaluation = evaluate(incident);
+    EXPECT_EQ(evaluation.cause.kind, CauseKind::Unknown);
+    EXPECT_THAT(evaluation.story[0], HasSubstr("axis Y left no file here: lockstep flight"));
+    EXPECT_EQ(evaluation.story[1], "axis X vetoes frame 17: no recent state of axis Y reports that it is held");
 }
 
 }  // namespace

@@ -7,18 +7,18 @@ namespace lockstep {
 namespace {
 
 using incident::CauseKind;
-using incident::Verdict;
+using incident::Evaluation;
 using testing::HasSubstr;
 
 class Flown : public FlownMachine {
 protected:
     /// And that all came to rest in time.
-    void expect(const Verdict& verdict, CauseKind kind, std::optional<FlightPeer> who) {
-        EXPECT_EQ(incident::name_of(verdict.cause.kind), incident::name_of(kind))
-            << testing::PrintToString(verdict.story);
-        EXPECT_EQ(verdict.cause.who, who) << testing::PrintToString(verdict.story);
-        ASSERT_TRUE(verdict.rest) << testing::PrintToString(verdict.story);
-        EXPECT_LT((*verdict.rest - verdict.noticed).value, 200'000);
+    void expect(const Evaluation& evaluation, CauseKind kind, std::optional<FlightPeer> who) {
+        EXPECT_EQ(incident::name_of(evaluation.cause.kind), incident::name_of(kind))
+            << testing::PrintToString(evaluation.story);
+        EXPECT_EQ(evaluation.cause.who, who) << testing::PrintToString(evaluation.story);
+        ASSERT_TRUE(evaluation.rest) << testing::PrintToString(evaluation.story);
+        EXPECT_LT((*evaluation.rest - evaluation.noticed).value, 200'000);
     }
 };
 
@@ -44,11 +44,11 @@ TEST_F(Flown, AnAxisThatStoodStillIsFound) {
     start_job();
     befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     expect(found, CauseKind::Stalled, flight_axis(kY));
     EXPECT_NEAR(vm.machine().microseconds(found.cause.lasts), 20'000, 1000);
     EXPECT_THAT(found.story[0],
-                HasSubstr("axis Y stood still: its loop did not run for 20 ms; the machine bears 1.0 ms"));
+                HasSubstr("axis Y stood still: its loop did not run for 20 ms; the machine allows 1.0 ms"));
     EXPECT_THAT(found.story[1], HasSubstr("axis X vetoes frame"));
 }
 
@@ -56,7 +56,7 @@ TEST_F(Flown, AnAxisThatEndedIsFound) {
     start_job();
     befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
     wait(2);
-    expect(verdict(), CauseKind::Ended, flight_axis(kY));
+    expect(evaluation(), CauseKind::Ended, flight_axis(kY));
 }
 
 TEST_F(Flown, AFailedCheckIsNamedAsTheCause) {
@@ -64,15 +64,15 @@ TEST_F(Flown, AFailedCheckIsNamedAsTheCause) {
     flights->at(kY).set_note("failed check: one exceeds two (core/numbers.cpp:17)");
     befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
     wait(2);
-    EXPECT_EQ(verdict().story[0],
-              "the process of axis Y ended by itself: failed check: one exceeds two (core/numbers.cpp:17)");
+    EXPECT_EQ(evaluation().story[0],
+              "the process of axis Y ended itself: failed check: one exceeds two (core/numbers.cpp:17)");
 }
 
 TEST_F(Flown, AnAxisThatEndedAtRestIsFound) {
     home();
     befall({.kind = Kind::Crash, .process = kX, .lasts = seconds(0.3)});
     wait(2);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     EXPECT_EQ(found.cause.kind, CauseKind::Ended);
     EXPECT_EQ(found.cause.who, flight_axis(kX));
     EXPECT_FALSE(found.rest) << "none was moving";
@@ -82,39 +82,39 @@ TEST_F(Flown, ACoordinatorThatStoodStillIsFound) {
     start_job();
     befall({.kind = Kind::Freeze, .process = kCoordinator, .lasts = seconds(0.1)});
     wait(1);
-    expect(verdict(), CauseKind::Stalled, kFlightCoordinator);
+    expect(evaluation(), CauseKind::Stalled, kFlightCoordinator);
 }
 
 TEST_F(Flown, ACoordinatorThatEndedIsFound) {
     start_job();
     befall({.kind = Kind::Crash, .process = kCoordinator, .lasts = seconds(0.5)});
     wait(2);
-    expect(verdict(), CauseKind::Ended, kFlightCoordinator);
+    expect(evaluation(), CauseKind::Ended, kFlightCoordinator);
 }
 
 TEST_F(Flown, AnAxisThatWasCutOffIsFound) {
     start_job();
     befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1)});
     wait(1);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, flight_axis(kY));
-    EXPECT_THAT(found.story[0], HasSubstr("it heard nobody, and nobody heard it"));
+    EXPECT_THAT(found.story[0], HasSubstr("it received no process, and no process received it"));
 }
 
 TEST_F(Flown, AnAxisThatNobodyHeardIsFound) {
     start_job();
     befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1), .incoming = false});
     wait(1);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, flight_axis(kY));
-    EXPECT_THAT(found.story[0], HasSubstr("nobody heard it, though it ran"));
+    EXPECT_THAT(found.story[0], HasSubstr("no process received it, though it ran"));
 }
 
 TEST_F(Flown, ALinkThatWasCutIsFound) {
     start_job();
     befall({.kind = Kind::Cut, .process = kX, .lasts = seconds(0.1), .peer = kY});
     wait(1);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, std::nullopt);
     EXPECT_THAT(found.story[0], HasSubstr("the link between"));
 }
@@ -125,14 +125,14 @@ TEST_F(Flown, AHostThatStoodStillIsFound) {
         befall({.kind = Kind::Freeze, .process = process, .lasts = seconds(0.05)});
     }
     wait(1);
-    expect(verdict(), CauseKind::HostStalled, std::nullopt);
+    expect(evaluation(), CauseKind::HostStalled, std::nullopt);
 }
 
 TEST_F(Flown, ALimitThatWasHitIsFound) {
     start_job();
     vm.device(kX).plant().push(9'000);
     wait(1);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     expect(found, CauseKind::Fault, flight_axis(kX));
     EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
 }
@@ -141,7 +141,7 @@ TEST_F(Flown, AnEmergencyStopIsFound) {
     start_job();
     (void)ask(CommandKind::EmergencyStop);
     wait(0.5);
-    expect(verdict(), CauseKind::EmergencyStop, std::nullopt);
+    expect(evaluation(), CauseKind::EmergencyStop, std::nullopt);
 }
 
 /// What healed before the fault did not begin it, though it is noted as an incident of its own.
@@ -155,7 +155,7 @@ TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
     start_job();
     vm.device(kX).plant().push(9'000);
     wait(1);
-    const Verdict found = verdict();
+    const Evaluation found = evaluation();
     expect(found, CauseKind::Fault, flight_axis(kX));
     EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
 }
@@ -169,7 +169,7 @@ TEST_F(Flown, AProcessThatWasReplacedBeforeTheFaultIsNotItsCause) {
     start_job();
     befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
-    expect(verdict(), CauseKind::Stalled, flight_axis(kY));
+    expect(evaluation(), CauseKind::Stalled, flight_axis(kY));
 }
 
 TEST_F(Flown, EveryProcessKeepsAnIncidentOfMotion) {

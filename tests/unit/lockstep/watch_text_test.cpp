@@ -64,7 +64,7 @@ proto::StatusReport cutting() {
 
 TEST(Watch, ShowsTheMachineAtAGlance) {
     EXPECT_EQ(watch_text(cutting(), kScale, Ink::Plain),
-              R"(mill: Running, job 3                                              heard 4 ms ago
+              R"(mill: Running, job 3                                           received 4 ms ago
 [############                  ]  42 %  line 120  12.3 s left
 
 axis       position mm     mm/s  state      setpoint slack    ms late us loop us
@@ -97,10 +97,11 @@ TEST(Watch, SaysWhatIsWrongAndWhatToDo) {
     const auto alarms = alarms_of(status, kScale);
     ASSERT_EQ(alarms.size(), 4U);
     EXPECT_THAT(alarms[0], HasSubstr("axis X: limit-hit (103): a limit switch closed; see why"));
-    EXPECT_THAT(alarms[1], HasSubstr("axis Z is not heard"));
-    EXPECT_THAT(alarms[2], HasSubstr("axis Y: a setpoint came 93 ms before its start, and is needed 140 ms before"));
+    EXPECT_THAT(alarms[1], HasSubstr("axis Z is not received"));
+    EXPECT_THAT(alarms[2],
+                HasSubstr("axis Y: a setpoint came 93 ms before its start, and the deadline is 140 ms before"));
     EXPECT_THAT(alarms[3], HasSubstr("axis Y: since it started: 3 frames refused; see its log"));
-    EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("Z            not heard\n"));
+    EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("Z            not received\n"));
 }
 
 TEST(Watch, NamesTheIncidentFilesWhereThereIsAFault) {

@@ -42,7 +42,7 @@ protected:
         ASSERT_TRUE(findings) << findings.error();
         ASSERT_TRUE(sink.finish());
         EXPECT_FALSE(findings->difference) << replay::to_text(*findings);
-        EXPECT_THAT(replay::to_text(*findings), Not(HasSubstr("passed over")));
+        EXPECT_THAT(replay::to_text(*findings), Not(HasSubstr("skipped")));
         const auto recorded = verification::verify_log(log());
         const auto again = verification::verify_log(made());
         ASSERT_TRUE(again) << again.error();
@@ -187,7 +187,7 @@ TEST(ADevice, CannotBePoweredUpInMotionSoWhatBeginsInItIsPassedOver) {
     EXPECT_EQ(findings.runs, 0);
     EXPECT_EQ(made, 0);
     ASSERT_EQ(findings.notes.size(), 1U);
-    EXPECT_THAT(findings.notes.front(), HasSubstr("axis X: frame 4 is passed over"));
+    EXPECT_THAT(findings.notes.front(), HasSubstr("axis X: frame 4 is skipped"));
 }
 
 }  // namespace

@@ -35,19 +35,19 @@ proto::StatusReport running() {
 
 TEST(StatusText, SaysPhaseJobLineAndAge) {
     EXPECT_THAT(status_text(running()),
-                HasSubstr("mill: Running, job 3, 42 %, line 120, 12.3 s left (heard 4 ms ago)\n"));
+                HasSubstr("mill: Running, job 3, 42 %, line 120, 12.3 s left (received 4 ms ago)\n"));
 }
 
 TEST(StatusText, SaysWhereEachAxisIsAndHowFast) {
     EXPECT_THAT(status_text(running()),
-                HasSubstr("X                       -5.0000        -10.000   Cruise      yes\n"));
-    EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not heard   -\n"));
+                HasSubstr("X                       -5.0000        -10.000   Cruise       yes\n"));
+    EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not received -\n"));
 }
 
 TEST(StatusText, SaysDegreesOfAnAxisThatTurns) {
     proto::StatusReport status = running();
     status.mutable_axes(0)->set_name("C");
-    EXPECT_THAT(status_text(status), HasSubstr("C (deg)                 -5.0000        -10.000   Cruise      yes\n"));
+    EXPECT_THAT(status_text(status), HasSubstr("C (deg)                 -5.0000        -10.000   Cruise       yes\n"));
 }
 
 TEST(StatusText, SaysAFaultWithItsCauseAndRemedyOnce) {
@@ -90,7 +90,7 @@ TEST(StatusText, NamesTheProcessesThatOpenedTheirParticipantAgainOrLostLogLines)
 TEST(StatusText, SaysThatNobodyIsHeard) {
     proto::StatusReport status;
     status.set_machine("mill");
-    EXPECT_THAT(status_text(status), HasSubstr("mill: unknown (no coordinator heard)"));
+    EXPECT_THAT(status_text(status), HasSubstr("mill: unknown (no coordinator received)"));
 }
 
 TEST(MachineFault, NamesAnAxisOnlyWhereItIsOneAxiss) {
@@ -116,7 +116,7 @@ TEST(ProgressText, IsNotFullBeforeTheEnd) {
 }
 
 TEST(HomingText, SaysAPlaceOnceItMeansSomething) {
-    EXPECT_EQ(homing_text(running()), "X homed at -5.000   Y not heard");
+    EXPECT_EQ(homing_text(running()), "X homed at -5.000   Y not received");
 }
 
 TEST(Durations, AreReadable) {

@@ -46,7 +46,7 @@ TEST(AwaitedParts, AreNoneWhereAllHearEachOther) {
 
 TEST(AwaitedParts, AreThoseTooThatTheCoordinatorAloneDoesNotHear) {
     EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 1}),
-              "waits for axis Y on board-c: started, not heard by the coordinator\n");
+              "waits for axis Y on board-c: started, not received by the coordinator\n");
 }
 
 /// A process that looks like an axis's, started before whatever comes next.

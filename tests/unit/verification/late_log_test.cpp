@@ -57,14 +57,14 @@ TEST_F(LateLog, BegunBetweenJobsIsExactFromTheNextJobOn) {
     EXPECT_TRUE(findings.is_exact()) << to_text(findings);
     EXPECT_EQ(findings.jobs, 1);
     EXPECT_GT(findings.steps, 1000);
-    EXPECT_THAT(to_text(findings), HasSubstr("exact is meant from job 3 on"));
+    EXPECT_THAT(to_text(findings), HasSubstr("the result applies from job 3 on"));
 }
 
 TEST_F(LateLog, BegunWithinAJobIsExactFromTheNextJobOn) {
     const Findings findings = begun_at(begin_of_job(2) + 1'000'000);
     EXPECT_TRUE(findings.is_exact()) << to_text(findings);
     EXPECT_EQ(findings.jobs, 1);
-    EXPECT_THAT(to_text(findings), HasSubstr("exact is meant from job 3 on"));
+    EXPECT_THAT(to_text(findings), HasSubstr("the result applies from job 3 on"));
 }
 
 TEST_F(LateLog, WhatIsMissingInBetweenIsFound) {

@@ -67,7 +67,7 @@ TEST_F(LateWord, AnEpochThatNobodyRanIsNoted) {
     log.events().insert(word(last, "ended"), late);
     const Findings found = verified();
     EXPECT_FALSE(found.difference) << to_text(found);
-    EXPECT_THAT(to_text(found), HasSubstr("its coordinator says more of it after another began"));
+    EXPECT_THAT(to_text(found), HasSubstr("its coordinator records more of it after another began"));
 }
 
 TEST_F(LateWord, AnEpochOfTheSameCoordinatorIsNotLateButWrong) {

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <thread>
 
-#include "clients/analysis/verdict.hpp"
+#include "clients/analysis/findings.hpp"
 #include "clients/verification/verification.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/record/job_recorder.hpp"
@@ -69,7 +69,7 @@ TEST_F(LongProgram, SaysWhichPartsAreMissing) {
     EXPECT_THAT(to_text(*findings), HasSubstr("its program is not known: 1 of its "));
     const auto analyzed = analysis::analyze_log(test::test_directory() / "lacks.lcm");
     ASSERT_TRUE(analyzed) << analyzed.error();
-    EXPECT_NE(analysis::verdict(analysis::findings(*analyzed)), analysis::Grade::Good);
+    EXPECT_NE(analysis::worst_grade(analysis::findings(*analyzed)), analysis::Grade::Good);
 }
 
 class CountedLog final : public RecordSink {

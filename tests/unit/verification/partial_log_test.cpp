@@ -5,8 +5,8 @@
 
 #include <random>
 
+#include "clients/analysis/findings.hpp"
 #include "clients/analysis/report.hpp"
-#include "clients/analysis/verdict.hpp"
 #include "tests/unit/verification/altered_log.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
@@ -58,20 +58,21 @@ protected:
 
 TEST_F(PartialLog, IsGoodWhereNothingIsMissing) {
     const Analysis whole = without([](const auto&) { return true; });
-    EXPECT_EQ(verdict(findings(whole)), Grade::Good) << all_of(whole);
+    EXPECT_EQ(worst_grade(findings(whole)), Grade::Good) << all_of(whole);
 }
 
 TEST_F(PartialLog, OfOneAxisSaysNothingOfThePath) {
     const Analysis one = without([](const auto& event) { return !is_of(event, "_Y_") && !is_of(event, "_Z_"); });
-    EXPECT_EQ(verdict(findings(one)), Grade::Unknown) << all_of(one);
-    expect_finding(one, "unknown what Y and Z did cannot be told: their steps are not in this log; lockstep log merge");
+    EXPECT_EQ(worst_grade(findings(one)), Grade::Unknown) << all_of(one);
+    expect_finding(
+        one, "unknown the motion of Y and Z cannot be determined: their steps are not in this log; lockstep log merge");
     EXPECT_LT(one.largest_distance_mm.value_or(0), 0.02) << "only where Y and Z are known to stand still";
 }
 
 TEST_F(PartialLog, WithoutTheCoordinatorsRecordDoesNotKnowWhatWasAsked) {
     const Analysis unasked = without([](const auto& event) { return !is_of(event, "_JOB"); });
-    EXPECT_EQ(verdict(findings(unasked)), Grade::Unknown) << all_of(unasked);
-    expect_finding(unasked, "unknown what was asked for cannot be told: the coordinator's record");
+    EXPECT_EQ(worst_grade(findings(unasked)), Grade::Unknown) << all_of(unasked);
+    expect_finding(unasked, "unknown the commanded motion cannot be determined: the coordinator's record");
     expect_finding(unasked, "good no step of X, Y and Z is missing");
 }
 
@@ -83,8 +84,8 @@ TEST_F(PartialLog, ThatBeganInMotionDoesNotKnowWhatTheJobAsked) {
     });
     const std::int64_t middle = *second.jobs.back().begun_us + 1'000'000;
     const Analysis late = without([&](const auto& event) { return event.utime >= middle; });
-    EXPECT_EQ(verdict(findings(late)), Grade::Unknown) << all_of(late);
-    expect_finding(late, "asked for cannot be told: its beginning is not in this log");
+    EXPECT_EQ(worst_grade(findings(late)), Grade::Unknown) << all_of(late);
+    expect_finding(late, "cannot be determined: its beginning is not in this log");
     expect_finding(late, "good no step of X, Y and Z is missing since the log began");
     EXPECT_GT(from, middle);
 }
@@ -93,15 +94,15 @@ TEST_F(PartialLog, OfAnAxisThatFallsSilentInMotionDoesNotKnowItsMoves) {
     const Analysis whole = without([](const auto&) { return true; });
     const std::int64_t middle = *whole.jobs.back().begun_us + 4'000'000;
     const Analysis found = without([&](const auto& event) { return !is_of(event, "_Y_") || event.utime < middle; });
-    EXPECT_EQ(verdict(findings(found)), Grade::Unknown) << all_of(found);
+    EXPECT_EQ(worst_grade(findings(found)), Grade::Unknown) << all_of(found);
     expect_finding(found, "not all steps of Y are in this log");
     EXPECT_LT(found.largest_distance_mm.value(), 0.02);
 }
 
 TEST_F(PartialLog, WithoutAnAxissRunsDoesNotKnowWhetherItsStepsCameInTime) {
     const Analysis found = without([](const auto& event) { return !is_of(event, "_X_RUN"); });
-    EXPECT_EQ(verdict(findings(found)), Grade::Unknown) << all_of(found);
-    expect_finding(found, "came in time cannot be told: the times commanded are not in this log");
+    EXPECT_EQ(worst_grade(findings(found)), Grade::Unknown) << all_of(found);
+    expect_finding(found, "were in time cannot be determined: the times commanded are not in this log");
 }
 
 /// Whatever is missing, and from when to when: a good run is never called bad, and no distance is measured from a place
@@ -123,7 +124,7 @@ TEST_F(PartialLog, NeverTakesMissingMessagesForAFault) {
         });
         SCOPED_TRACE(std::string(part) + (is_inside ? " within " : " without ") + std::to_string(from - begun) +
                      " to " + std::to_string(to - begun));
-        EXPECT_NE(verdict(findings(found)), Grade::Bad) << all_of(found);
+        EXPECT_NE(worst_grade(findings(found)), Grade::Bad) << all_of(found);
         EXPECT_LT(found.largest_distance_mm.value_or(0), 0.02) << all_of(found);
         if (testing::Test::HasFailure()) { return; }
     }

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "clients/analysis/analysis_text.hpp"
-#include "clients/analysis/verdict.hpp"
+#include "clients/analysis/findings.hpp"
 #include "clients/merge/log_merge.hpp"
 #include "clients/merge/report.hpp"
 #include "clients/verification/verification.hpp"
@@ -80,7 +80,7 @@ protected:
     void expect_missing(const std::string& what) {
         EXPECT_FALSE(merged.is_complete());
         EXPECT_FALSE(findings.is_exact());
-        EXPECT_NE(analysis::verdict(analysis::findings(analyzed)), analysis::Grade::Good);
+        EXPECT_NE(analysis::worst_grade(analysis::findings(analyzed)), analysis::Grade::Good);
         for (const std::string& text : texts) {
             EXPECT_THAT(text, HasSubstr(what));
             EXPECT_THAT(text, Not(HasSubstr("complete: no message")));
@@ -175,7 +175,7 @@ TEST_F(RecordEnd, WhereAllLogsEndAtOnceItIsSaidUpToWhenTheRecordIsWhole) {
     auto logs = own_logs();
     for (auto& [process, log] : logs) { cut(log, begin_of_job(3)); }
     look_at(logs);
-    expect_open("the record is known to be whole up to machine time ");
+    expect_open("the record is known to be complete up to machine time ");
     EXPECT_THAT(texts[0], HasSubstr("the end of coordinator, axis X, axis Y is not recorded"));
 }
 

@@ -1,4 +1,4 @@
-// Whether what a log holds was good, and why, in plain words.
+// Rates the content of a log, with the reasons as text.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace lockstep::analysis {
 
 enum class Grade : std::uint8_t {
-    Good,      // as asked
-    Doubtful,  // the record lacks something, or it is not all that was asked
-    Unknown,   // cannot be told: the log lacks what the answer rests on
-    Bad,       // not what was asked
+    Good,      // as commanded
+    Doubtful,  // the record lacks something, or the motion is not exactly as commanded
+    Unknown,   // the log lacks the data for the answer
+    Bad,       // not as commanded
 };
 
 std::string_view name_of(Grade grade);
@@ -24,11 +24,11 @@ struct Finding {
     std::string text;  // a sentence without its full stop
 };
 
-/// The gravest first; never empty.
+/// The most serious first; never empty.
 std::vector<Finding> findings(const Analysis& analysis);
 
-/// The gravest of them.
-Grade verdict(const std::vector<Finding>& findings);
+/// The most serious grade.
+Grade worst_grade(const std::vector<Finding>& findings);
 
 /// "good: nothing is missing, ..." in a line.
 std::string headline(const std::vector<Finding>& findings);

@@ -1,4 +1,4 @@
-#include "clients/doctor/judgements.hpp"
+#include "clients/doctor/ratings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,10 @@ std::string text_of(const ProtocolTiming& t) {
 
 }  // namespace
 
-Finding judge_interface(const NetworkConfig& network, const InterfaceFacts& facts) {
+Finding rate_interface(const NetworkConfig& network, const InterfaceFacts& facts) {
     const std::string& name = network.interface;
     const auto bad = [](std::string found, std::string remedy) {
-        return Finding{Verdict::Bad, "interface", std::move(found), std::move(remedy)};
+        return Finding{Rating::Bad, "interface", std::move(found), std::move(remedy)};
     };
     if (!facts.exists) {
         return bad("there is no interface " + name, "ip link; then network.interface in the machine's file");
@@ -38,23 +38,24 @@ Finding judge_interface(const NetworkConfig& network, const InterfaceFacts& fact
     if (!facts.multicast && name != "lo" && network.peers.empty()) {
         return bad(name + " carries no multicast", "ip link set " + name + " multicast on; or network.peers");
     }
-    return {Verdict::Good, "interface", name + " is up and has an address", ""};
+    return {Rating::Good, "interface", name + " is up and has an address", ""};
 }
 
-Finding judge_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
-                    std::optional<bool> heard) {
-    if (!network.peers.empty() && !(route && heard.value_or(true))) {
-        return {Verdict::Good, "multicast", "there is none, and network.peers does without; LCM cannot (--no-lcm)", ""};
+Finding rate_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
+                   std::optional<bool> received) {
+    if (!network.peers.empty() && !(route && received.value_or(true))) {
+        return {Rating::Good, "multicast", "there is none, and network.peers does not need it; LCM does (--no-lcm)",
+                ""};
     }
     if (!route) {
-        return {Verdict::Bad, "multicast", "nothing can be recorded: " + route.error(),
+        return {Rating::Bad, "multicast", "the record cannot be published: " + route.error(),
                 "ip route add 224.0.0.0/4 dev " + network.interface};
     }
-    if (heard == false) {
-        return {Verdict::Bad, "multicast", "what LCM sends to " + network.lcm_url + " does not come back",
+    if (received == false) {
+        return {Rating::Bad, "multicast", "messages of LCM to " + network.lcm_url + " are not received",
                 "iptables -L INPUT -n; does a rule drop it?"};
     }
-    return {Verdict::Good, "multicast", heard ? "LCM hears what it sends" : "a route is there", ""};
+    return {Rating::Good, "multicast", received ? "LCM receives its own messages" : "a route exists", ""};
 }
 
 std::int64_t buffer_asked(const std::string& lcm_url) {
@@ -63,50 +64,50 @@ std::int64_t buffer_asked(const std::string& lcm_url) {
     return at == std::string::npos ? 0 : std::strtoll(lcm_url.c_str() + at + kKey.size(), nullptr, 10);
 }
 
-Finding judge_buffer(std::int64_t asked, std::int64_t given) {
+Finding rate_buffer(std::int64_t asked, std::int64_t given) {
     const std::string text = std::to_string(given) + " of " + std::to_string(asked) + " bytes";
-    if (given >= asked) { return {Verdict::Good, "socket buffer", text, ""}; }
-    return {Verdict::Doubtful, "socket buffer", text + ": bursts of the record may be lost",
+    if (given >= asked) { return {Rating::Good, "socket buffer", text, ""}; }
+    return {Rating::Doubtful, "socket buffer", text + ": bursts of the record may be lost",
             "sysctl -w net.core.rmem_max=" + std::to_string(asked)};
 }
 
-Finding judge_send_buffer(std::int64_t needed, std::int64_t given) {
+Finding rate_send_buffer(std::int64_t needed, std::int64_t given) {
     const std::string text = std::to_string(given) + " bytes; " + std::to_string(needed) + " are needed";
-    if (given >= needed) { return {Verdict::Good, "send buffer", text, ""}; }
-    return {Verdict::Doubtful, "send buffer",
-            text + ": while many of network.peers are not there, this host's parts may fall silent for seconds",
+    if (given >= needed) { return {Rating::Good, "send buffer", text, ""}; }
+    return {Rating::Doubtful, "send buffer",
+            text + ": while many of network.peers are absent, this host's parts may fall silent for seconds",
             "sysctl -w net.core.wmem_max=" + std::to_string(needed)};
 }
 
-Finding judge_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
+Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
     constexpr std::size_t kMany = 16;  // axes on a host, whose states are then most of its work
     const std::size_t axes = machine.axes.size();
     const bool shares = machine.network.one_host;
     if (shares && !memory) {
-        return {Verdict::Bad, "axes' states", memory.error(), "df -h /dev/shm; or leave network.one_host out"};
+        return {Rating::Bad, "axes' states", memory.error(), "df -h /dev/shm; or leave network.one_host out"};
     }
-    if (shares) { return {Verdict::Good, "axes' states", "go through " + *memory, ""}; }
-    if (machine.network.interface != "lo" || axes < kMany) { return {Verdict::Good, "axes' states", "go by DDS", ""}; }
-    return {Verdict::Doubtful, "axes' states",
-            std::to_string(axes) + " axes on one host hear " + std::to_string(axes * (axes - 1)) +
-                " states by the network each slot",
+    if (shares) { return {Rating::Good, "axes' states", "go through " + *memory, ""}; }
+    if (machine.network.interface != "lo" || axes < kMany) { return {Rating::Good, "axes' states", "go by DDS", ""}; }
+    return {Rating::Doubtful, "axes' states",
+            std::to_string(axes) + " axes on one host receive " + std::to_string(axes * (axes - 1)) +
+                " states from the network each slot",
             "network { one_host: true } in the machine's file"};
 }
 
-Finding judge_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
+Finding rate_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
     if (facts.scheduler.empty()) {
         const std::string use = wanted.priority > 0 ? "" : "; unused: the machine's file has no real_time.priority";
-        return {Verdict::Good, "scheduler", "FIFO is permitted" + use, ""};
+        return {Rating::Good, "scheduler", "FIFO is permitted" + use, ""};
     }
-    const Verdict verdict = wanted.priority > 0 ? Verdict::Bad : Verdict::Good;
-    return {verdict, "scheduler", "FIFO is refused (" + facts.scheduler + "): a busy host stalls the services",
+    const Rating rating = wanted.priority > 0 ? Rating::Bad : Rating::Good;
+    return {rating, "scheduler", "FIFO is refused (" + facts.scheduler + "): a busy host stalls the services",
             wanted.priority > 0 ? "LimitRTPRIO=99 in the unit, or ulimit -r 99" : ""};
 }
 
-Finding judge_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
-    if (facts.memory.empty()) { return {Verdict::Good, "memory", "it may be locked", ""}; }
-    const Verdict verdict = wanted.priority > 0 ? Verdict::Bad : Verdict::Good;
-    return {verdict, "memory", "it may not be locked (" + facts.memory + "): a page on disk stalls the services",
+Finding rate_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
+    if (facts.memory.empty()) { return {Rating::Good, "memory", "it may be locked", ""}; }
+    const Rating rating = wanted.priority > 0 ? Rating::Bad : Rating::Good;
+    return {rating, "memory", "it may not be locked (" + facts.memory + "): a page on disk stalls the services",
             wanted.priority > 0 ? "LimitMEMLOCK=infinity in the unit, or ulimit -l unlimited" : ""};
 }
 
@@ -123,44 +124,44 @@ ProtocolTiming timing_for(const StallFacts& facts) {
     return timing;
 }
 
-Finding judge_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
+Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
     const double may_us = static_cast<double>(timing.stall_slots) * static_cast<double>(timing.slot_us);
     const ProtocolTiming better = timing_for(facts);
     const std::string found = "in " + std::to_string(static_cast<int>(std::lround(facts.seconds))) +
                               " s a thread woke " + milliseconds(facts.worst_us) + " late at most, " +
-                              milliseconds(facts.p99_us) + " in one of 100; the timing bears " + milliseconds(may_us);
-    if (facts.worst_us > may_us) { return {Verdict::Bad, "stalls", found, text_of(better)}; }
-    if (2 * facts.worst_us > may_us) { return {Verdict::Doubtful, "stalls", found, text_of(better)}; }
+                              milliseconds(facts.p99_us) + " in one of 100; the timing allows " + milliseconds(may_us);
+    if (facts.worst_us > may_us) { return {Rating::Bad, "stalls", found, text_of(better)}; }
+    if (2 * facts.worst_us > may_us) { return {Rating::Doubtful, "stalls", found, text_of(better)}; }
     const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * t.send_ahead_slots; };
     const bool slack = 2 * reaction(better) < reaction(timing);
-    return {Verdict::Good, "stalls", found + (slack ? "; a hold could come sooner with " + text_of(better) : ""), ""};
+    return {Rating::Good, "stalls", found + (slack ? "; a hold could come sooner with " + text_of(better) : ""), ""};
 }
 
-Finding judge_clock(TimeSource source, const ClockFacts& facts) {
+Finding rate_clock(TimeSource source, const ClockFacts& facts) {
     if (source == TimeSource::Ptp && !(facts.synchronised && facts.tai_offset_s != 0)) {
-        return {Verdict::Bad, "clock",
+        return {Rating::Bad, "clock",
                 std::string("time_source is PTP, but ") +
-                    (facts.synchronised ? "nobody has set CLOCK_TAI" : "no service keeps this host's clock"),
+                    (facts.synchronised ? "CLOCK_TAI is not set" : "no service keeps this host's clock"),
                 "apt-get install linuxptp; then ptp4l -i INTERFACE -s and phc2sys -a -r"};
     }
     constexpr std::array<std::string_view, 5> kQuick{"tsc", "kvm-clock", "arch_sys_counter",
                                                      "hyperv_clocksource_tsc_page", ""};
     if (std::ranges::find(kQuick, facts.source) == kQuick.end()) {
-        return {Verdict::Doubtful, "clock", "the kernel reads " + facts.source + ", which is slow to read",
+        return {Rating::Doubtful, "clock", "the kernel reads " + facts.source + ", which is slow to read",
                 "clocksource=tsc on the kernel's command line, where the processor has one"};
     }
-    return {Verdict::Good, "clock", "the kernel reads " + facts.source, ""};
+    return {Rating::Good, "clock", "the kernel reads " + facts.source, ""};
 }
 
-Finding judge_device(const AxisConfig& axis, const std::expected<void, std::string>& answer) {
-    if (answer) { return {Verdict::Good, "device of " + axis.name, axis.device, ""}; }
-    return {Verdict::Bad, "device of " + axis.name, axis.device + ": " + answer.error(),
-            "power it up, or mend `device` of axis " + axis.name + " in the machine's file"};
+Finding rate_device(const AxisConfig& axis, const std::expected<void, std::string>& answer) {
+    if (answer) { return {Rating::Good, "device of " + axis.name, axis.device, ""}; }
+    return {Rating::Bad, "device of " + axis.name, axis.device + ": " + answer.error(),
+            "power it up, or correct `device` of axis " + axis.name + " in the machine's file"};
 }
 
-Finding judge_directory(const std::string& what, const std::string& path, const std::string& not_writable) {
-    if (not_writable.empty()) { return {Verdict::Good, what, path + " can be written", ""}; }
-    return {Verdict::Bad, what, path + " cannot be written: " + not_writable, "install -d -o $(id -un) " + path};
+Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable) {
+    if (not_writable.empty()) { return {Rating::Good, what, path + " can be written", ""}; }
+    return {Rating::Bad, what, path + " cannot be written: " + not_writable, "install -d -o $(id -un) " + path};
 }
 
 namespace {
@@ -171,36 +172,36 @@ std::string joined(const std::vector<std::string>& hosts) {
     return text;
 }
 
-Finding judge_one_process(const ProcessFacts& facts, std::uint64_t config_hash) {
+Finding rate_one_process(const ProcessFacts& facts, std::uint64_t config_hash) {
     if (facts.hosts.size() > 1 && !facts.may_be_two) {
-        return {Verdict::Bad, facts.name, "runs more than once, on " + joined(facts.hosts),
+        return {Rating::Bad, facts.name, "runs more than once, on " + joined(facts.hosts),
                 "lockstep down, on the host where it does not belong"};
     }
-    if (!facts.heard) { return {Verdict::Doubtful, facts.name, "is not heard", "lockstep up, on its host"}; }
+    if (!facts.received) { return {Rating::Doubtful, facts.name, "is not received", "lockstep up, on its host"}; }
     if (facts.config_hash != config_hash) {
-        return {Verdict::Bad, facts.name, "runs with another configuration than this file",
+        return {Rating::Bad, facts.name, "runs with another configuration than this file",
                 "give all hosts the same file; then lockstep down and up"};
     }
-    return {Verdict::Good, facts.name, "is heard, with this configuration", ""};
+    return {Rating::Good, facts.name, "is received, with this configuration", ""};
 }
 
 }  // namespace
 
-Finding judge_process(const ProcessFacts& facts, std::uint64_t config_hash) {
-    Finding finding = judge_one_process(facts, config_hash);
+Finding rate_process(const ProcessFacts& facts, std::uint64_t config_hash) {
+    Finding finding = rate_one_process(facts, config_hash);
     finding.host = joined(facts.hosts);
     return finding;
 }
 
-Finding judge_keys(const KeyFacts& facts) {
+Finding rate_keys(const KeyFacts& facts) {
     const std::string what = "keys of " + facts.member;
     constexpr const char* kSee = "see: lockstep keys check";
     if (!facts.here) {
-        return {Verdict::Bad, what, "are not on this host, where it runs", "copy them here; " + std::string(kSee)};
+        return {Rating::Bad, what, "are not on this host, where it runs", "copy them here; " + std::string(kSee)};
     }
-    if (facts.is_out) { return {Verdict::Bad, what, facts.trouble, kSee}; }
-    if (!facts.trouble.empty()) { return {Verdict::Doubtful, what, facts.trouble, kSee}; }
-    return {Verdict::Good, what, "are in order for " + std::to_string(facts.days_left) + " days", ""};
+    if (facts.is_out) { return {Rating::Bad, what, facts.trouble, kSee}; }
+    if (!facts.trouble.empty()) { return {Rating::Doubtful, what, facts.trouble, kSee}; }
+    return {Rating::Good, what, "are in order for " + std::to_string(facts.days_left) + " days", ""};
 }
 
 }  // namespace lockstep::doctor

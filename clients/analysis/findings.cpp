@@ -1,4 +1,4 @@
-#include "clients/analysis/verdict.hpp"
+#include "clients/analysis/findings.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 using Findings = std::vector<Finding>;
 
 constexpr double kOverLimit = 1.02;  // a speed is measured to within 0.1 %, and planned up to the limit
-constexpr Ticks kRounding{2};        // what a step may be off besides its clock
+constexpr Ticks kRounding{2};        // a step's error besides its clock's
 
 std::string name_of(const JobLog& job) {
     return fmt::format("job {} ({})", job.job, job.name.empty() ? job.kind : job.name);
@@ -35,79 +35,80 @@ std::int64_t missing_between(const AxisLog& axis) {
     return missing;
 }
 
-/// Or may lack them, where something cannot be read.
+/// The log lacks steps, or may lack them, since a part cannot be read.
 bool lacks_steps(const Analysis& analysis) {
     const auto lacks = [](const auto& axis) { return missing_steps_of(*axis) != 0 || missing_between(*axis) != 0; };
     return !analysis.damages.empty() || analysis.end.lacks_steps() || std::ranges::any_of(analysis.axes, lacks);
 }
 
-/// Nor does it lack an axis, nor end in a job.
+/// The log also lacks no axis, and does not end within a job.
 bool has_all_steps(const Analysis& analysis) {
     const auto is_cut = [](const JobLog& job) { return job.outcome.empty() || !job.axes_not_known.empty(); };
     return !lacks_steps(analysis) && analysis.absent_axes().empty() && std::ranges::none_of(analysis.jobs, is_cut);
 }
 
 Finding unknown(const std::string& what, const std::string& why) {
-    return {Grade::Unknown, fmt::format("{} cannot be told: {}; lockstep log merge puts the logs of all processes "
-                                        "together",
+    return {Grade::Unknown, fmt::format("{} cannot be determined: {}; lockstep log merge combines the logs of all "
+                                        "processes",
                                         what, why)};
 }
 
-/// What the log as a whole lacks, and what follows from that.
-void judge_presence(const Analysis& analysis, Findings& found) {
+/// Missing axes and jobs of the whole log, and the consequences.
+void check_presence(const Analysis& analysis, Findings& found) {
     const auto absent = analysis.absent_axes();
     if (!absent.empty()) {
-        found.push_back(unknown("what " + in_words(absent) + " did",
+        found.push_back(unknown("the motion of " + in_words(absent),
                                 (absent.size() == 1 ? "its" : "their") + std::string(" steps are not in this log")));
     }
     for (const JobLog& job : analysis.jobs) {
         if (job.begun_us) { continue; }
-        found.push_back(unknown("what " + name_of(job) + " asked for", "its beginning is not in this log"));
+        found.push_back(unknown("the commanded motion of " + name_of(job), "its beginning is not in this log"));
     }
     if (analysis.steps_of_no_job == 0 || !analysis.jobs.empty()) { return; }
-    found.push_back(unknown("what was asked for", "the coordinator's record of it is not in this log"));
+    found.push_back(unknown("the commanded motion", "the coordinator's record of it is not in this log"));
 }
 
-void judge_outcome(const JobLog& job, Findings& found) {
+void check_outcome(const JobLog& job, Findings& found) {
     if (job.outcome == "failed") { found.push_back({Grade::Bad, name_of(job) + " failed"}); }
     if (job.outcome == "stopped") { found.push_back({Grade::Doubtful, name_of(job) + " was stopped before its end"}); }
     if (job.outcome.empty()) { found.push_back({Grade::Doubtful, "the log ends before " + name_of(job) + " does"}); }
     if (job.unplannable) {
-        found.push_back({Grade::Doubtful, "what " + name_of(job) + " asked for is not known: " + *job.unplannable});
+        found.push_back(
+            {Grade::Doubtful, "the commanded motion of " + name_of(job) + " is not known: " + *job.unplannable});
     }
 }
 
-/// Of a job that was not done, the rest is not missed. Where the record lacks steps, nobody knows what was made.
-void judge_steps(const JobLog& job, bool record_lacks_steps, Findings& found) {
+/// If a job was not done, the rest is not missed. If the record lacks steps, the steps made are unknown.
+void check_steps(const JobLog& job, bool record_lacks_steps, Findings& found) {
     if (job.is_whole() || job.outcome != "done") { return; }
     const std::string moves = grouped(job.moves_not_whole) + " of " + plural(job.move_count, "move");
     if (!record_lacks_steps && !job.axes_not_known.empty()) {
-        found.push_back(unknown(fmt::format("whether {} of {} have the steps asked", moves, name_of(job)),
+        found.push_back(unknown(fmt::format("whether {} of {} have the commanded steps", moves, name_of(job)),
                                 "not all steps of " + in_words(job.axes_not_known) + " are in this log"));
         return;
     }
     const Grade grade = record_lacks_steps ? Grade::Doubtful : Grade::Bad;
-    found.push_back({grade, fmt::format("{}: {} do not have the steps asked, {} were not asked for", name_of(job),
+    found.push_back({grade, fmt::format("{}: {} do not have the commanded steps, {} were not commanded", name_of(job),
                                         moves, plural(job.unasked_steps, "step"))});
 }
 
-void judge_jobs(const Analysis& analysis, Findings& found) {
+void check_jobs(const Analysis& analysis, Findings& found) {
     const bool lacking = lacks_steps(analysis);
     std::int64_t moves = 0;
     std::int64_t whole_jobs = 0;
     for (const JobLog& job : analysis.jobs) {
-        judge_outcome(job, found);
-        judge_steps(job, lacking, found);
+        check_outcome(job, found);
+        check_steps(job, lacking, found);
         if (job.move_count == 0 || !job.is_whole()) { continue; }
         ++whole_jobs;
         moves += job.move_count;
     }
     if (moves == 0) { return; }
-    found.push_back({Grade::Good, fmt::format("each of {} in {} has exactly the steps asked", plural(moves, "move"),
+    found.push_back({Grade::Good, fmt::format("each of {} in {} has exactly the commanded steps", plural(moves, "move"),
                                               plural(whole_jobs, "job"))});
 }
 
-void judge_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) {
+void check_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) {
     if (const std::int64_t missing = missing_steps_of(axis); missing != 0) {
         found.push_back({Grade::Doubtful, fmt::format("{}: at least {} are not in the log; {}", axis.name(),
                                                       plural(missing, "step"), kWhereTheRestIs)});
@@ -123,7 +124,7 @@ void judge_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) 
                                              fmt::arg("unit", unit_of(axis.name())))});
 }
 
-void judge_events(const Analysis& analysis, Findings& found) {
+void check_events(const Analysis& analysis, Findings& found) {
     const auto faults = std::ranges::count_if(analysis.happened, &Event::is_fault);
     if (faults > 0) {
         const auto& first = *std::ranges::find_if(analysis.happened, &Event::is_fault);
@@ -137,16 +138,17 @@ void judge_events(const Analysis& analysis, Findings& found) {
     }
 }
 
-void judge_end(const Analysis& analysis, Findings& found) {
+void check_end(const Analysis& analysis, Findings& found) {
     const auto lines = missing_sentences(analysis.end);
     for (const std::string& line : lines) { found.push_back({Grade::Unknown, line}); }
     if (!lines.empty()) { found.push_back({Grade::Unknown, kWhereTheRestIs}); }
 }
 
-void judge_record(const Analysis& analysis, Findings& found) {
+void check_record(const Analysis& analysis, Findings& found) {
     if (analysis.missing_job_events > 0) {
-        found.push_back({Grade::Doubtful, fmt::format("{} of jobs not in the log: what was asked may not all be known",
-                                                      plural(analysis.missing_job_events, "event"))});
+        found.push_back(
+            {Grade::Doubtful, fmt::format("{} of jobs not in the log: the commanded motion may be incomplete",
+                                          plural(analysis.missing_job_events, "event"))});
     }
     std::uint64_t places = 0;
     std::uint64_t bytes = 0;
@@ -160,7 +162,7 @@ void judge_record(const Analysis& analysis, Findings& found) {
                                  plural(static_cast<std::int64_t>(places), "place"))});
 }
 
-void judge_times(const Analysis& analysis, Findings& found) {
+void check_times(const Analysis& analysis, Findings& found) {
     TickHistogram late;
     std::int64_t not_compared = 0;
     for (const JobLog& job : analysis.jobs) {
@@ -175,12 +177,12 @@ void judge_times(const Analysis& analysis, Findings& found) {
         {grade, fmt::format("no step {}is more than {:.0f} us from the time commanded",
                             not_compared > 0 ? "whose time is known " : "", analysis.microseconds(late.largest()))});
     if (not_compared == 0) { return; }
-    found.push_back(unknown("whether " + plural(not_compared, "step") + " came in time",
+    found.push_back(unknown("whether " + plural(not_compared, "step") + " were in time",
                             "the times commanded are not in this log"));
 }
 
-/// How far exact steps of all axes together may be from the line: a step of each, and how far each goes while its clock
-/// is not known better.
+/// The maximum distance of exact steps of all axes from the line: a step of each, and the motion of each within the
+/// uncertainty of its clock.
 double exact_distance_mm(const Analysis& analysis) {
     double squares = 0;
     double by_clocks = 0;
@@ -193,24 +195,24 @@ double exact_distance_mm(const Analysis& analysis) {
     return std::sqrt(squares) + by_clocks;
 }
 
-void judge_distance(const Analysis& analysis, Findings& found) {
-    const std::int64_t untold = total(analysis, &JobLog::moves_without_distance);
+void check_distance(const Analysis& analysis, Findings& found) {
+    const std::int64_t unmeasured = total(analysis, &JobLog::moves_without_distance);
     if (analysis.largest_distance_mm) {
         const double exact_mm = exact_distance_mm(analysis);
         const bool is_good = *analysis.largest_distance_mm <= exact_mm;
         std::string text =
-            fmt::format("the path stepped is at most {:.4f} mm from the path asked", *analysis.largest_distance_mm);
-        if (untold > 0) { text += ", where it can be told"; }
+            fmt::format("the stepped path is at most {:.4f} mm from the commanded path", *analysis.largest_distance_mm);
+        if (unmeasured > 0) { text += ", where it is known"; }
         if (!is_good) { text += fmt::format("; exact steps are within {:.4f} mm", exact_mm); }
         found.push_back({is_good ? Grade::Good : Grade::Bad, text});
     }
-    if (untold == 0) { return; }
-    found.push_back(unknown("how far " + plural(untold, "move") + " went from the path",
+    if (unmeasured == 0) { return; }
+    found.push_back(unknown("the distance of " + plural(unmeasured, "move") + " from the path",
                             "steps of an axis are not in this log, or come too late in it"));
 }
 
-/// What lies before the log is not claimed.
-void judge_missing(const Analysis& analysis, Findings& found) {
+/// Makes no statement about the time before the log.
+void check_missing(const Analysis& analysis, Findings& found) {
     if (!has_all_steps(analysis)) { return; }
     const auto lacks = [](const auto& axis) { return axis->statistics().missing_batches() != 0; };
     const std::string since = std::ranges::any_of(analysis.axes, lacks) ? " since the log began" : "";
@@ -220,7 +222,7 @@ void judge_missing(const Analysis& analysis, Findings& found) {
              (analysis.end.open.empty() ? "no step is missing" : "no step is known to be missing") + since});
         return;
     }
-    std::vector<std::string> names;  // whether there are more axes, the log does not tell
+    std::vector<std::string> names;  // the log does not show whether there are more axes
     for (const auto& axis : analysis.axes) { names.push_back(axis->name()); }
     found.push_back({Grade::Good, "no step of " + in_words(names) +
                                       (analysis.end.open.empty() ? " is missing" : " is known to be missing") + since});
@@ -235,24 +237,24 @@ std::string_view name_of(Grade grade) {
 
 std::vector<Finding> findings(const Analysis& analysis) {
     Findings found;
-    judge_presence(analysis, found);
-    judge_events(analysis, found);
-    judge_jobs(analysis, found);
-    for (const auto& axis : analysis.axes) { judge_axis(analysis, *axis, found); }
-    judge_end(analysis, found);
-    judge_record(analysis, found);
-    judge_times(analysis, found);
-    judge_distance(analysis, found);
-    judge_missing(analysis, found);
-    if (found.empty()) { found.push_back({Grade::Unknown, "nothing can be told: the log lacks steps"}); }
+    check_presence(analysis, found);
+    check_events(analysis, found);
+    check_jobs(analysis, found);
+    for (const auto& axis : analysis.axes) { check_axis(analysis, *axis, found); }
+    check_end(analysis, found);
+    check_record(analysis, found);
+    check_times(analysis, found);
+    check_distance(analysis, found);
+    check_missing(analysis, found);
+    if (found.empty()) { found.push_back({Grade::Unknown, "nothing is known: the log lacks steps"}); }
     std::ranges::stable_sort(found, std::ranges::greater{}, &Finding::grade);
     return found;
 }
 
-Grade verdict(const std::vector<Finding>& findings) { return findings.front().grade; }
+Grade worst_grade(const std::vector<Finding>& findings) { return findings.front().grade; }
 
 std::string headline(const std::vector<Finding>& findings) {
-    return std::string(name_of(verdict(findings))) + ": " + findings.front().text;
+    return std::string(name_of(worst_grade(findings))) + ": " + findings.front().text;
 }
 
 }  // namespace lockstep::analysis

@@ -1,11 +1,11 @@
-// The verdict on a job, from the state that the coordinator publishes once a slot. Pure.
+// The result of a job, from the state that the coordinator publishes once a slot. Pure.
 #pragma once
 
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
 
-enum class JobVerdict {
+enum class JobResult {
     InProgress,
     Done,
     Stopped,
@@ -17,16 +17,16 @@ enum class JobVerdict {
 
 /// `job`: the number in the reply of the owner whose term was `asked`. Another owner may continue it or end it.
 /// `runs_it`: the term of the owner whose state last showed it running.
-constexpr JobVerdict verdict_of(const MachineState& state, std::uint64_t job, const Term& asked, const Term& runs_it) {
+constexpr JobResult result_of(const MachineState& state, std::uint64_t job, const Term& asked, const Term& runs_it) {
     const bool changed = state.term != asked;
-    if (state.job > job || (changed && (state.job < job || state.job_begun != asked))) { return JobVerdict::Lost; }
-    if (state.job < job || !state.outcome) { return JobVerdict::InProgress; }  // fewer jobs: published before the reply
+    if (state.job > job || (changed && (state.job < job || state.job_begun != asked))) { return JobResult::Lost; }
+    if (state.job < job || !state.outcome) { return JobResult::InProgress; }  // fewer jobs: published before the reply
     switch (*state.outcome) {
-        case JobOutcome::Done: return JobVerdict::Done;
-        case JobOutcome::Stopped: return state.term != runs_it ? JobVerdict::CutShort : JobVerdict::Stopped;
+        case JobOutcome::Done: return JobResult::Done;
+        case JobOutcome::Stopped: return state.term != runs_it ? JobResult::CutShort : JobResult::Stopped;
         case JobOutcome::Failed: break;
     }
-    return JobVerdict::Failed;
+    return JobResult::Failed;
 }
 
 }  // namespace lockstep

@@ -1,0 +1,88 @@
+// Compares host facts with the machine's requirements. Pure: the caller measures.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/doctor/finding.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep::doctor {
+
+struct InterfaceFacts {
+    bool exists = false;
+    bool up = false;
+    bool has_address = false;  // of IPv4
+    bool multicast = false;    // as reported by the interface; lo does not report it, but supports it
+};
+Finding rate_interface(const NetworkConfig& network, const InterfaceFacts& facts);
+
+/// route: the result of check_multicast. received: whether a datagram sent by LCM came back; no value: not tried.
+Finding rate_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
+                   std::optional<bool> received);
+
+/// The receive buffer that an LCM URL asks for, in bytes; 0: none.
+std::int64_t buffer_asked(const std::string& lcm_url);
+/// Bytes of a receive buffer: as the URL requests, as the kernel granted.
+Finding rate_buffer(std::int64_t asked, std::int64_t given);
+/// Bytes of a send buffer: as a machine's peers require (peer_send_buffer), as the kernel granted.
+Finding rate_send_buffer(std::int64_t needed, std::int64_t given);
+
+/// memory: the file of the axes' states with network.one_host, or why it cannot be created.
+Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory);
+
+/// Empty: permitted; else why not.
+struct RealTimeFacts {
+    std::string scheduler;
+    std::string memory;
+};
+Finding rate_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts);
+Finding rate_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts);
+
+/// How late a thread woke that was scheduled each quarter of a slot.
+struct StallFacts {
+    double worst_us = 0;
+    double p99_us = 0;
+    double seconds = 0;  // duration of the measurement
+};
+Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts);
+/// The shortest timing with which a host may stall for twice as long as measured.
+ProtocolTiming timing_for(const StallFacts& facts);
+
+struct ClockFacts {
+    std::string source;         // the kernel's clocksource
+    bool synchronised = false;  // a service reports that it keeps the clock
+    int tai_offset_s = 0;       // of CLOCK_TAI; 0: it is not set
+};
+Finding rate_clock(TimeSource source, const ClockFacts& facts);
+
+/// answer: the result of attaching to the device.
+Finding rate_device(const AxisConfig& axis, const std::expected<void, std::string>& answer);
+
+/// writable: empty, or why not.
+Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable);
+
+/// A member's keys on this host.
+struct KeyFacts {
+    std::string member;
+    bool here = false;
+    bool is_out = false;  // it cannot join with these keys
+    std::string trouble;  // an error now or soon, and the remedy; empty: none
+    int days_left = 0;
+};
+Finding rate_keys(const KeyFacts& facts);
+
+/// One of the machine's processes, as received from the network.
+struct ProcessFacts {
+    std::string name;
+    bool received = false;
+    std::uint64_t config_hash = 0;
+    std::vector<std::string> hosts = {};  // on which processes of it run
+    bool may_be_two = false;              // a coordinator and its standby
+};
+Finding rate_process(const ProcessFacts& facts, std::uint64_t config_hash);
+
+}  // namespace lockstep::doctor
