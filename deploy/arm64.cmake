@@ -1,5 +1,5 @@
 # For boards of 64-bit ARM, with Debian's cross compiler (g++-aarch64-linux-gnu): cmake --toolchain deploy/arm64.cmake
-# What needs more than the standard library also takes -D CMAKE_SYSROOT=DIRECTORY, where its libraries are.
+# Targets that need more than the standard library also need -D CMAKE_SYSROOT=DIRECTORY, with their libraries.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

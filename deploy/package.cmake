@@ -1,4 +1,4 @@
-# What `cmake --install` and the Debian packages carry: `lockstep` to run machines, `lockstep-dev` to build on core.
+# The content of `cmake --install` and the Debian packages: `lockstep` to run machines, `lockstep-dev` to build on core.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -6,7 +6,7 @@ install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
-# Documents keep their places among each other, so that their links lead somewhere.
+# Documents keep their relative paths, so that their links work.
 install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE NOTICE
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep
@@ -18,8 +18,8 @@ install(FILES deploy/completion/lockstep.bash RENAME lockstep
 install(FILES deploy/completion/_lockstep
   DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT lockstep)
 
-# The manual is what the programs' own --help says. It is the same for every processor: where they are built for another
-# one and cannot run here, the pages of this machine's own build are taken, if it is there.
+# The manual is the programs' own --help. It is the same for every processor: if they are built for another
+# one and cannot run here, the pages of this machine's own build are used, if it exists.
 set(MANUAL ${PROJECT_BINARY_DIR}/man)
 if(CMAKE_CROSSCOMPILING)
   set(MANUAL ${PROJECT_SOURCE_DIR}/build/man)
@@ -55,7 +55,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)
 
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `make package` builds what it packs
-# What `lockstep` carries, and no more.
+# The content of `lockstep`.
 add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep_lcm_python)
 if(TARGET manual)
   add_dependencies(package_files manual)

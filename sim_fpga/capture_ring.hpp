@@ -1,4 +1,4 @@
-// The device's end of the capture ring: the tick of every step.
+// The device's side of the capture ring: the tick of every step.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ class CaptureRing {
 public:
     explicit CaptureRing(RegisterWindow window) : window_(std::move(window)) {}
 
-    /// Entries put in, and steps that found no room, since power-up.
+    /// Entries added, and steps that did not fit, since power-up.
     std::uint64_t head() const { return head_; }
     std::uint64_t lost() const { return lost_; }
 
-    /// False where there is no room. The host sees it once head() is published.
+    /// False if there is no room. The host sees it once head() is published.
     bool keep(StepEdge step) {
         if (head_ - tail_ >= registers::kCaptureRingEntries) { tail_ = window_.load(registers::kCaptureTail); }
         if (head_ - tail_ >= registers::kCaptureRingEntries) {

@@ -67,7 +67,7 @@ void SimulatedDevice::take_run() {
     phase_ = Phase::Waiting;
 }
 
-/// Does what is to be done at this tick. Returns the next tick at which something may have to be decided.
+/// Does the work of this tick. Returns the next tick at which a decision may be due.
 Tick SimulatedDevice::decide(Tick until) {
     if (phase_ == Phase::AtRest) { take_run(); }
     if (phase_ == Phase::AtRest) {
@@ -151,8 +151,8 @@ void SimulatedDevice::finish(std::uint64_t reason) {
     phase_ = Phase::AtRest;
 }
 
-/// The host withdraws ARMED before it lifts VETO for another run, and asks for that run last: read the other way
-/// round, no mixture of two runs' words lets a frame through.
+/// The host withdraws ARMED before it lifts VETO for another run, and requests that run last: read in reverse order,
+/// no mixture of two runs' registers lets a frame through.
 bool SimulatedDevice::may_run(FrameNumber frame) const {
     return !vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
 }
@@ -164,7 +164,7 @@ bool SimulatedDevice::stop_asked() const {
     return stop != 0 && stop == window_.load(kRunRequest);
 }
 
-/// A run may begin where the axis stands, whatever the phase a stop left it in, or with the phase put to rest.
+/// A run may begin at the axis's position, with the phase that a stop left, or with the phase at rest.
 bool SimulatedDevice::rebase_to(Position from) {
     const bool same_place =
         from == engine_.position() || from == rest_position(count_, false) || from == rest_position(count_, true);
@@ -184,7 +184,7 @@ void SimulatedDevice::run(Tick until) {
     engine_.run(until, [this](StepEdge step) { return on_step(step); });
     if (cease_ != 0) {
         finish(std::exchange(cease_, 0));
-        if (engine_.position().count() != count_) {  // a pulse was held back at a limit switch
+        if (engine_.position().count() != count_) {  // a pulse was suppressed at a limit switch
             engine_.rebase(rest_position(count_, false));
         }
     }

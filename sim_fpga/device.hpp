@@ -1,4 +1,4 @@
-// The simulated hardware of one axis, down to its registers: executes frames by itself, tick by tick in effect.
+// The simulated hardware of one axis, down to its registers: executes frames by itself, with the result of every tick.
 //
 // A run goes from rest to rest. The host begins one by a new number in RUN_REQUEST, which is taken at rest only. Then:
 // - At the start tick of frame 1 its body runs, if ARMED >= 1 and VETO > 1. Vetoed, the run ends there. Found armed
@@ -6,10 +6,10 @@
 // - At the end of frame k's body, the run is finished if k was the last. Else, if frame k+1 is loaded, ARMED >= k+1 and
 //   VETO > k+1, its body runs: it must start at this tick and position, exactly. In every other case frame k's tail
 //   runs and the run is finished; a frame k+1 that was armed but does not join, or is malformed, sets BAD_SEGMENT.
-// - The first frame starts where the axis stands, or at rest_position(count): the same place, its phase put to rest.
-// - Pulses cease at once, the run finished, at a closed limit switch (none goes into it), at the home level asked for,
-//   and by STOP.
-// The host's words count as they are when advance is called: in real time, as of the loop's last round.
+// - The first frame starts at the axis's position, or at rest_position(count): the same place, with its phase at rest.
+// - Pulses cease at once, and the run is finished, at a closed limit switch (in its direction), at the requested home
+//   level, and on STOP.
+// The host's registers take effect at the call of advance: in real time, at the loop's last round.
 #pragma once
 
 #include <cstdint>
@@ -25,24 +25,24 @@ namespace lockstep {
 
 class SimulatedDevice {
 public:
-    /// Power-up at rest, having executed `now`: resets all registers. The window is this device's from here on; a
-    /// driver attaches to a copy. tick_ns: what TICK_NS says. power_up: what POWER_UP says; another each time, where a
-    /// host goes by it.
+    /// Power-up at rest, having executed `now`: resets all registers. The window is this device's from now on; a
+    /// driver attaches to a copy. tick_ns: the value of TICK_NS. power_up: the value of POWER_UP; different each time,
+    /// if a host depends on it.
     SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now, std::uint64_t power_up = 0);
 
-    /// Executes all ticks up to and including `until`, then publishes its state. At or before now(), it only looks at
-    /// the host's words and acts on them.
+    /// Executes all ticks up to and including `until`, then publishes its state. At or before now(), it only reads the
+    /// host's registers and acts on them.
     void advance(Tick until);
 
-    /// Whether the registers are still those of this device, and the host's make sense: not where their memory was
-    /// taken away or overwritten. All there is to do then is to power up anew.
+    /// Whether the registers are still those of this device, and the host's are valid: not if their memory was
+    /// removed or overwritten. The only remedy then is to power up again.
     bool is_intact() const;
 
     Tick now() const { return engine_.now(); }
     /// A frame or a tail is in progress.
     bool in_motion() const { return phase_ == Phase::Body || phase_ == Phase::Tail; }
     const Plant& plant() const { return plant_; }
-    /// To disturb it. The inputs are looked at again at the next call of advance.
+    /// To disturb it. The inputs are read again at the next call of advance.
     Plant& plant() { return plant_; }
 
 private:

@@ -109,7 +109,7 @@ def md(source):
              f"One flat window of {source['window_bytes']} bytes; all words have 64 bits, little-endian. It behaves as",
              "memory: no access has a side effect, and each word is written by one side alone, the device or the host",
              "(power-up resets both sides' words). So the same map holds over ordinary memory, shared memory, a mapped file",
-             "or a mapped device. Every word is read with acquire order and written with release order: who sees a new",
+             "or a mapped device. Every word is read with acquire order and written with release order: a reader of a new",
              "head, sequence or run number also sees what was written before it.", "",
              f"Map checksum: `0x{checksum(source):016X}`", "", "## Registers", "",
              "| offset | name | writer, host's access | reset | meaning |", "|---|---|---|---|---|"]

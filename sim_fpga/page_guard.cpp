@@ -16,7 +16,7 @@ struct Range {
     std::atomic<std::uintptr_t> begin{kFree};
     std::atomic<std::size_t> bytes{0};
 };
-static_assert(std::atomic<std::uintptr_t>::is_always_lock_free, "a signal handler may only touch what never locks");
+static_assert(std::atomic<std::uintptr_t>::is_always_lock_free, "a signal handler may only use lock-free atomics");
 
 std::array<Range, PageGuard::kMost> ranges;
 

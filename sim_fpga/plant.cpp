@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// Whole steps from power-up to a place in mm, the side where a switch there is closed included: a place that is a
+/// Whole steps from power-up to a place in mm, including the side where a switch there is closed: a place that is a
 /// whole step up to rounding is that step.
 constexpr double kRounding = 1e-6;
 std::int64_t steps_down(double steps) { return std::llround(std::floor(steps + kRounding)); }
@@ -28,19 +28,19 @@ Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
     max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
 }
 
-/// A pulse falls where the commanded position crosses a half: half a step short of its count, seen the way it goes.
-void Plant::judge(StepEdge edge) {
+/// A pulse falls where the commanded position crosses a half: half a step before its count, in its direction.
+void Plant::evaluate(StepEdge edge) {
     const double place = static_cast<double>(pulses_) - 0.5 * edge.direction;
-    const auto ticks = static_cast<double>((edge.tick - judged_).value);
-    const double commanded = (place - judged_place_) / ticks;
+    const auto ticks = static_cast<double>((edge.tick - evaluated_).value);
+    const double commanded = (place - evaluated_place_) / ticks;
     const bool stops_or_turns = commanded * speed_ <= 0;
     if (stops_or_turns && std::abs(speed_) <= max_gap_) { speed_ = 0; }
     const double change = max_acceleration_ * ticks;
     speed_ = std::clamp(commanded, speed_ - change, speed_ + change);
     const double rounding = 2 * std::abs(commanded) / ticks;  // a tick at either end
     slips_ = std::abs(commanded - speed_) > max_gap_ + rounding;
-    judged_ = edge.tick;
-    judged_place_ = place;
+    evaluated_ = edge.tick;
+    evaluated_place_ = place;
 }
 
 double Plant::position_mm() const { return start_mm_ + static_cast<double>(slide_) / steps_per_mm_; }

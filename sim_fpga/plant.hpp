@@ -1,15 +1,15 @@
-// What hangs on the simulated device's pulses: a motor that can lose steps, a slide, its switches and an encoder.
+// The plant behind the simulated device's pulses: a motor that can lose steps, a slide, its switches and an encoder.
 //
-// The slide moves one step a pulse; its switches and encoder follow where it truly is, so they change at steps only.
+// The slide moves one step a pulse; its switches and encoder follow its true position, so they change at steps only.
 //
-// The motor is judged by the times of the pulses alone: every kWindow ticks or the next pulse after that, the mean
-// speed since the last judgement is taken. The rotor's speed follows it with at most A = max_torque_accel_mm_s2. While
-// the two then differ by more than max_jump_mm_s + sqrt(2 A), and what rounding of pulses to ticks can feign, the rotor
+// The model of the motor uses the times of the pulses alone: every kWindow ticks or the next pulse after that, it takes
+// the mean speed since the last evaluation. The rotor's speed follows it with at most A = max_torque_accel_mm_s2. While
+// the two then differ by more than max_jump_mm_s + sqrt(2 A), plus the effect of rounding pulses to ticks, the rotor
 // slips: every pulse is a step lost. sqrt(2 A), in steps and ticks, is the speed gained in the first step from a rest
-// just behind a pulse, which pulses cannot tell from a jump. So jumps of up to max_jump, accelerations of up to A, and
-// both together lose nothing; slow enough to stop by a jump it stops or turns by one, as often as it is told to; a
+// just after a pulse, which pulses cannot distinguish from a jump. So jumps of up to max_jump, accelerations of up to
+// A, and both together lose nothing; at a speed within a jump it stops or reverses at once, any number of times; a
 // greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(2 A)) * a / (a - A)
-// on, where the rotor has fallen back by that much. A dead stop loses nothing: no pulse follows it that could be lost.
+// on, where the rotor lags by that much. A dead stop loses nothing: no pulse follows it that could be lost.
 #pragma once
 
 #include <cstdint>
@@ -27,30 +27,30 @@ struct PlantInputs {
     constexpr bool operator==(const PlantInputs&) const = default;
 };
 
-/// The switches by what they read.
+/// The switches by their readings.
 using PlantContact = bool PlantInputs::*;
 
 class Plant {
 public:
-    /// The slide stands at plant.start_position_mm. plant.max_jump_mm_s and max_torque_accel_mm_s2 are what the motor
-    /// can do: at 0 it loses every step.
+    /// The slide starts at plant.start_position_mm. plant.max_jump_mm_s and max_torque_accel_mm_s2 are the motor's
+    /// capability: at 0 it loses every step.
     Plant(const AxisConfig& axis, std::int64_t tick_ns);
 
     /// One pulse. Ticks rise from call to call.
     void step(StepEdge edge) {
         pulses_ += edge.direction;
-        if (edge.tick - judged_ >= kWindow) { judge(edge); }
+        if (edge.tick - evaluated_ >= kWindow) { evaluate(edge); }
         slide_ += slips_ ? 0 : edge.direction;
     }
-    /// A hand on the slide: moves it without pulses.
+    /// Moves the slide without pulses, like a hand.
     void push(std::int64_t steps) { slide_ += steps; }
-    /// A switch that is stuck reads so wherever the slide is; nothing: as it should again.
+    /// A switch that is stuck has this reading for any position; nothing: it works again.
     void stick(PlantContact contact, std::optional<bool> reads) {
         stuck_closed_.*contact = reads == true;
         stuck_open_.*contact = reads == false;
     }
 
-    /// Where the slide truly is, in whole steps since power-up.
+    /// The true position of the slide, in whole steps since power-up.
     std::int64_t encoder() const { return slide_; }
     double position_mm() const;
     PlantInputs inputs() const {
@@ -64,7 +64,7 @@ public:
 private:
     static constexpr Ticks kWindow{256};
 
-    void judge(StepEdge edge);
+    void evaluate(StepEdge edge);
 
     double steps_per_mm_;
     double start_mm_;
@@ -79,9 +79,9 @@ private:
     double max_gap_;           // max_jump + sqrt(2 A), steps per tick
     double speed_ = 0;         // the rotor's, signed, steps per tick
     bool slips_ = false;
-    Tick judged_{-(std::int64_t{1} << 62)};  // at rest since long ago
-    double judged_place_ = 0;                // where the pulses were then, in steps
-    std::int64_t pulses_ = 0;                // forward minus backward
+    Tick evaluated_{-(std::int64_t{1} << 62)};  // at rest since long ago
+    double evaluated_place_ = 0;                // the position of the pulses then, in steps
+    std::int64_t pulses_ = 0;                   // forward minus backward
     std::int64_t slide_ = 0;
 };
 

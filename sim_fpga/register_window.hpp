@@ -1,8 +1,8 @@
-// The register map's window over whatever memory stands behind it: this process's own, shared memory by name, or
+// The register map's window over memory: this process's own, shared memory by name, or
 // anything that can be mapped (a file, a UIO device). Source of the map: registers.json.
 //
-// Ordering: every word is read with acquire and written with release order. So who sees a new head, sequence or run
-// number also sees everything the other side wrote before it, which is all that rings and consistent reads need.
+// Ordering: every register is read with acquire and written with release order. So a reader of a new head, sequence or
+// run number also sees everything the other side wrote before it, which is all that rings and consistent reads need.
 #pragma once
 
 #include <atomic>
@@ -18,18 +18,18 @@
 
 namespace lockstep {
 
-/// A handle: copies see the same words. The last copy unmaps, and removes the name if it was made here. Words whose
-/// memory is taken away while they are mapped read 0 from then on, all of them, in this process (page_guard.hpp).
+/// A handle: all copies access the same registers. The last copy unmaps, and removes the name if it was created here.
+/// Registers whose memory is removed while they are mapped read 0 from then on, all of them, in this process
 class RegisterWindow {
 public:
     /// Zeroed memory of this process.
     static RegisterWindow in_process();
-    /// Makes zeroed shared memory /dev/shm/NAME, in place of one that a dead process left. Errors name the cause: a
-    /// name with '/', one that a living process holds, what the system refused.
+    /// Creates zeroed shared memory /dev/shm/NAME, replacing that of a dead process. Errors name the cause: a
+    /// name with '/', one that a living process holds, or the system's error.
     static std::expected<RegisterWindow, std::string> create_shared(const std::string& name);
-    /// Attaches to what create_shared made, here or in another process.
+    /// Attaches to memory of create_shared, of this or another process.
     static std::expected<RegisterWindow, std::string> open_shared(const std::string& name);
-    /// The same in a file of this path, which stays when this process ends. The error also where a living process has
+    /// The same in a file of this path, which stays when this process ends. Also an error if a living process has
     /// it.
     static std::expected<RegisterWindow, std::string> create_file(const std::filesystem::path& path);
     /// Attaches to a file or device that can be mapped read-write from its start. Error also where a file is too short.

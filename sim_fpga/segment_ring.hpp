@@ -1,4 +1,4 @@
-// The device's end of the segment ring: whole frames, checked as they are taken off.
+// The device's side of the segment ring: whole frames, checked when they are taken.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-/// One entry as the host wrote it: nothing is checked yet.
+/// One entry as the host wrote it, unchecked.
 struct SegmentEntry {
     std::uint64_t run = 0;
     FrameNumber frame = 0;
@@ -36,14 +36,14 @@ class SegmentRing {
 public:
     explicit SegmentRing(RegisterWindow window) : window_(std::move(window)) {}
 
-    /// Entries taken off since power-up.
+    /// Entries taken since power-up.
     std::uint64_t taken() const { return tail_; }
-    /// The oldest entry. None where the ring is empty, or where the host's head makes no sense.
+    /// The oldest entry. None if the ring is empty, or the host's head is impossible.
     std::optional<SegmentEntry> front() const;
-    /// Takes off entries as long as the oldest is of `run`, or of any other run.
+    /// Takes entries as long as the oldest is of `run`, or of any other run.
     void drop_run(std::uint64_t run);
     void drop_other_runs(std::uint64_t run);
-    /// Takes the oldest entry's frame off. False, and `frame` is not to be used, where it does not begin with its
+    /// Takes the oldest entry's frame. False, and `frame` must not be used, if it does not begin with its
     /// first piece, a piece does not start where and when the one before ends or cannot be executed, or it is too long.
     [[nodiscard]] bool take_frame(LoadedFrame& frame);
 

@@ -1,5 +1,5 @@
 # Completion of the lockstep command for bash. Verbs and options are read from the command's own --help, so that they
-# are those of the version that is installed.
+# match the installed version.
 
 # The verbs, or the parts of a verb, that a help text lists.
 _lockstep_verbs() { awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }' <<<"$1"; }

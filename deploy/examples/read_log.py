@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Reads a Lockstep log with LCM's own Python types, and prints where each axis was and how fast it stepped.
+"""Reads a Lockstep log with LCM's own Python types, and prints the position and step rate of each axis.
 
     export PYTHONPATH=build/share/lockstep/python
     python3 deploy/examples/read_log.py run.lcm --every 0.5
 
-In a notebook the parts serve as well:
+The functions can also be used in a notebook:
 
     import read_log
     steps = [batch for batch in read_log.messages("run.lcm") if isinstance(batch, read_log.step_batch_t)]
@@ -29,14 +29,14 @@ SYNC = 0xEDA1DA01
 
 
 def messages(path):
-    """Every message in the log, decoded, in order; of other types than Lockstep's: none."""
+    """Every message in the log, decoded, in order; skips other types than Lockstep's."""
     with open(path, "rb") as log:
         while header := log.read(EVENT.size):
             if len(header) < EVENT.size:
-                sys.exit(f"{path}: ends within an event; what came before is good")
+                sys.exit(f"{path}: ends within an event; the events before it are valid")
             sync, _, _, channel_length, data_length = EVENT.unpack(header)
             if sync != SYNC:
-                sys.exit(f"{path}: byte {log.tell() - EVENT.size} begins no event; `lockstep analyze` reads on behind it")
+                sys.exit(f"{path}: byte {log.tell() - EVENT.size} begins no event; `lockstep analyze` continues after it")
             log.read(channel_length)
             data = log.read(data_length)
             if data[:8] in TYPES and len(data) == data_length:
