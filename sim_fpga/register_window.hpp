@@ -19,7 +19,7 @@
 namespace lockstep {
 
 /// A handle: all copies access the same registers. The last copy unmaps, and removes the name if it was created here.
-/// Registers whose memory is removed while they are mapped read 0 from then on, all of them, in this process
+/// Registers whose memory is removed while mapped read 0 from then on, all of them, in this process (page_guard.hpp).
 class RegisterWindow {
 public:
     /// Zeroed memory of this process.

@@ -2,7 +2,7 @@
 //
 //   identity-ca.pem permissions-ca.pem governance.p7s   for all
 //   NAME.pem NAME.key NAME.p7s                          for one member: certificate, private key, permissions
-// ca/identity-ca.key ca/permissions-ca.key            used to make members: no process needs them
+//   ca/identity-ca.key ca/permissions-ca.key            used to make members: no process needs them
 #pragma once
 
 #include <chrono>

@@ -46,7 +46,7 @@ struct AnalysisTest : testing::Test {
     }
 };
 
-TEST_F(AnalysisTest, OverridesAreEventsAndSaidOfTheirJob) {
+TEST_F(AnalysisTest, RecordsOverridesAsEventsOfTheirJob) {
     {
         LogMaker maker(log);
         const Program program = path_through({{0, 0}, {10, 0}});
@@ -86,7 +86,7 @@ TEST_F(AnalysisTest, CountsEveryStepOfEveryAxis) {
     EXPECT_DOUBLE_EQ(report.duration_s(), 0.00995);
 }
 
-TEST_F(AnalysisTest, SaysInMmWhatTheJobsConfigurationLetsItSay) {
+TEST_F(AnalysisTest, ReportsMmByTheJobsConfiguration) {
     const Program program = path_through({{0, 0}, {1, 0}});
     {
         LogMaker maker(log);
@@ -107,7 +107,7 @@ TEST_F(AnalysisTest, SaysInMmWhatTheJobsConfigurationLetsItSay) {
     EXPECT_DOUBLE_EQ(report.jobs(0).real_s(), 0.0245);
 }
 
-TEST_F(AnalysisTest, SaysAGapInStepsAndTicks) {
+TEST_F(AnalysisTest, ReportsAGapInStepsAndTicks) {
     {
         LogMaker maker(log);
         maker.steps("X", 0, 0, even_steps(1000, 100, 10));
@@ -126,7 +126,7 @@ TEST_F(AnalysisTest, SaysAGapInStepsAndTicks) {
     EXPECT_EQ(report.notes(0), note);
 }
 
-TEST_F(AnalysisTest, SaysThatTheLastStepsAreNotThere) {
+TEST_F(AnalysisTest, ReportsMissingLastSteps) {
     {
         LogMaker maker(log);
         maker.steps("X", 0, 0, even_steps(1000, 100, 10));
@@ -137,7 +137,7 @@ TEST_F(AnalysisTest, SaysThatTheLastStepsAreNotThere) {
     EXPECT_EQ(to_report(*found).axes(0).missing_steps(), 5);
 }
 
-TEST_F(AnalysisTest, ReadsWhatIsThereOfALogCutShort) {
+TEST_F(AnalysisTest, ReadsTheEventsOfALogCutShort) {
     {
         LogMaker maker(log);
         for (int i = 0; i < 10; ++i) { maker.steps("X", i, i * 10, even_steps(1000 + i * 1000, 100, 10)); }
@@ -151,7 +151,7 @@ TEST_F(AnalysisTest, ReadsWhatIsThereOfALogCutShort) {
     EXPECT_EQ(found->damages[0].first_byte, bytes / 10 * 9);
 }
 
-TEST_F(AnalysisTest, GoesOnBehindADamagedMessage) {
+TEST_F(AnalysisTest, ContinuesAfterADamagedMessage) {
     {
         LogMaker maker(log);
         for (int i = 0; i < 3; ++i) { maker.steps("X", i, i * 10, even_steps(1000 + i * 1000, 100, 10)); }
@@ -181,7 +181,7 @@ TEST_F(AnalysisTest, SurvivesDamageAnywhere) {
     }
 }
 
-TEST_F(AnalysisTest, NamesChannelsThatAreNotLockstepsOwn) {
+TEST_F(AnalysisTest, NamesForeignChannels) {
     {
         LogMaker maker(log);
         maker.foreign("CAMERA");
@@ -207,14 +207,14 @@ TEST_F(AnalysisTest, WritesALineForEachStepAndEachPosition) {
               "tick,position_steps,position_mm,velocity_mm_per_s\n1500,253,2.53,0\n");
 }
 
-TEST_F(AnalysisTest, MeasuresHowFarThePathSteppedIsFromThePathAsked) {
+TEST_F(AnalysisTest, MeasuresDistanceOfSteppedFromCommandedPath) {
     record_right_angle(log, 0);
     EXPECT_LE(analyze_log(log)->largest_distance_mm.value(), 0.01) << "a step";
     record_right_angle(log, 0.5);
     EXPECT_NEAR(analyze_log(log)->largest_distance_mm.value(), 0.5, 0.01);
 }
 
-TEST_F(AnalysisTest, MeasuresNoLineWhereAxesMovedOnTheirOwn) {
+TEST_F(AnalysisTest, MeasuresNoLineIfAxesMovedOnTheirOwn) {
     record_right_angle(log, 0.5, "own-move");
     const auto found = analyze_log(log);
     EXPECT_FALSE(found->largest_distance_mm);
@@ -230,7 +230,7 @@ TEST_F(AnalysisTest, DrawsThreeWellFormedFigures) {
     EXPECT_NE(text_of(directory / "xy.svg").find("as asked"), std::string::npos);
 }
 
-TEST_F(AnalysisTest, DrawsPositionsWhereThereIsNoPlane) {
+TEST_F(AnalysisTest, DrawsPositionsWithoutAPlane) {
     {
         LogMaker maker(log);
         maker.steps("Z", 0, 0, even_steps(1000, 100, 10));
@@ -239,7 +239,7 @@ TEST_F(AnalysisTest, DrawsPositionsWhereThereIsNoPlane) {
     EXPECT_EQ(text_of(directory / "xy.svg"), text_of(directory / "position.svg"));
 }
 
-TEST_F(AnalysisTest, SaysClearlyWhatIsNoLog) {
+TEST_F(AnalysisTest, ReportsClearlyThatAFileIsNotALog) {
     EXPECT_NE(error().find("No such file"), std::string::npos) << error();
     std::ofstream(log).close();
     EXPECT_NE(error().find("empty"), std::string::npos) << error();

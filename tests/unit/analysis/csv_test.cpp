@@ -28,7 +28,7 @@ TEST(StepCsv, HasALineForEachStepWithThePositionAfterIt) {
     EXPECT_EQ(text_of(path), "tick,position\n100,0\n110,1\n120,2\n9000000000,1\n");
 }
 
-TEST(CsvFile, SaysWhichFileCannotBeWritten) {
+TEST(CsvFile, ReportsTheFileThatCannotBeWritten) {
     const auto file = CsvFile::create("/nowhere/at/all.csv", "a");
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error(), "/nowhere/at/all.csv: cannot be written: No such file or directory");

@@ -1,4 +1,4 @@
-// How far each move went from its line, from steps in the order of time, and from some that come late.
+// The distance of each move from its line, from steps in the order of time, and from late ones.
 #include "clients/analysis/measure/job_moves.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST_F(LateSteps, InTheOrderOfTimeEachMoveHasItsDistance) {
     EXPECT_EQ(job.moves_without_distance(), 0);
 }
 
-TEST_F(LateSteps, LeaveTheDistancesOfTheMovesMeanwhileUnknownAndNoOthers) {
+TEST_F(LateSteps, LeaveOnlyTheDistancesOfTheMovesMeanwhileUnknown) {
     both(1000, 0, 50);
     move(0, 6000, 50, 150);  // into the second move
     move(1, 6001, 50, 50);   // of the first

@@ -1,4 +1,4 @@
-// Logs as a machine would record them, for the tests here.
+// Logs like those of a machine, for the tests here.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 
 namespace lockstep::test {
 
-/// A directory of the test's own.
+/// A directory for one test.
 inline std::filesystem::path test_directory() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
     const auto path =

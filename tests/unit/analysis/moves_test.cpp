@@ -1,4 +1,4 @@
-// Each move of a job is measured by itself, and whether all was good is said.
+// Each move of a job is measured separately, and the result is rated.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -36,7 +36,7 @@ struct Moves : testing::Test {
     }
 };
 
-TEST_F(Moves, HaveTheStepsAskedAndMade) {
+TEST_F(Moves, HaveTheCommandedSteps) {
     const auto report = there_and_back(1000);
     ASSERT_EQ(report.jobs_size(), 1);
     const auto& job = report.jobs(0);
@@ -52,7 +52,7 @@ TEST_F(Moves, HaveTheStepsAskedAndMade) {
     EXPECT_EQ(report.verdict(), "good");
 }
 
-/// 999 intervals of 200 us, and what the plan has before the first step and behind the last.
+/// 999 intervals of 200 us, plus the planned times before the first step and after the last.
 TEST_F(Moves, LastFromTheFirstStepToTheLast) {
     const auto report = there_and_back(1000);
     const double ends = report.jobs(0).moves(0).real_s() - 999 * 200e-6;
@@ -60,9 +60,9 @@ TEST_F(Moves, LastFromTheFirstStepToTheLast) {
     EXPECT_LT(ends, 0.01);
 }
 
-TEST_F(Moves, ThatAreNotAsAskedAreBad) {
+TEST_F(Moves, ThatAreNotAsCommandedAreBad) {
     const auto report = there_and_back(1003);
-    EXPECT_EQ(report.jobs(0).unasked_steps(), 6) << "three there, and three to come back";
+    EXPECT_EQ(report.jobs(0).unasked_steps(), 6) << "three there, and three back";
     EXPECT_EQ(report.verdict(), "bad");
     EXPECT_NE(report.findings(0).text().find("6 were not commanded"), std::string::npos);
 }
@@ -74,7 +74,7 @@ TEST_F(Moves, OfAJobWithoutItsEndAreDoubtful) {
     EXPECT_EQ(there_and_back(1000, "failed").verdict(), "bad");
 }
 
-/// Where the record is damaged, what was made is not known.
+/// If the record is damaged, the motion made is not known.
 TEST_F(Moves, OfADamagedLogAreDoubtful) {
     there_and_back(1000);
     std::ostringstream text;
@@ -109,8 +109,8 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
     EXPECT_EQ(report.unread(0).reason(), "not a step_batch_t of this version on LOCKSTEP_MILL_X_STEPS");
 }
 
-/// Positions and events of jobs are numbered, so that their loss is known, whatever steps say.
-TEST_F(Moves, OfWhichEventsWereLostAreDoubtful) {
+/// Positions and events of jobs are numbered, so that their loss is known, even without lost steps.
+TEST_F(Moves, WithLostEventsAreDoubtful) {
     {
         test::LogMaker maker(log);
         maker.position(0, 1000, 0);

@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(NumberSet, KnowsWhatIsMissingBelowTheHighest) {
+TEST(NumberSet, FindsNumbersMissingBelowTheHighest) {
     NumberSet numbers;
     for (const std::int64_t number : {2, 3, 7}) { EXPECT_TRUE(numbers.add(number)); }
     EXPECT_THAT(numbers.gaps(), ElementsAre(Numbers{0, 2}, Numbers{4, 7}));

@@ -64,13 +64,13 @@ TEST(Course, IsZeroInRestsAndSignedBackwards) {
     EXPECT_EQ(statistics.highest_steps(), 200);
 }
 
-TEST(Course, ClaimsNoRestWhereStepsAreMissing) {
+TEST(Course, ShowsNoRestWhereStepsAreMissing) {
     AxisStatistics statistics;
     statistics.on_batch(batch(0, 0, even_steps(0, 100, 200)));
     statistics.on_break({.kind = Break::Kind::Missing, .missing_batches = 1, .position_change = 5000});
     statistics.on_batch(batch(2, 5200, even_steps(520'000, 100, 200)));
     const auto samples = statistics.speed();
-    EXPECT_EQ(std::ranges::count(samples, 0.0, &Sample::value), 1) << "the beginning alone";
+    EXPECT_EQ(std::ranges::count(samples, 0.0, &Sample::value), 1) << "only the beginning";
 }
 
 TEST(Course, StaysBoundedAndKeepsThePeak) {

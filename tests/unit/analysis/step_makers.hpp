@@ -1,4 +1,4 @@
-// Steps as a machine would make them, for the tests here.
+// Steps like those of a machine, for the tests here.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Steps of several axes in the order of time, whoever tells late of them.
+// Steps of several axes in the order of time, even if an axis delivers them late.
 #include "clients/analysis/measure/step_merge.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ class Merging : public testing::Test {
 protected:
     explicit Merging(std::size_t max_waiting = StepMerge::kMaxWaiting) : merge(max_waiting) {}
 
-    /// Forward steps, the first at `first`, up to `end`, that not among them.
+    /// Forward steps, the first at `first`, up to `end`, exclusive.
     static SharedSteps steps(std::int64_t first, std::int64_t interval, std::int64_t end) {
         MeasuredSteps made;
         for (std::int64_t tick = first; tick < end; tick += interval) {
@@ -19,49 +19,48 @@ protected:
         return std::make_shared<MeasuredSteps>(std::move(made));
     }
     std::size_t settled() {
-        merge.settle(tell);
-        return told.size();
+        merge.settle(deliver);
+        return delivered.size();
     }
     std::size_t finished() {
-        merge.finish(tell);
-        return told.size();
+        merge.finish(deliver);
+        return delivered.size();
     }
 
     StepMerge merge;
     const std::size_t x = merge.add_lane();
     const std::size_t y = merge.add_lane();
-    std::vector<std::int64_t> told;
-    const std::function<void(std::size_t, const MeasuredStep&)> tell = [this](std::size_t, const MeasuredStep& step) {
-        told.push_back(step.tick.value);
-    };
+    std::vector<std::int64_t> delivered;
+    const std::function<void(std::size_t, const MeasuredStep&)> deliver =
+        [this](std::size_t, const MeasuredStep& step) { delivered.push_back(step.tick.value); };
 };
 
-TEST_F(Merging, TellsAStepWhenNoAxisCanTellOfAnEarlierOne) {
+TEST_F(Merging, DeliversAStepWhenNoAxisCanDeliverAnEarlierOne) {
     merge.take(x, steps(0, 10, 1000));
-    EXPECT_EQ(settled(), 0U) << "Y has told nothing";
+    EXPECT_EQ(settled(), 0U) << "Y has delivered nothing";
     merge.take(y, steps(3, 7, 500));
     EXPECT_EQ(settled(), 50U + 70U) << "all before Y's newest, at 493";
     EXPECT_EQ(finished(), 100U + 71U);
-    EXPECT_TRUE(std::ranges::is_sorted(told));
+    EXPECT_TRUE(std::ranges::is_sorted(delivered));
 }
 
-TEST_F(Merging, WaitsForAnAxisThatIsLateHoweverLate) {
+TEST_F(Merging, WaitsForALateAxisForAnyTime) {
     merge.take(y, steps(0, 10, 100));
     merge.stands(y, Tick{95}, 10);
     merge.take(x, steps(0, 10, 5'000'000));
     EXPECT_EQ(settled(), 9U + 9U);
-    merge.stands(y, Tick{4'000'000}, 700);  // elsewhere: it has told of its place, but not of its steps
+    merge.stands(y, Tick{4'000'000}, 700);  // elsewhere: it has reported its position, but not its steps
     EXPECT_EQ(settled(), 9U + 9U);
     merge.take(y, steps(100, 10, 2'000'000));
     EXPECT_EQ(finished(), 500'000U + 200'000U);
-    EXPECT_TRUE(std::ranges::is_sorted(told));
+    EXPECT_TRUE(std::ranges::is_sorted(delivered));
 }
 
-TEST_F(Merging, DoesNotWaitForAnAxisThatSaysItStandsStill) {
+TEST_F(Merging, DoesNotWaitForAnAxisThatReportsStandstill) {
     merge.take(y, steps(0, 10, 100));
     merge.take(x, steps(0, 10, 5'000'000));
     merge.stands(y, Tick{4'000'000}, 10);
-    EXPECT_EQ(settled(), 10U + 350'000U) << "but for what clocks may be off";
+    EXPECT_EQ(settled(), 10U + 350'000U) << "except for the clock error";
 }
 
 class MergingLittle : public Merging {
@@ -69,15 +68,15 @@ protected:
     MergingLittle() : Merging(1000) {}
 };
 
-TEST_F(MergingLittle, KeepsNoMoreThanItMayAndGoesOnWithoutWhoHoldsItUp) {
+TEST_F(MergingLittle, IsBoundedAndContinuesWithoutTheSlowestAxis) {
     merge.take(y, steps(0, 10, 100));
     merge.take(x, steps(0, 10, 5000));
     EXPECT_EQ(settled(), 9U + 9U);
     merge.take(x, steps(5000, 10, 10'100));
-    EXPECT_EQ(settled(), 10U + 1009U) << "Y is waited for no longer";
+    EXPECT_EQ(settled(), 10U + 1009U) << "Y is no longer awaited";
     merge.take(y, steps(11'000, 10, 11'500));
     merge.take(x, steps(10'100, 10, 12'000));
-    EXPECT_EQ(settled(), 10U + 1149U + 49U) << "and again since it tells of steps";
+    EXPECT_EQ(settled(), 10U + 1149U + 49U) << "and again since it delivers steps";
     EXPECT_EQ(finished(), 10U + 1200U + 50U);
 }
 

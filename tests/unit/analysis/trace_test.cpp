@@ -51,7 +51,7 @@ TEST(Trace, RestsOnWholeSteps) {
     EXPECT_DOUBLE_EQ(trace.knots().back().position_steps, 20);
 }
 
-TEST(Trace, StaysBoundedAndSaysItsError) {
+TEST(Trace, StaysBoundedAndReportsItsError) {
     std::mt19937 random(3);
     std::vector<StepEdge> steps;
     std::int64_t tick = 0;

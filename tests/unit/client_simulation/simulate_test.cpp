@@ -1,4 +1,4 @@
-// A simulation is as long as its plan, ends where the program does, and leaves the same record every time.
+// A simulation lasts as long as its plan, ends at the program's end, and leaves the same record every time.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -88,7 +88,7 @@ TEST(Simulate, AHomingThatFailsIsAResult) {
     EXPECT_FALSE(result->trouble.empty());
 }
 
-TEST(Simulate, GivesUpWhenTold) {
+TEST(Simulate, IsCancelledByTheCaller) {
     const MachineConfig machine = example("two-axis");
     NoSink nowhere;
     const SimulationHooks hooks{.progress = [](double) { return false; }, .stopwatch = {}};
@@ -102,13 +102,13 @@ TEST(NewLogFile, ReplacesALogButNothingElse) {
     EXPECT_FALSE(NewLogFile::begin(notes, false).has_value());
     EXPECT_FALSE(NewLogFile::begin(directory, true).has_value());
     EXPECT_TRUE(NewLogFile::begin(notes, true).has_value());
-    EXPECT_EQ(bytes_of(notes), "not a log\n");  // not kept: nothing has happened
+    EXPECT_EQ(bytes_of(notes), "not a log\n");  // not kept: nothing has changed
     const MachineConfig machine = example("two-axis");
     simulate_into(directory / "run.lcm", machine, program_of(machine, "G0 X6\n"));
     simulate_into(directory / "run.lcm", machine, program_of(machine, "G0 X7\n"));
 }
 
-TEST(NewLogFile, WhatIsNotKeptLeavesNothing) {
+TEST(NewLogFile, LeavesNoFileIfNotKept) {
     const auto directory = test::test_directory() / "empty";
     std::filesystem::create_directories(directory);
     { auto log = NewLogFile::begin(directory / "run.lcm", false); }

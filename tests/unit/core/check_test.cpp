@@ -27,7 +27,7 @@ TEST(CheckDeath, RefusesAPointerToNothing) {
     EXPECT_DEATH(check_found(nothing, "a number is found"), "a number is found");
 }
 
-TEST(StaticVectorDeath, LosesNoValueAndReadsNoneThatIsNotThere) {
+TEST(StaticVectorDeath, LosesNoValueAndReadsNoMissingOne) {
     StaticVector<int, 2> full{1, 2};
     EXPECT_DEATH(full.append(3), "has room");
     EXPECT_DEATH((void)full[2], "below its vector's size");
@@ -38,7 +38,7 @@ TEST(StaticVectorDeath, LosesNoValueAndReadsNoneThatIsNotThere) {
     EXPECT_DEATH(empty.pop_back(), "last value");
 }
 
-TEST(StaticVector, SaysWhenItIsFull) {
+TEST(StaticVector, ReportsThatItIsFull) {
     StaticVector<int, 1> values;
     EXPECT_TRUE(values.push_back(1));
     EXPECT_FALSE(values.push_back(2));

@@ -29,20 +29,20 @@ TEST(ProgramFrom, ALineGoesFirstToWhereItBegins) {
     EXPECT_EQ(move(*rest, 1).target_mm, (std::vector<double>{20, 30}));
 }
 
-TEST(ProgramFrom, WhereTheMachineStandsThereAlreadyItJustGoesOn) {
+TEST(ProgramFrom, ContinuesDirectlyIfTheMachineIsThere) {
     const auto rest = program_from(square(), 6, {20, 30});
     ASSERT_TRUE(rest.has_value());
     ASSERT_EQ(rest->blocks.size(), 1u);
     EXPECT_FALSE(move(*rest, 0).rapid);
 }
 
-TEST(ProgramFrom, ALineWithoutMotionIsTheNextThatHasSome) {
+TEST(ProgramFrom, ALineWithoutMotionMeansTheNextWithMotion) {
     const auto rest = program_from(square(), 4, {20, 30});
     ASSERT_TRUE(rest.has_value());
     EXPECT_EQ(rest->blocks.front().line, 5);
 }
 
-TEST(ProgramFrom, ALineBehindTheLastIsRefused) {
+TEST(ProgramFrom, ALineAfterTheLastIsRefused) {
     EXPECT_EQ(program_from(square(), 7, {20, 30}).error(), "nothing is left from line 7; the last motion is in line 6");
 }
 

@@ -1,4 +1,4 @@
-// What the doctor says of a host: what is wrong with it, and what mends it.
+// The doctor's findings about a host: problems and their remedies.
 #include "clients/doctor/ratings.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 constexpr InterfaceFacts kFine{.exists = true, .up = true, .has_address = true, .multicast = true};
 const NetworkConfig kEthernet{.interface = "eth0"};
 
-TEST(DoctorOnTheInterface, NamesWhatIsMissingAndTheCommandThatMendsIt) {
+TEST(DoctorOnTheInterface, NamesTheProblemAndTheCommandThatCorrectsIt) {
     EXPECT_EQ(rate_interface(kEthernet, kFine).rating, Rating::Good);
     EXPECT_THAT(rate_interface({.interface = "eth7"}, {}).found, HasSubstr("no interface eth7"));
     EXPECT_EQ(rate_interface(kEthernet, {.exists = true}).remedy, "ip link set eth0 up");
@@ -22,23 +22,23 @@ TEST(DoctorOnTheInterface, NamesWhatIsMissingAndTheCommandThatMendsIt) {
     InterfaceFacts silent = kFine;
     silent.multicast = false;
     EXPECT_EQ(rate_interface(kEthernet, silent).remedy, "ip link set eth0 multicast on; or network.peers");
-    EXPECT_EQ(rate_interface({.interface = "lo"}, silent).rating, Rating::Good) << "lo carries it all the same";
+    EXPECT_EQ(rate_interface({.interface = "lo"}, silent).rating, Rating::Good) << "lo supports it anyway";
 }
 
-TEST(DoctorOnMulticast, ARouteIsNeededAndWhatIsSentMustComeBack) {
+TEST(DoctorOnMulticast, NeedsARouteAndReceptionOfItsOwnMessages) {
     EXPECT_EQ(rate_route({}, {}, true).rating, Rating::Good);
     EXPECT_EQ(rate_route({}, std::unexpected("no route"), {}).remedy, "ip route add 224.0.0.0/4 dev lo");
     EXPECT_EQ(rate_route({}, {}, false).rating, Rating::Bad);
 }
 
-TEST(DoctorOnMulticast, IsNotNeededWherePeersAreNamed) {
+TEST(DoctorOnMulticast, IsNotNeededWithNamedPeers) {
     const NetworkConfig peers{.interface = "eth0", .peers = {"10.0.0.1"}};
     EXPECT_EQ(rate_interface(peers, {.exists = true, .up = true, .has_address = true}).rating, Rating::Good);
     EXPECT_EQ(rate_route(peers, std::unexpected("no route"), {}).rating, Rating::Good);
     EXPECT_THAT(rate_route(peers, {}, false).found, HasSubstr("LCM cannot"));
 }
 
-TEST(DoctorOnTheBuffer, ASmallerOneThanTheUrlAsksForMayLoseBursts) {
+TEST(DoctorOnTheBuffer, ASmallerOneThanTheUrlRequestsMayLoseBursts) {
     EXPECT_EQ(buffer_asked(NetworkConfig{}.lcm_url), 4'194'304);
     EXPECT_EQ(rate_buffer(4'194'304, 4'194'304).rating, Rating::Good);
     const Finding small = rate_buffer(4'194'304, 212'992);
@@ -69,7 +69,7 @@ TEST(DoctorOnStates, ManyAxesOnOneHostShareTheirMemory) {
     EXPECT_EQ(rate_states(machine, std::unexpected(std::string("no space left"))).rating, Rating::Bad);
 }
 
-TEST(DoctorOnRealTime, WhatIsRefusedIsBadOnlyWhereItIsAskedFor) {
+TEST(DoctorOnRealTime, ARefusalIsBadOnlyIfRequested) {
     const RealTimeFacts refused{.scheduler = "not permitted", .memory = "the limit is 64 KB"};
     EXPECT_EQ(rate_scheduler({}, refused).rating, Rating::Good);
     EXPECT_EQ(rate_scheduler({.priority = 80}, refused).rating, Rating::Bad);
@@ -77,7 +77,7 @@ TEST(DoctorOnRealTime, WhatIsRefusedIsBadOnlyWhereItIsAskedFor) {
     EXPECT_EQ(rate_scheduler({.priority = 80}, {}).rating, Rating::Good);
 }
 
-TEST(DoctorOnStalls, AreJudgedByWhatTheTimingBears) {
+TEST(DoctorOnStalls, AreRatedByTheTimingsAllowance) {
     const ProtocolTiming bears_100_ms;
     EXPECT_EQ(rate_stalls(bears_100_ms, {.worst_us = 30'000, .seconds = 3}).rating, Rating::Good);
     EXPECT_EQ(rate_stalls(bears_100_ms, {.worst_us = 60'000, .seconds = 3}).rating, Rating::Doubtful);
@@ -86,7 +86,7 @@ TEST(DoctorOnStalls, AreJudgedByWhatTheTimingBears) {
     EXPECT_THAT(bad.remedy, HasSubstr("timing { slot_us: 50000 stall_slots: 5"));
 }
 
-TEST(DoctorOnStalls, WhatItProposesIsAcceptedAndBearsTwiceWhatWasSeen) {
+TEST(DoctorOnStalls, ProposedTimingIsAcceptedAndAllowsTwiceTheMeasuredStall) {
     for (const double worst_us : {0.0, 80.0, 400.0, 3'000.0, 20'000.0, 50'000.0, 240'000.0}) {
         MachineConfig machine{.name = "m", .timing = timing_for({.worst_us = worst_us})};
         machine.axes = {{.name = "X",
@@ -116,7 +116,7 @@ TEST(DoctorOnTheClock, PtpNeedsAServiceThatKeepsIt) {
     EXPECT_EQ(rate_clock(TimeSource::Shared, {.source = "hpet"}).rating, Rating::Doubtful);
 }
 
-TEST(DoctorOnProcesses, OneOfAnotherConfigurationIsBadAndOneNotHeardMayNotBeUpYet) {
+TEST(DoctorOnProcesses, AnotherConfigurationIsBadAndAMissingProcessIsDoubtful) {
     EXPECT_EQ(rate_process({"axis X", true, 7}, 7).rating, Rating::Good);
     EXPECT_EQ(rate_process({"axis X", true, 8}, 7).rating, Rating::Bad);
     EXPECT_EQ(rate_process({"axis X"}, 7).rating, Rating::Doubtful);

@@ -1,4 +1,4 @@
-// The example machines and the example job are valid, and what their comments promise.
+// The example machines and the example job are valid, and match their comments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ Program plate() {
     return {};
 }
 
-TEST(Examples, MachinesHaveTheAxesTheirNamesSay) {
+TEST(Examples, MachinesHaveTheAxesOfTheirNames) {
     EXPECT_EQ(machine("two-axis.textproto").axes.size(), 2U);
     EXPECT_EQ(machine("three-axis.textproto").axes.size(), 3U);
     EXPECT_EQ(machine("three-containers.textproto").axes.size(), 3U);
@@ -61,7 +61,7 @@ TEST(Examples, ThePlateBeginsAndEndsParked) {
     EXPECT_EQ(std::get<LinearMove>(program.blocks.back().action).target_mm, parked(mill));
 }
 
-/// The time at feed alone, with rapids at the axes' top speed: the least the job can take.
+/// The time at feed alone, with rapids at the axes' top speed: a lower bound of the job's duration.
 double least_seconds(const Program& program, const MachineConfig& machine) {
     double seconds = 0;
     std::vector<double> at = program.start_mm;
@@ -87,14 +87,14 @@ TEST(Examples, ThePlateTakesAboutHalfAMinute) {
     EXPECT_LT(seconds, 35);
 }
 
-TEST(Examples, ThePlatePausesOnlyWhereAskedTo) {
+TEST(Examples, ThePlatePausesOnlyOnRequest) {
     const MachineConfig mill = machine("three-axis.textproto");
     const auto asked =
         load_gcode_file(kExamples / "plate.gcode", mill, parked(mill), {.pause_at_m1 = true, .skip_deletable = false});
     EXPECT_EQ(asked.value().blocks.size(), plate().blocks.size() + 1);
 }
 
-TEST(ProgramFile, ErrorsAreTheFilesAndTheStartMustFitTheMachine) {
+TEST(ProgramFile, ReportsTheFilesErrorsAndAStartThatDoesNotFit) {
     const MachineConfig plotter = machine("two-axis.textproto");
     const auto without_z = load_gcode_file(kExamples / "plate.gcode", plotter, parked(plotter));
     ASSERT_FALSE(without_z.has_value());

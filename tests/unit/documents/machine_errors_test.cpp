@@ -1,4 +1,4 @@
-// What is refused in a configuration, where, and what the message says.
+// The errors in a configuration: their place and message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ struct Refusal {
     std::string text;
     int line;
     int column;
-    std::string says;
-    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.says; }
+    std::string message;
+    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.message; }
 };
 
 class MachineRefused : public testing::TestWithParam<Refusal> {};
@@ -31,7 +31,7 @@ TEST_P(MachineRefused, WithPlaceValueAndRemedy) {
     ASSERT_EQ(found.size(), 1U) << refusal.text << "\n" << to_text("machine", found);
     EXPECT_EQ(found[0].line, refusal.line) << found[0].message;
     EXPECT_EQ(found[0].column, refusal.column) << found[0].message;
-    EXPECT_THAT(found[0].message, HasSubstr(refusal.says));
+    EXPECT_THAT(found[0].message, HasSubstr(refusal.message));
 }
 
 INSTANTIATE_TEST_SUITE_P(Syntax, MachineRefused,
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "above 0"},
         Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));
 
-TEST(MachineErrors, EverythingThatIsWrongIsSaidInTheOrderOfTheText) {
+TEST(MachineErrors, ReportsEveryErrorInTheOrderOfTheText) {
     const Diagnostics found = errors(machine_with("tick_ns: 5") +
                                      "axis {\n  name: \"x\"\n}\naxis { name: \"Y\"\n"
                                      "steps_per_mm: -1 start_velocity_mm_s: 10 max_velocity_mm_s: 5\n"

@@ -1,4 +1,4 @@
-// What a configuration comes to: its defaults, its text and its hash.
+// The result of a configuration: its defaults, its text and its hash.
 #include "services/documents/machine_file.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ MachineConfig parse(std::string_view text) {
     return {};
 }
 
-TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
+TEST(MachineFile, AbsentKeysHaveTheDocumentedDefaults) {
     const MachineConfig machine = parse(kShortest);
     EXPECT_EQ(machine.tick_ns, 1000);
     EXPECT_EQ(machine.timing.slot_us, 10'000);
@@ -36,17 +36,17 @@ TEST(MachineFile, WhatIsNotSaidHasTheDefaultsThatAreDocumented) {
     EXPECT_EQ(machine.axes[0].max_decel_mm_s2, 1500);
 }
 
-TEST(MachineFile, TimeComesFromOneHostUnlessSaidOtherwise) {
+TEST(MachineFile, TimeComesFromOneHostByDefault) {
     EXPECT_EQ(parse(kShortest).timing.time_source, TimeSource::Shared);
     const ProtocolTiming timing = parse(machine_with("timing { time_source: NETWORK slot_us: 4000 }")).timing;
     EXPECT_EQ(timing.time_source, TimeSource::Network);
-    EXPECT_EQ(timing.clock_error_limit_us, 1000) << "what a hop leaves: a quarter of the slot";
+    EXPECT_EQ(timing.clock_error_limit_us, 1000) << "the rest of a hop: a quarter of the slot";
     const auto ptp = machine_with("timing { time_source: PTP clock_error_limit_us: 5 }");
     EXPECT_EQ(parse(ptp).timing.clock_error_limit_us, 5);
     EXPECT_EQ(parse(machine_text(parse(ptp))).timing.time_source, TimeSource::Ptp);
 }
 
-TEST(MachineFile, AnAxisHasASafeHeightOnlyWhereItIsGiven) {
+TEST(MachineFile, AnAxisHasASafeHeightOnlyIfItIsGiven) {
     const MachineConfig machine = parse(axis_with("safe_height_mm: 40"));
     EXPECT_EQ(machine.axes.at(0).safe_height_mm, 40);
     EXPECT_EQ(parse(machine_text(machine)).axes.at(0).safe_height_mm, 40);
@@ -69,7 +69,7 @@ TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     EXPECT_EQ(parse(with("max_mm: 200", "max_mm: 10")).axes.at(0).homing.pulloff_mm, 1);
 }
 
-TEST(MachineFile, OwnMovesAreMadeByTheMethodThatIsNamed) {
+TEST(MachineFile, OwnMovesUseTheNamedMethod) {
     EXPECT_EQ(parse(kShortest).axes.at(0).method, StepMethod::Ranade);
     EXPECT_EQ(parse(axis_with("method: RANADE")).axes.at(0).method, StepMethod::Ranade);
     EXPECT_EQ(parse(axis_with("method: SPIELAUER")).axes.at(0).method, StepMethod::Spielauer);
@@ -109,7 +109,7 @@ TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
     }
 }
 
-TEST(MachineFile, TheHashIsOfWhatIsMeantAndNotOfHowItIsWritten) {
+TEST(MachineFile, TheHashDependsOnTheMeaningNotOnTheText) {
     const std::uint64_t hash = config_hash(parse(kShortest));
     EXPECT_NE(hash, 0U);
     EXPECT_EQ(config_hash(parse("# a comment\n" + machine_with("tick_ns: 1000"))), hash);

@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// Line by line, so that places can be told: name is line 1, the axis begins on line 2.
+/// Line by line, so that places are known: name is line 1, the axis begins on line 2.
 inline constexpr std::string_view kShortest = R"(name: "m"
 axis {
   name: "X"

@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The coordinator and X on "mill"; Y and Z on boards of their own; a turntable that goes wherever it is started.
+/// The coordinator and X on "mill"; Y and Z on their own boards; a turntable without a host.
 MachineConfig boards() {
     MachineConfig machine{.name = "mill", .coordinator_host = "mill.lan"};
     machine.axes = {{.name = "X", .host = "mill"},
@@ -20,7 +20,7 @@ MachineConfig boards() {
     return machine;
 }
 
-TEST(Placement, IsWhatTheFilePutsOnAHostAndWhatItPutsNowhere) {
+TEST(Placement, ContainsThePartsPlacedOnAHostAndThosePlacedNowhere) {
     const Placement mill = placed_on(boards(), "mill");
     EXPECT_TRUE(mill.coordinator);
     EXPECT_THAT(mill.axes, ElementsAre(0, 3));
@@ -36,12 +36,12 @@ TEST(Placement, NamesOfAHostDifferInCapitalsAndByItsDomain) {
     EXPECT_THAT(hosts_of(boards()), ElementsAre("mill.lan", "Board-Y", "board-z.lan"));
 }
 
-TEST(AxisToRun, IsTheOneNamedOrTheOnlyOneOfThisHost) {
+TEST(AxisToRun, IsTheNamedOneOrTheOnlyOneOfThisHost) {
     EXPECT_EQ(axis_to_run(boards(), "Z", "mill"), 2U);
     EXPECT_EQ(axis_to_run(boards(), "", "board-y"), 1U);
 }
 
-TEST(AxisToRun, WhereThereIsNoneOrSeveralItIsSaidWhichThereAre) {
+TEST(AxisToRun, ListsTheAxesIfNoneOrSeveralFit) {
     EXPECT_THAT(axis_to_run(boards(), "W", "mill").error(), HasSubstr("no axis W; it has: X (mill) Y (Board-Y)"));
     EXPECT_THAT(axis_to_run(boards(), "", "laptop").error(), HasSubstr("no axis on this host, laptop"));
     MachineConfig two = boards();

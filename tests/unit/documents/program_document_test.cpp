@@ -1,4 +1,4 @@
-// A program crosses the network and files unchanged, and nothing else passes for one.
+// A program passes the network and files unchanged, and no other bytes are accepted as one.
 #include "services/documents/program_document.hpp"
 
 #include <gmock/gmock.h>
@@ -72,9 +72,9 @@ TEST(ProgramDocument, EveryByteMayBeWrong) {
 }
 
 struct Refusal {
-    std::string says;
+    std::string message;
     std::function<void(Program&)> spoil;
-    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.says; }
+    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.message; }
 };
 
 class ProgramRefused : public testing::TestWithParam<Refusal> {};
@@ -83,8 +83,8 @@ TEST_P(ProgramRefused, WithTheValueAndTheBlock) {
     Program program = example();
     GetParam().spoil(program);
     const auto read = program_from_bytes(program_bytes(program));
-    ASSERT_FALSE(read.has_value()) << GetParam().says;
-    EXPECT_THAT(read.error(), HasSubstr(GetParam().says));
+    ASSERT_FALSE(read.has_value()) << GetParam().message;
+    EXPECT_THAT(read.error(), HasSubstr(GetParam().message));
 }
 
 LinearMove& move(Program& program, std::size_t i) { return std::get<LinearMove>(program.blocks[i].action); }
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"block 3: the dwell is -1", [](Program& p) { p.blocks[2].action = Dwell{-1}; }},
                     Refusal{"block 3: the dwell is nan", [](Program& p) { p.blocks[2].action = Dwell{kNan}; }}));
 
-TEST(ProgramDocument, ABlockThatDoesNothingKnownIsRefused) {
+TEST(ProgramDocument, ABlockWithAnUnknownActionIsRefused) {
     const auto program = program_from_text("axes: \"X\" start_mm: 0 blocks { line: 3 }");
     ASSERT_FALSE(program.has_value());
     EXPECT_EQ(program.error(), "block 1: no action known here");

@@ -1,4 +1,4 @@
-// Every range and default that machine.proto states is the one that the code has. docs/configuration.md is made from
+// Every range and default that machine.proto states is the code's. docs/configuration.md is made from
 // the same comments.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Reports are JSON that other programs rely on: keys as documented, zeros written, what is unknown left out.
+// Reports are JSON for other programs: keys as documented, zeros written, unknown values left out.
 #include "services/documents/report_json.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ TEST(ReportJson, KeysAreThoseOfTheSchemaAndZerosAreWritten) {
     EXPECT_EQ(json.back(), '\n');
 }
 
-TEST(ReportJson, WhatIsUnknownIsLeftOutAndZeroIsKnown) {
+TEST(ReportJson, UnknownValuesAreLeftOutAndZerosAreNot) {
     proto::StatusReport report;
     EXPECT_THAT(report_json(report), Not(HasSubstr("progress")));
     EXPECT_THAT(report_json(report), Not(HasSubstr("fault")));

@@ -51,7 +51,7 @@ TEST(DecimatePath, StaysWithinTheToleranceOnACircle) {
     EXPECT_LE(farthest_from(kept, circle), 0.2 + 1e-9);
 }
 
-TEST(DecimatePath, KeepsTheTipWhereThePathTurnsBackOnItself) {
+TEST(DecimatePath, KeepsTheTipOfAReversal) {
     const std::vector<Point> there_and_back = {{0, 0}, {5, 0}, {10, 0}, {5, 0}, {0, 0}, {-3, 0}};
     EXPECT_EQ(decimate_path(there_and_back, 0.2), (std::vector<Point>{{0, 0}, {10, 0}, {-3, 0}}));
 }

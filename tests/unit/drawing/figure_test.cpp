@@ -28,7 +28,7 @@ std::size_t count(std::string_view text, std::string_view part) {
     return found;
 }
 
-TEST(Figure, IsWellFormedWhateverTheWordsHold) {
+TEST(Figure, IsWellFormedForAnyText) {
     Figure figure{.title = "a < b & \"c\"", .subtitle = "x > y\x01", .x_label = "time, s", .rows = {Chart{}}};
     figure.rows[0].series = {ramp("<&>", 10)};
     figure.rows[0].marks = {{0, 0, "start & end"}};
@@ -36,7 +36,7 @@ TEST(Figure, IsWellFormedWhateverTheWordsHold) {
     EXPECT_EQ(xml_problem(to_svg(figure)), std::nullopt);
 }
 
-TEST(Figure, StandsWithEmptyAxesWhereThereIsNothingToShow) {
+TEST(Figure, HasEmptyAxesWithoutData) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     Figure figure{.title = "nothing", .rows = {Chart{}, Chart{.series = {Series{.x = {none}, .y = {1}}}}}};
     EXPECT_EQ(xml_problem(to_svg(figure)), std::nullopt);
@@ -49,7 +49,7 @@ TEST(Figure, StaysSmallForAMillionPoints) {
     EXPECT_LT(to_svg(figure).size(), 80'000U);
 }
 
-TEST(Figure, BreaksACurveWhereAValueIsMissing) {
+TEST(Figure, BreaksACurveAtAMissingValue) {
     Series series{.x = {0, 1, 2, 3, 4}, .y = {1, 2, std::numeric_limits<double>::quiet_NaN(), 2, 1}};
     const std::string svg = to_svg({.rows = {Chart{.series = {series}}}});
     EXPECT_EQ(count(svg, "M"), 2U);
@@ -60,7 +60,7 @@ TEST(Figure, NamesEachLabelOnceInTheLegend) {
     EXPECT_EQ(count(to_svg({.rows = {row, row, row}}), "as asked"), 1U);
 }
 
-TEST(Figure, MakesAMillimetreAsLongUpwardsAsSideways) {
+TEST(Figure, HasEqualScalesInBothDirections) {
     for (const double height : {1.0, 30.0, 900.0}) {
         const Figure figure{.rows = {Chart{.series = {Series{.x = {0, 120}, .y = {0, height}}}}}, .equal_aspect = true};
         const Panel panel = arrange(figure).panels.at(0);

@@ -1,4 +1,4 @@
-// Enough of XML to say whether a document's elements nest and its text is escaped.
+// Checks that the elements of an XML document nest and its text is escaped.
 #pragma once
 
 #include <cctype>
@@ -9,7 +9,7 @@
 
 namespace lockstep::test {
 
-/// A '&' begins one of the entities XML knows by itself.
+/// A '&' begins one of XML's predefined entities.
 inline bool entities_are_known(std::string_view text) {
     for (std::size_t at = text.find('&'); at != text.npos; at = text.find('&', at + 1)) {
         const std::string_view rest = text.substr(at);
@@ -21,7 +21,7 @@ inline bool entities_are_known(std::string_view text) {
     return true;
 }
 
-/// What is wrong with the document; nothing where it is well-formed.
+/// The error in the document; nothing if it is well-formed.
 inline std::optional<std::string> xml_problem(std::string_view xml) {
     if (!entities_are_known(xml)) { return "a bare '&'"; }
     std::vector<std::string> open;

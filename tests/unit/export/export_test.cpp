@@ -73,7 +73,7 @@ TEST_F(Export, HasOneRowForAnInstantAndAColumnForEachSignalOfEachAxis) {
     EXPECT_EQ(exported.samples, 3);
 }
 
-TEST_F(Export, RowsRiseInTimeThoughMessagesOvertookEachOtherAndWhatIsFarTooLateIsCounted) {
+TEST_F(Export, RowsRiseInTimeForReorderedMessagesAndLateOnesAreCounted) {
     write({position("X", 1'000'000, 1), position("X", 900'000, 2), position("X", 9'000'000, 3),
            position("X", 950'000, 4)});
     const auto lines = table();
@@ -84,14 +84,14 @@ TEST_F(Export, RowsRiseInTimeThoughMessagesOvertookEachOtherAndWhatIsFarTooLateI
     EXPECT_EQ(exported.left_out, 1);
 }
 
-TEST_F(Export, WhatIsNoNumberLeavesItsCellEmptyAndTextIsQuotedWhereItMust) {
+TEST_F(Export, NonNumbersLeaveTheirCellEmptyAndTextIsQuotedIfNeeded) {
     auto odd = position("X", 1, std::numeric_limits<double>::quiet_NaN());
     odd.state = "a,\"b\"";
     write({odd});
     EXPECT_EQ(table().at(1), "0,,0,0,0,0,0,\"a,\"\"b\"\"\",0,none");
 }
 
-TEST_F(Export, ReportsWhatTheRecordLacks) {
+TEST_F(Export, ReportsMissingMessagesOfTheRecord) {
     std::vector<axis_position_t> messages;
     for (const std::int64_t sequence : {0, 1, 4}) {
         messages.push_back(position("X", 1'000'000 + sequence, 1));
@@ -107,15 +107,15 @@ TEST_F(Export, ReportsWhatTheRecordLacks) {
     EXPECT_THAT(to_text(exported.record), StartsWith("complete as far as is known: ")) << "no mark states how much was";
 }
 
-TEST_F(Export, IsNotBegunWhereThereIsNothingToExport) {
+TEST_F(Export, IsNotBegunWithoutDataToExport) {
     write({});
     EXPECT_FALSE(export_log(log, out, Format::Csv));
     EXPECT_FALSE(export_log(log, out, Format::Mcap));
     EXPECT_FALSE(export_log(directory / "none.lcm", out, Format::Csv));
-    EXPECT_FALSE(std::filesystem::exists(out)) << "no half of a file is left";
+    EXPECT_FALSE(std::filesystem::exists(out)) << "no partial file is left";
 }
 
-TEST_F(Export, OfADamagedLogIsWhatCanBeRead) {
+TEST_F(Export, OfADamagedLogContainsTheReadableSamples) {
     std::vector<axis_position_t> messages;
     for (int i = 0; i < 50; ++i) { messages.push_back(position(i % 2 == 0 ? "X" : "Y", i * 10'000, i)); }
     write(messages);

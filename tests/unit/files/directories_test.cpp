@@ -1,4 +1,4 @@
-// Where processes leave what others are to find.
+// Directories of the files that processes share.
 #include "services/files/directories.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Files that cannot be read say why.
+// Files that cannot be read report why.
 #include "services/files/text_file.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ protected:
 
 TEST_F(TextFile, IsReadWhole) { EXPECT_EQ(read_text_file(write("one\r\ntwo")).value(), "one\r\ntwo"); }
 
-TEST_F(TextFile, ThatIsNotThereEmptyBinaryOrNoFileIsRefused) {
+TEST_F(TextFile, ThatIsMissingEmptyBinaryOrNoFileIsRefused) {
     EXPECT_THAT(refusal(folder_ / "nothing"), HasSubstr("no such file"));
     EXPECT_THAT(refusal(folder_), HasSubstr("directory"));
     EXPECT_THAT(refusal("/dev/null"), HasSubstr("not a regular file"));

@@ -1,4 +1,4 @@
-// A process that ends by a failed check leaves an incident file that names the check.
+// A process that ends with a failed check leaves an incident file that names the check.
 #include "services/flight/check_report.hpp"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ namespace {
 
 class FailedCheck : public FlightFolder {
 protected:
-    /// In a child process: records one event, then breaks a promise. The next process saves what it left.
+    /// In a child process: records one event, then fails a check. The next process saves its record.
     void fail_a_check(const std::string& promise) {
         const pid_t child = fork();
         if (child == 0) {

@@ -1,4 +1,4 @@
-// What a process noted last can be read by others at any time, also when it is dead.
+// Other processes can read a process's last notes at any time, even after its death.
 #include "services/flight/flight_ring.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST_F(Ring, IsReadWholeEventByEventWhileItIsWritten) {
     }
 }
 
-TEST_F(Ring, GoesWithAProcessThatEndsAsAsked) {
+TEST_F(Ring, IsRemovedByAProcessThatEndsOnRequest) {
     { const auto ring = FlightRing::create(rings(), source(), 10); }
     EXPECT_TRUE(rings_in(rings()).empty());
 }
@@ -85,13 +85,13 @@ TEST_F(Ring, OutlivesAProcessThatIsKilled) {
     ASSERT_EQ(rings_in(rings()).size(), 1U);
     auto left = LeftRing::claim(rings_in(rings())[0]);
     ASSERT_TRUE(left);
-    EXPECT_FALSE(LeftRing::claim(rings_in(rings())[0])) << "somebody sees to it already";
+    EXPECT_FALSE(LeftRing::claim(rings_in(rings())[0])) << "it is claimed already";
     EXPECT_EQ(read_ring(rings_in(rings())[0])->events.at(0).event, noted(42));
     left->remove();
     EXPECT_TRUE(rings_in(rings()).empty());
 }
 
-TEST_F(Ring, OfALivingProcessIsNobodyElses) {
+TEST_F(Ring, OfALivingProcessCannotBeClaimed) {
     const auto ring = FlightRing::create(rings(), source(), 10);
     EXPECT_FALSE(LeftRing::claim(ring->path()));
 }
@@ -101,7 +101,7 @@ TEST_F(Ring, IsForThisUserAlone) {
     EXPECT_EQ(fs::status(rings()).permissions(), fs::perms::owner_all);
     fs::remove_all(folder / "other");
     fs::create_symlink(folder, folder / "other");
-    EXPECT_FALSE(FlightRing::create(folder / "other", source(), 10)) << "another may have put it there";
+    EXPECT_FALSE(FlightRing::create(folder / "other", source(), 10)) << "another user may have put it there";
 }
 
 TEST_F(Ring, DamagedIsRefusedOrHarmless) {

@@ -1,4 +1,4 @@
-// At a fault what was noted is in a file that LCM's tools read, and there are never more of them than asked for.
+// At a fault the notes are in a file that LCM's tools read, and the number of files is limited.
 #include "services/flight/incident_file.hpp"
 
 #include <gmock/gmock.h>
@@ -40,7 +40,7 @@ protected:
     }
 };
 
-TEST_F(IncidentFile, SaysWhoseItIsAndWhy) {
+TEST_F(IncidentFile, NamesItsProcessAndReason) {
     const Read read = read_file(write(1'700'000'000'123'000));
     ASSERT_EQ(read.heads.size(), 1U);
     EXPECT_EQ(read.heads[0].process, "axis-X");
@@ -60,10 +60,10 @@ TEST_F(IncidentFile, HasTheLastTenSeconds) {
     const auto file = write_incident(snapshot, {IncidentReason::Fault, Tick{28 * kSecond}, 1});
     const Read read = read_file(*file);
     EXPECT_EQ(read.events.front().tick, 18 * kSecond);
-    EXPECT_EQ(read.events.back().tick, 30 * kSecond) << "what came of it, too";
+    EXPECT_EQ(read.events.back().tick, 30 * kSecond) << "the aftermath, too";
 }
 
-TEST_F(IncidentFile, TheOldestOfTheSameProcessGoes) {
+TEST_F(IncidentFile, ReplacesTheOldestOfTheSameProcess) {
     const fs::path other = write(1, "axis-XY");
     for (std::int64_t i = 2; i < 9; ++i) { write(i * 1'000'000); }
     const auto files = incident_files(folder / "incidents");
@@ -72,7 +72,7 @@ TEST_F(IncidentFile, TheOldestOfTheSameProcessGoes) {
     EXPECT_THAT(files.back().filename().string(), testing::HasSubstr("T000008"));
 }
 
-TEST_F(IncidentFile, ADirectoryThatCannotBeIsAnErrorWithItsRemedy) {
+TEST_F(IncidentFile, ReportsAnImpossibleDirectoryWithTheRemedy) {
     FlightSource in_the_way = source();
     std::ofstream(folder / "file") << "a file";
     in_the_way.directory = folder / "file" / "below";
@@ -123,10 +123,10 @@ TEST_F(Recorder, WritesAnIncidentAtTheLatestWhenItsProcessEnds) {
     const Read read = read_file(files()[0]);
     EXPECT_EQ(read.heads.at(0).reason, "owner-lost");
     EXPECT_EQ(read.heads.at(0).tick, 2);
-    EXPECT_EQ(read.events.size(), 3U) << "and what came after";
+    EXPECT_EQ(read.events.size(), 3U) << "and the aftermath";
 }
 
-TEST_F(Recorder, SavesWhatAProcessNotedThatWasKilled) {
+TEST_F(Recorder, SavesTheNotesOfAKilledProcess) {
     const pid_t child = fork();
     if (child == 0) {
         FlightRing ring = FlightRing::create(rings(), source(), 10).value();
@@ -134,14 +134,14 @@ TEST_F(Recorder, SavesWhatAProcessNotedThatWasKilled) {
         raise(SIGKILL);
     }
     waitpid(child, nullptr, 0);
-    begin().reset();  // the one that takes its place
+    begin().reset();  // its successor
     ASSERT_EQ(files().size(), 1U);
     EXPECT_EQ(read_file(files()[0]).heads.at(0).reason, "ended");
     EXPECT_EQ(read_file(files()[0]).events.at(0).frame, 42);
     EXPECT_TRUE(rings_in(rings()).empty());
 }
 
-TEST_F(Recorder, LeavesWhatOtherMachinesLeft) {
+TEST_F(Recorder, LeavesFilesOfOtherMachines) {
     const pid_t child = fork();
     if (child == 0) {
         FlightSource other = source();

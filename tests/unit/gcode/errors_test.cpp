@@ -1,4 +1,4 @@
-// What is refused, where, and what the message says.
+// The errors in a G-code text: their place and message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ struct Refusal {
     std::string text;
     int line;
     int column;
-    std::string says;
-    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.says; }
+    std::string message;
+    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.message; }
 };
 
 class GcodeRefused : public testing::TestWithParam<Refusal> {};
@@ -31,7 +31,7 @@ TEST_P(GcodeRefused, WithPlaceValueAndRemedy) {
     ASSERT_EQ(found.size(), 1U) << refusal.text;
     EXPECT_EQ(found[0].line, refusal.line) << found[0].message;
     EXPECT_EQ(found[0].column, refusal.column) << found[0].message;
-    EXPECT_THAT(found[0].message, HasSubstr(refusal.says));
+    EXPECT_THAT(found[0].message, HasSubstr(refusal.message));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"G0 X50\nG92 X0\nG0 X160", 3, 4, "X160 takes X to 210 mm"},
                     Refusal{"G28 X300", 1, 5, "300 mm"}));
 
-TEST(GcodeErrors, EveryLineThatIsWrongIsSaidUpToALimit) {
+TEST(GcodeErrors, ReportsEveryWrongLineUpToALimit) {
     const auto some = errors("G0 X300\nG7\nG0 X10\nG0 Y-1 Z99\n");
     ASSERT_EQ(some.size(), 4U);
     EXPECT_EQ(some[1].line, 2);
@@ -104,7 +104,7 @@ TEST(GcodeErrors, AByteOrderMarkAtTheStartIsNone) {
     EXPECT_EQ(wrong[0].column, 1) << "as an editor counts";
 }
 
-TEST(GcodeErrors, AnEndInAWrongBlockStillLetsTheRestBeSaid) { EXPECT_EQ(errors("G7 M2\nG8\n").size(), 2U); }
+TEST(GcodeErrors, ReportsTheRestAfterAnEndInAWrongBlock) { EXPECT_EQ(errors("G7 M2\nG8\n").size(), 2U); }
 
 }  // namespace
 }  // namespace lockstep

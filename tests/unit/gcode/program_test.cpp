@@ -1,4 +1,4 @@
-// What a G-code text comes to.
+// The program of a G-code text.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::vector<double> last_target(std::string_view text, const GcodeSetup& setup =
     return program.blocks.empty() ? program.start_mm : move(program, program.blocks.size() - 1).target_mm;
 }
 
-TEST(Gcode, AProgramSaysWhichAxesItMovesAndFromWhere) {
+TEST(Gcode, AProgramHasItsAxesAndItsStart) {
     GcodeSetup setup = three_axes();
     setup.axes[1].start_mm = 7;
     const Program program = parse("", setup);
@@ -38,7 +38,7 @@ TEST(Gcode, AProgramSaysWhichAxesItMovesAndFromWhere) {
     EXPECT_TRUE(program.blocks.empty());
 }
 
-TEST(Gcode, RapidsAndFeedsGoToAbsolutePlacesAndKnowTheirLine) {
+TEST(Gcode, RapidsAndFeedsHaveAbsoluteTargetsAndTheirLine) {
     const Program program = parse("G0 X10 Y20\nG1 Z5 F600\n");
     ASSERT_EQ(program.blocks.size(), 2U);
     EXPECT_TRUE(move(program, 0).rapid);
@@ -61,7 +61,7 @@ TEST(Gcode, AFeedOutlivesAChangeOfUnits) {
     EXPECT_DOUBLE_EQ(move(program, 1).feed_mm_s, 25.4);
 }
 
-TEST(Gcode, TheModalMotionGoesOnAfterDwellAndG28) {
+TEST(Gcode, TheModalMotionContinuesAfterDwellAndG28) {
     const Program program = parse("G1 F600 X50\nG4 P0.5 X60\nG28 Z0\nX70\n");
     ASSERT_EQ(program.blocks.size(), 5U);
     EXPECT_DOUBLE_EQ(std::get<Dwell>(program.blocks[1].action).seconds, 0.5);
@@ -95,12 +95,12 @@ TEST(Gcode, G28ParksAllAxesOrThoseNamedThroughThePointNamed) {
     EXPECT_THAT(move(program, 1).target_mm, ElementsAre(40, 60, 0));
     EXPECT_THAT(move(program, 2).target_mm, ElementsAre(5, 60, 0));
     EXPECT_TRUE(move(program, 1).rapid && move(program, 2).rapid);
-    EXPECT_EQ(parse("G0 X50 Z9\nG91 G28 Z0\n").blocks.size(), 2U) << "the point named is where it stands";
+    EXPECT_EQ(parse("G0 X50 Z9\nG91 G28 Z0\n").blocks.size(), 2U) << "the named point is its position";
 }
 
 TEST(Gcode, OffsetsDoNotMoveThePark) { EXPECT_THAT(last_target("G92 X50\nG28 X50\n").front(), 5); }
 
-TEST(Gcode, M0PausesAndM1OnlyWhereTheOptionalStopIsOn) {
+TEST(Gcode, M0PausesAndM1OnlyWithOptionalStop) {
     GcodeSetup setup = three_axes();
     EXPECT_EQ(parse("M0\nM1\n", setup).blocks.size(), 1U);
     setup.switches.pause_at_m1 = true;
@@ -134,14 +134,14 @@ TEST(Gcode, SpacesCommentsAndSmallLettersAreAllOne) {
     EXPECT_EQ(last_target("n10 g1.0 f600 (\xc3\x98 6 mm) x012.50 y0 z3."), place);
 }
 
-TEST(Gcode, ALineThatBeginsWithASlashIsRunOnlyWhenAsked) {
+TEST(Gcode, ALineThatBeginsWithASlashRunsOnlyOnRequest) {
     GcodeSetup setup = three_axes();
     EXPECT_EQ(parse("/G0 X1\n / N5 Q1 G0 X1\n", setup).blocks.size(), 0U);
     setup.switches.skip_deletable = false;
     EXPECT_EQ(parse("/G0 X1\n", setup).blocks.size(), 1U);
 }
 
-TEST(Gcode, AMoveToWhereTheAxesStandIsLeftOut) { EXPECT_EQ(parse("G0 X10\nG0 X10\nG0\n").blocks.size(), 1U); }
+TEST(Gcode, AMoveToTheAxesPositionIsLeftOut) { EXPECT_EQ(parse("G0 X10\nG0 X10\nG0\n").blocks.size(), 1U); }
 
 TEST(Gcode, TheFeedIsThatOfTheLinearAxesAndOfTheRotaryOnesAlone) {
     GcodeSetup setup = three_axes();

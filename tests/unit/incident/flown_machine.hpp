@@ -1,4 +1,4 @@
-// The small machine in virtual time, with a flight recorder in every process; and the incident files they would write.
+// The small machine in virtual time, with a flight recorder in every process, and their incident files.
 #pragma once
 
 #include <deque>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// What one life of a process noted.
+/// The notes of one life of a process.
 struct VirtualFlight : FlightLog {
     explicit VirtualFlight(std::size_t of) : process(of) {}
     void add(const FlightEvent& event) override { events.push_back({events.size() + 1, event}); }
@@ -43,7 +43,7 @@ protected:
         ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);
         wait(0.8);
     }
-    void befall(VirtualFault fault) {
+    void inject(VirtualFault fault) {
         fault.at = vm.now();
         vm.schedule(fault);
     }

@@ -1,4 +1,4 @@
-// Incident files are read as far as they go, put together by machine time, and judged also where some are lacking.
+// Incident files are read as far as possible, combined by machine time, and evaluated even if some are missing.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -23,7 +23,7 @@ protected:
     IncidentFiles() { fs::remove_all(folder); }
     ~IncidentFiles() override { fs::remove_all(folder); }
 
-    /// What axis X noted: it vetoed frame 17 at `tick` since it had heard nothing of Y.
+    /// The notes of axis X: it vetoed frame 17 at `tick` since it had received nothing from Y.
     fs::path write_veto(std::int64_t tick, std::int64_t wall_us = 1'000'000) const {
         const FlightSource source{.machine = "rig",
                                   .process = "axis-X",
@@ -57,7 +57,7 @@ TEST_F(IncidentFiles, AreReadAsWritten) {
     EXPECT_TRUE(file->damages.empty());
 }
 
-TEST_F(IncidentFiles, SayWhatTheyLackIfTheyAreDamaged) {
+TEST_F(IncidentFiles, ReportMissingPartsIfDamaged) {
     const fs::path path = write_veto(2'000'000);
     fs::resize_file(path, fs::file_size(path) - 10);
     const auto file = read_flight_file(path);
@@ -81,7 +81,7 @@ TEST_F(IncidentFiles, DamagedAnywhereAreReadOrRefused) {
     }
 }
 
-TEST_F(IncidentFiles, OfSomethingElseAreRefused) {
+TEST_F(IncidentFiles, OfOtherContentAreRefused) {
     fs::create_directories(folder);
     std::ofstream(folder / "notes.txt") << "something else";
     EXPECT_THAT(read_flight_file(folder / "notes.txt").error(), HasSubstr("contains no notes of a flight recorder"));
@@ -105,7 +105,7 @@ TEST_F(IncidentFiles, TheSameTwiceCountsOnce) {
     EXPECT_EQ(incidents_of({file, file}).at(0).timeline.size(), 3U);
 }
 
-TEST_F(IncidentFiles, WhoLeftNoneIsNamedAndWhatToDo) {
+TEST_F(IncidentFiles, NameAProcessWithoutFileAndTheRemedy) {
     const auto incident = incidents_of({read_flight_file(write_veto(2'000'000)).value()}).at(0);
     EXPECT_THAT(incident.absent, ElementsAre("coordinator", "axis Y"));
     const Evaluation evaluation = evaluate(incident);

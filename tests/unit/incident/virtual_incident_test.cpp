@@ -1,4 +1,4 @@
-// Faults of every class befall the machine in virtual time: from what its processes noted the cause is found.
+// Faults of every class are injected in virtual time: the cause is found from the processes' notes.
 #include <gmock/gmock.h>
 
 #include "tests/unit/incident/flown_machine.hpp"
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 class Flown : public FlownMachine {
 protected:
-    /// And that all came to rest in time.
+    /// Also that all axes came to rest in time.
     void expect(const Evaluation& evaluation, CauseKind kind, std::optional<FlightPeer> who) {
         EXPECT_EQ(incident::name_of(evaluation.cause.kind), incident::name_of(kind))
             << testing::PrintToString(evaluation.story);
@@ -22,9 +22,9 @@ protected:
     }
 };
 
-TEST_F(Flown, WhatIsAsItShouldBeIsNoIncident) {
+TEST_F(Flown, NormalOperationIsNoIncident) {
     start_job();
-    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.001)});
+    inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.001)});
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     EXPECT_FALSE(any_incident());
 }
@@ -42,7 +42,7 @@ TEST_F(Flown, AHoldAndAStopAreNoIncidents) {
 
 TEST_F(Flown, AnAxisThatStoodStillIsFound) {
     start_job();
-    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
+    inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
     const Evaluation found = evaluation();
     expect(found, CauseKind::Stalled, flight_axis(kY));
@@ -54,7 +54,7 @@ TEST_F(Flown, AnAxisThatStoodStillIsFound) {
 
 TEST_F(Flown, AnAxisThatEndedIsFound) {
     start_job();
-    befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
+    inject({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
     wait(2);
     expect(evaluation(), CauseKind::Ended, flight_axis(kY));
 }
@@ -62,7 +62,7 @@ TEST_F(Flown, AnAxisThatEndedIsFound) {
 TEST_F(Flown, AFailedCheckIsNamedAsTheCause) {
     start_job();
     flights->at(kY).set_note("failed check: one exceeds two (core/numbers.cpp:17)");
-    befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
+    inject({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
     wait(2);
     EXPECT_EQ(evaluation().story[0],
               "the process of axis Y ended itself: failed check: one exceeds two (core/numbers.cpp:17)");
@@ -70,7 +70,7 @@ TEST_F(Flown, AFailedCheckIsNamedAsTheCause) {
 
 TEST_F(Flown, AnAxisThatEndedAtRestIsFound) {
     home();
-    befall({.kind = Kind::Crash, .process = kX, .lasts = seconds(0.3)});
+    inject({.kind = Kind::Crash, .process = kX, .lasts = seconds(0.3)});
     wait(2);
     const Evaluation found = evaluation();
     EXPECT_EQ(found.cause.kind, CauseKind::Ended);
@@ -80,30 +80,30 @@ TEST_F(Flown, AnAxisThatEndedAtRestIsFound) {
 
 TEST_F(Flown, ACoordinatorThatStoodStillIsFound) {
     start_job();
-    befall({.kind = Kind::Freeze, .process = kCoordinator, .lasts = seconds(0.1)});
+    inject({.kind = Kind::Freeze, .process = kCoordinator, .lasts = seconds(0.1)});
     wait(1);
     expect(evaluation(), CauseKind::Stalled, kFlightCoordinator);
 }
 
 TEST_F(Flown, ACoordinatorThatEndedIsFound) {
     start_job();
-    befall({.kind = Kind::Crash, .process = kCoordinator, .lasts = seconds(0.5)});
+    inject({.kind = Kind::Crash, .process = kCoordinator, .lasts = seconds(0.5)});
     wait(2);
     expect(evaluation(), CauseKind::Ended, kFlightCoordinator);
 }
 
 TEST_F(Flown, AnAxisThatWasCutOffIsFound) {
     start_job();
-    befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1)});
+    inject({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1)});
     wait(1);
     const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, flight_axis(kY));
     EXPECT_THAT(found.story[0], HasSubstr("it received no process, and no process received it"));
 }
 
-TEST_F(Flown, AnAxisThatNobodyHeardIsFound) {
+TEST_F(Flown, AnAxisThatNoPeerReceivedIsFound) {
     start_job();
-    befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1), .incoming = false});
+    inject({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1), .incoming = false});
     wait(1);
     const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, flight_axis(kY));
@@ -112,7 +112,7 @@ TEST_F(Flown, AnAxisThatNobodyHeardIsFound) {
 
 TEST_F(Flown, ALinkThatWasCutIsFound) {
     start_job();
-    befall({.kind = Kind::Cut, .process = kX, .lasts = seconds(0.1), .peer = kY});
+    inject({.kind = Kind::Cut, .process = kX, .lasts = seconds(0.1), .peer = kY});
     wait(1);
     const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, std::nullopt);
@@ -122,7 +122,7 @@ TEST_F(Flown, ALinkThatWasCutIsFound) {
 TEST_F(Flown, AHostThatStoodStillIsFound) {
     start_job();
     for (const std::size_t process : {kX, kY, kCoordinator}) {
-        befall({.kind = Kind::Freeze, .process = process, .lasts = seconds(0.05)});
+        inject({.kind = Kind::Freeze, .process = process, .lasts = seconds(0.05)});
     }
     wait(1);
     expect(evaluation(), CauseKind::HostStalled, std::nullopt);
@@ -144,10 +144,10 @@ TEST_F(Flown, AnEmergencyStopIsFound) {
     expect(evaluation(), CauseKind::EmergencyStop, std::nullopt);
 }
 
-/// What healed before the fault did not begin it, though it is noted as an incident of its own.
+/// A silence that ended before the fault is not its cause, though it is noted as an incident of its own.
 TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
     home();
-    befall({.kind = Kind::Cut, .process = kY, .lasts = seconds(1)});
+    inject({.kind = Kind::Cut, .process = kY, .lasts = seconds(1)});
     wait(2);
     ASSERT_TRUE(any_incident());
     (void)ask(CommandKind::Reset);
@@ -162,19 +162,19 @@ TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
 
 TEST_F(Flown, AProcessThatWasReplacedBeforeTheFaultIsNotItsCause) {
     home();
-    befall({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
+    inject({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
     wait(2);
     (void)ask(CommandKind::Reset);
     wait(0.5);
     start_job();
-    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
+    inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
     expect(evaluation(), CauseKind::Stalled, flight_axis(kY));
 }
 
 TEST_F(Flown, EveryProcessKeepsAnIncidentOfMotion) {
     start_job();
-    befall({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
+    inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
     EXPECT_EQ(files().size(), 3U);
 }

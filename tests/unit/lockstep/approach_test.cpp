@@ -1,4 +1,4 @@
-// A program that goes on from a line: the tool leaves the work, crosses, and goes down, in this order.
+// A program that continues from a line: the tool leaves the work, crosses, and goes down, in this order.
 #include "clients/lockstep/job/approach.hpp"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ TEST_F(Approach, LiftsThenCrossesThenGoesDownWithTheProgramsFeed) {
     const auto moves = to_work({10, 20, 1});
     ASSERT_EQ(moves.size(), 3U);
     EXPECT_EQ(moves[0].what, "lifts");
-    EXPECT_THAT(moves[0].move.target_mm, ElementsAre(10, 20, 58)) << "to where Z is parked";
+    EXPECT_THAT(moves[0].move.target_mm, ElementsAre(10, 20, 58)) << "to Z's park position";
     EXPECT_TRUE(moves[0].move.rapid);
     EXPECT_THAT(moves[1].move.target_mm, ElementsAre(60, 40, 58));
     EXPECT_TRUE(moves[1].move.rapid);
@@ -44,7 +44,7 @@ TEST_F(Approach, DoesNotComeDownToCross) {
     EXPECT_THAT(moves[0].move.target_mm, ElementsAre(60, 40, 59));
 }
 
-TEST_F(Approach, LiftsToThePlaceThatIsAskedFor) {
+TEST_F(Approach, LiftsToTheRequestedPlace) {
     EXPECT_THAT(to_work({10, 20, 1}, "Z=30").front().move.target_mm, ElementsAre(10, 20, 30));
     EXPECT_FALSE(lifts_of(machine, "Z=1000"));
     EXPECT_FALSE(lifts_of(machine, "Q=1"));
@@ -53,11 +53,11 @@ TEST_F(Approach, LiftsToThePlaceThatIsAskedFor) {
 TEST_F(Approach, LiftsToTheSafeHeightOfTheConfiguration) {
     machine.axes[2].safe_height_mm = 25;
     EXPECT_THAT(to_work({10, 20, 1}).front().move.target_mm, ElementsAre(10, 20, 25));
-    EXPECT_THAT(to_work({10, 20, 30}).front().move.target_mm, ElementsAre(60, 40, 30)) << "it does not come down";
+    EXPECT_THAT(to_work({10, 20, 30}).front().move.target_mm, ElementsAre(60, 40, 30)) << "it does not go down";
     EXPECT_THAT(to_work({10, 20, 1}, "Z=30").front().move.target_mm, ElementsAre(10, 20, 30)) << "as asked";
 }
 
-TEST_F(Approach, BySafeHeightIsKnownThoughAllAxesHomeTogether) {
+TEST_F(Approach, IsKnownBySafeHeightIfAllAxesHomeTogether) {
     for (AxisConfig& axis : machine.axes) { axis.homing.sequence = 0; }
     machine.axes[2].safe_height_mm = 25;
     const auto lifts = lifts_of(machine, "");
@@ -66,16 +66,16 @@ TEST_F(Approach, BySafeHeightIsKnownThoughAllAxesHomeTogether) {
     EXPECT_EQ(lifts->front().axis, 2U);
 }
 
-TEST_F(Approach, IsNoneWhereTheMachineStandsThere) { EXPECT_THAT(to_work({60, 40, 2}), IsEmpty()); }
+TEST_F(Approach, IsEmptyIfTheMachineIsThere) { EXPECT_THAT(to_work({60, 40, 2}), IsEmpty()); }
 
-TEST_F(Approach, OfAProgramWithoutAFeedGoesDownAsSlowlyAsItStarts) {
+TEST_F(Approach, WithoutAFeedGoesDownAtTheStartVelocity) {
     const auto moves = approach(machine, lifts_of(machine, "").value(), {10, 20, 1}, {60, 40, 2}, 0);
     EXPECT_FALSE(moves.back().move.rapid);
     EXPECT_DOUBLE_EQ(moves.back().move.feed_mm_s, machine.axes[2].start_velocity_mm_s);
 }
 
-/// Nothing tells which one leaves the work.
-TEST_F(Approach, IsRefusedWhereAllAxesHomeTogether) {
+/// The lifting axis is unknown.
+TEST_F(Approach, IsRefusedIfAllAxesHomeTogether) {
     for (AxisConfig& axis : machine.axes) { axis.homing.sequence = 0; }
     const auto lifts = lifts_of(machine, "");
     ASSERT_FALSE(lifts);
@@ -92,7 +92,7 @@ struct Restart : Approach {
     }
 };
 
-TEST_F(Restart, BeginsWhereTheLineBeforeEnds) {
+TEST_F(Restart, BeginsAtTheEndOfTheLineBefore) {
     const Rest rest = from(6);
     ASSERT_EQ(rest.approach.size(), 3U);
     EXPECT_THAT(rest.program.start_mm, ElementsAre(80, 80, 1));
@@ -101,7 +101,7 @@ TEST_F(Restart, BeginsWhereTheLineBeforeEnds) {
     EXPECT_EQ(rest.program.blocks.front().line, 6);
 }
 
-TEST_F(Restart, TakesUpWhatTheLinesBeforeSay) {
+TEST_F(Restart, RestoresTheModalStateOfTheLinesBefore) {
     const ModalState early = from(3).modal;
     EXPECT_TRUE(early.inches);
     EXPECT_TRUE(early.relative);
@@ -109,7 +109,7 @@ TEST_F(Restart, TakesUpWhatTheLinesBeforeSay) {
     EXPECT_THAT(modal_text(machine, from(6).modal), HasSubstr("takes up G21 G90 F600.0"));
 }
 
-TEST_F(Restart, BehindTheEndIsRefused) {
+TEST_F(Restart, AfterTheEndIsRefused) {
     EXPECT_FALSE(rest_of(program, kText, setup, {.from_line = 40}, machine, {80, 80, 1}));
 }
 

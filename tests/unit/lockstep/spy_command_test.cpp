@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// A host that has all that is needed.
+/// A host with all requirements.
 class SpyCommand : public testing::Test {
 protected:
     void SetUp() override {
@@ -42,7 +42,7 @@ TEST_F(SpyCommand, GivesLcmSpyTheMachinesTypesAndItsNetwork) {
     EXPECT_THAT(*command, Contains("--lcm-url=udpm://239.255.76.67:7667?ttl=0"));
 }
 
-TEST_F(SpyCommand, SaysWhatIsMissingAndWhatToDo) {
+TEST_F(SpyCommand, ReportsWhatIsMissingAndTheRemedy) {
     host_.display.clear();
     EXPECT_THAT(refusal(), HasSubstr("run it on a desktop, or over ssh -X"));
     host_.display = ":0";
@@ -58,7 +58,7 @@ TEST_F(SpyCommand, TakesNoJavaThatCannotOpenWindows) {
     EXPECT_THAT(refusal(), HasSubstr("is headless: apt-get install default-jre"));
 }
 
-TEST_F(SpyCommand, NamesTheJarThatIsNotThere) {
+TEST_F(SpyCommand, NamesTheMissingJar) {
     fs::remove(folder_ / "types.jar");
     EXPECT_THAT(refusal(), HasSubstr("types.jar, which is not there"));
 }

@@ -76,7 +76,7 @@ no alarms
 )");
 }
 
-TEST(Watch, SaysWhatIsOverridden) {
+TEST(Watch, ShowsOverrides) {
     proto::StatusReport status = cutting();
     status.set_feed_override_percent(60);
     status.set_rapid_override_percent(100);
@@ -85,7 +85,7 @@ TEST(Watch, SaysWhatIsOverridden) {
     EXPECT_EQ(watch_text(status, kScale, Ink::Plain), watch_text(cutting(), kScale, Ink::Plain));
 }
 
-TEST(Watch, SaysWhatIsWrongAndWhatToDo) {
+TEST(Watch, ShowsFaultsAndRemedies) {
     proto::StatusReport status = cutting();
     status.set_phase("Fault");
     status.clear_progress();
@@ -104,16 +104,16 @@ TEST(Watch, SaysWhatIsWrongAndWhatToDo) {
     EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("Z            not received\n"));
 }
 
-TEST(Watch, NamesTheIncidentFilesWhereThereIsAFault) {
+TEST(Watch, NamesTheIncidentFilesDuringAFault) {
     proto::StatusReport status = cutting();
     status.mutable_incidents()->set_directory("/var/lib/lockstep/mill/record/incidents");
-    EXPECT_THAT(alarms_of(status, kScale), IsEmpty()) << "those of former faults are no alarm";
+    EXPECT_THAT(alarms_of(status, kScale), IsEmpty()) << "those of earlier faults are no alarm";
     *status.mutable_fault() = fault_report(FaultCode::LimitHit, "X");
     EXPECT_THAT(alarms_of(status, kScale).back(),
                 HasSubstr("lockstep analyze --incident /var/lib/lockstep/mill/record/incidents"));
 }
 
-TEST(Watch, AStepIsBesideItsTimeOnlyBeyondWhatTheClockMayBeOff) {
+TEST(Watch, ReportsAStepTimeErrorOnlyBeyondTheClockError) {
     proto::StatusReport status = cutting();
     set_lateness(*status.mutable_axes(0), -40, 12);
     status.mutable_axes(0)->mutable_health()->set_clock_error_us(50);
@@ -122,7 +122,7 @@ TEST(Watch, AStepIsBesideItsTimeOnlyBeyondWhatTheClockMayBeOff) {
     EXPECT_THAT(alarms_of(status, kScale), ElementsAre("axis X: a step was 40 us beside its time"));
 }
 
-TEST(Watch, FitsInEightyColumnsWhateverIsWrong) {
+TEST(Watch, FitsInEightyColumnsForAnyFault) {
     proto::StatusReport status = cutting();
     status.set_machine("a-machine-of-24-letters-");
     *status.mutable_fault() = fault_report(FaultCode::FollowingError, "AxisOfSixteenLet");
@@ -154,7 +154,7 @@ TEST(Screen, IsDrawnOverLineByLineAndClearedBehind) {
     EXPECT_EQ(redrawn("a\nb\n", 24), "\x1b[Ha\x1b[K\r\nb\x1b[K\x1b[J");
 }
 
-TEST(Screen, ThatIsTooLowSaysHowMuchIsMissing) {
+TEST(Screen, ThatIsTooLowReportsTheNumberOfHiddenLines) {
     EXPECT_EQ(redrawn("a\nb\nc\nd\n", 2), "\x1b[Ha\x1b[K\r\n... 3 more lines: make the window higher\x1b[K\x1b[J");
     EXPECT_EQ(redrawn("a\nb\n", 2), "\x1b[Ha\x1b[K\r\nb\x1b[K\x1b[J");
 }

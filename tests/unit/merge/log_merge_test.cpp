@@ -1,4 +1,4 @@
-// Several logs that each lack something are one log that lacks nothing, or it is said what no log has.
+// Several logs that each lack messages are merged to one complete log, or the missing messages are reported.
 #include "clients/merge/log_merge.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// What was written, as a log would have it.
+/// The written messages, in the form of a log.
 class Kept : public RecordSink {
 public:
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
@@ -108,7 +108,7 @@ protected:
     Kept kept;
 };
 
-TEST_F(Merge, WhatOneLogLacksAnotherHas) {
+TEST_F(Merge, CombinesLogsThatLackDifferentMessages) {
     const Merged merged =
         merge({log("net.lcm", "XY", [](std::int64_t n) { return n % 7 != 3; }),
                log("X.lcm", "X", [](std::int64_t n) { return n % 7 == 3 || n < 100; }), log("Y.lcm", "Y", all)});
@@ -125,7 +125,7 @@ TEST_F(Merge, WhatOneLogLacksAnotherHas) {
     EXPECT_EQ(read, merged.messages + merged.duplicates);
 }
 
-TEST_F(Merge, SaysFromWhereToWhereNoLogHasSteps) {
+TEST_F(Merge, ReportsTheRangeOfStepsInNoLog) {
     const auto wanted = [](std::int64_t n) { return n != 0 && n != 50 && n != 51; };
     const Merged merged = merge({log("a.lcm", "X", wanted), log("b.lcm", "X", wanted)});
     EXPECT_FALSE(merged.is_complete());
@@ -133,7 +133,7 @@ TEST_F(Merge, SaysFromWhereToWhereNoLogHasSteps) {
     EXPECT_EQ(merged.axes[0].missing_step_messages, 3);
     const auto& missing = merged.axes[0].missing_steps;
     ASSERT_EQ(missing.size(), 2U);
-    EXPECT_FALSE(missing[0].from_step) << "what it did first";
+    EXPECT_FALSE(missing[0].from_step) << "its first steps";
     EXPECT_EQ(missing[0].to_step, 10);
     EXPECT_EQ(missing[1].messages, 2);
     EXPECT_EQ(missing[1].from_step, 500);
@@ -145,7 +145,7 @@ TEST_F(Merge, SaysFromWhereToWhereNoLogHasSteps) {
     EXPECT_FALSE(to_report(merged, "out.lcm").complete());
 }
 
-TEST_F(Merge, SaysWhatElseNoLogHas) {
+TEST_F(Merge, ReportsOtherMessagesInNoLog) {
     auto writer = LogWriter::open(folder / "others.lcm").value();
     for (const std::uint64_t number : {4, 5, 8}) {
         const JobRecord event{.machine = "mill", .coordinator = 3, .sequence = number};
@@ -155,13 +155,12 @@ TEST_F(Merge, SaysWhatElseNoLogHas) {
     ASSERT_TRUE(writer.flush());
     const Merged merged = merge({folder / "others.lcm"});
     EXPECT_FALSE(merged.is_complete());
-    EXPECT_EQ(merged.axes.at(0).missing_positions, 2)
-        << "between the first and the last: logs begin when they are begun";
+    EXPECT_EQ(merged.axes.at(0).missing_positions, 2) << "between the first and the last: a log may begin late";
     EXPECT_EQ(merged.missing_job_events, 2);
     EXPECT_THAT(to_text(merged, "out.lcm"), HasSubstr("X missing: 2 messages of positions"));
 }
 
-TEST_F(Merge, SaysWhichRunsNoLogHas) {
+TEST_F(Merge, ReportsRunsInNoLog) {
     auto writer = LogWriter::open(folder / "runs.lcm").value();
     for (const std::uint64_t number : {0, 1, 4, 5}) {
         const RunRecord run{.machine = "mill", .axis = "X", .incarnation = 7, .sequence = number};
@@ -174,7 +173,7 @@ TEST_F(Merge, SaysWhichRunsNoLogHas) {
     EXPECT_EQ(merged.axes[0].missing_runs[0].numbers, (analysis::Numbers{2, 4}));
 }
 
-TEST_F(Merge, EachProcessOfAnAxisCountsAnew) {
+TEST_F(Merge, EachProcessOfAnAxisCountsFromZero) {
     auto writer = LogWriter::open(folder / "restart.lcm").value();
     for (std::int64_t i = 0; i < 20; ++i) {
         step_batch_t message = steps("X", i);
@@ -200,7 +199,7 @@ TEST_F(Merge, PutsALogInOrderThatIsNearlyInOrder) {
     EXPECT_EQ(merged.late, 0U);
 }
 
-TEST_F(Merge, KeepsWhatIsLaterThanTheWindowAndSaysSo) {
+TEST_F(Merge, KeepsAndCountsMessagesLaterThanTheWindow) {
     auto writer = LogWriter::open(folder / "late.lcm").value();
     for (std::int64_t i = 1; i < 1000; ++i) { write_steps(writer, "X", i); }
     write_steps(writer, "X", 0);
@@ -210,7 +209,7 @@ TEST_F(Merge, KeepsWhatIsLaterThanTheWindowAndSaysSo) {
     EXPECT_EQ(merged.late, 1U);
 }
 
-TEST_F(Merge, ReadsWhatCanBeReadOfADamagedLogAndNamesTheBytes) {
+TEST_F(Merge, ReadsTheRestOfADamagedLogAndNamesTheBytes) {
     const auto damaged = log("a.lcm", "X", all);
     const auto whole = log("b.lcm", "X", all);
     {
@@ -227,7 +226,7 @@ TEST_F(Merge, ReadsWhatCanBeReadOfADamagedLogAndNamesTheBytes) {
     EXPECT_TRUE(merged.inputs[1].damages.empty());
 }
 
-TEST_F(Merge, OneNumberWithTwoContentsIsSaid) {
+TEST_F(Merge, ReportsANumberWithTwoContents) {
     const auto a = log("a.lcm", "X", all);
     auto writer = LogWriter::open(folder / "b.lcm").value();
     step_batch_t other = steps("X", 5);
@@ -251,7 +250,7 @@ TEST_F(Merge, ALogInManyFilesIsOneLog) {
     expect_every_step_in_order();
 }
 
-TEST_F(Merge, WhatIsNoLogIsRefused) {
+TEST_F(Merge, AFileThatIsNotALogIsRefused) {
     std::ofstream(folder / "notes.txt") << "not a log";
     std::ofstream(folder / "empty.lcm").flush();
     const auto refused = [&](const std::vector<fs::path>& logs) { return merge_logs({.logs = logs}, kept).error(); };
@@ -272,12 +271,12 @@ TEST_F(Merge, OtherChannelsAreKeptFromEachLog) {
                 testing::UnorderedElementsAre("LOCKSTEP_MILL_X_STEPS", "CAMERA", "LOCKSTEP_MILL_X_STEPS"));
 }
 
-/// A session's logs: an axis's own and the coordinator's, which know of each other by marks.
+/// A session's logs: an axis's own and the coordinator's, which refer to each other by marks.
 class Sessions : public Merge {
 protected:
-    void write_mark(LogWriter& log, const std::string& witness, const std::string& process, std::int64_t incarnation) {
+    void write_mark(LogWriter& log, const std::string& writer, const std::string& process, std::int64_t incarnation) {
         const RecordMark mark{.machine = "mill",
-                              .witness = witness,
+                              .witness = writer,
                               .process = process,
                               .incarnation = static_cast<Identity>(incarnation)};
         log.write_message(mark_channel("mill", process), 0, to_lcm(mark, {}, 1000));
@@ -308,7 +307,7 @@ protected:
     }
 };
 
-TEST_F(Sessions, OfADirectoryTheNewestIsMerged) {
+TEST_F(Sessions, TheNewestOfADirectoryIsMerged) {
     for (std::int64_t number = 1; number <= 3; ++number) { write_session(number); }
     const auto now = fs::file_time_type::clock::now();
     for (int number = 1; number <= 3; ++number) {
@@ -327,7 +326,7 @@ TEST_F(Sessions, OfADirectoryTheNewestIsMerged) {
     EXPECT_THAT(to_text(merged, "out.lcm"), HasSubstr("left out: 4 logs of 2 other sessions"));
 }
 
-TEST_F(Sessions, OfADirectoryTheOneOfTheRunThatIsNamedIsMerged) {
+TEST_F(Sessions, TheOneOfTheNamedRunIsMergedFromADirectory) {
     for (std::int64_t number = 1; number <= 3; ++number) { write_session(number); }
     auto run = LogWriter::open(folder / "run.of.lcm.logger").value();
     write_mark(run, "X", "X", 1);
@@ -358,7 +357,7 @@ TEST_F(Sessions, AJobIsTakenFromTheEndOfTheOneBeforeToTheBeginningOfTheNext) {
     EXPECT_FALSE(span_of_job(chosen.jobs, 4));
     const auto merged = merge_logs({.logs = chosen.logs, .span = *span, .progress = {}}, kept).value();
     EXPECT_EQ(merged.messages, 2U);
-    EXPECT_TRUE(merged.is_complete()) << "what was not asked for is not missing";
+    EXPECT_TRUE(merged.is_complete()) << "messages outside the span are not missing";
 }
 
 /// A program that is recorded in parts before job 1, and run by jobs 1 and 2.

@@ -31,13 +31,13 @@ TEST(PaperSteps, GivesTheTrainOfItsMethodAsPublished) {
                 StepMethod::Carrica, move);
 }
 
-TEST(PaperSteps, RefusesWhatTheMethodRefuses) {
+TEST(PaperSteps, RefusesTheMovesThatTheMethodRefuses) {
     EXPECT_FALSE(begin_steps(StepMethod::Lai, {10, 10, 100, 42'000, 42'000}));
     EXPECT_FALSE(begin_steps(StepMethod::Carrica, {kMaxSteps + 1, 10, 100, 42'000, 42'000}));
     EXPECT_FALSE(begin_steps(StepMethod::Ranade, {10, 10, 100, 42'000, 42'000}));
 }
 
-/// Carrica's counter as its paper has it: every clock period, one after the other.
+/// Carrica's counter as in its paper: every clock period, one after the other.
 std::vector<double> counted(const StepMove& move, double clock_s) {
     const auto fixed = [](double steps) { return static_cast<std::int64_t>(std::ceil(steps * 0x1p60)); };
     const std::int64_t min = fixed(move.start * clock_s);

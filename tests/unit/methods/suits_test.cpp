@@ -1,4 +1,4 @@
-// Which method can make which axis's moves, and what is said where it cannot.
+// Which method suits which axis, and the message if it does not.
 #include "core/methods/suits.hpp"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// 80 steps/mm: 10 mm/s to jump to, 100 mm/s, 1500 mm/s^2.
+/// 80 steps/mm: 10 mm/s start velocity, 100 mm/s, 1500 mm/s^2.
 constexpr SpeedLimits kBelt{800, 8'000, 120'000, 120'000, 1e-6};
 
 std::string why_not(StepMethod method, const SpeedLimits& limits) {
@@ -25,7 +25,7 @@ SpeedLimits changed(void (*change)(SpeedLimits&)) {
     return limits;
 }
 
-TEST(Ranade, SuitsWhatTheProductCanDo) {
+TEST(Ranade, SuitsEveryAxisOfTheProduct) {
     EXPECT_EQ(why_not(StepMethod::Ranade, kBelt), "");
     EXPECT_EQ(why_not(StepMethod::Ranade, changed([](auto& l) { l.max = 499'000; })), "");
 }
@@ -35,7 +35,7 @@ TEST(Spielauer, SuitsThoughItKnowsNoStartSpeed) {
     EXPECT_EQ(why_not(StepMethod::Spielauer, changed([](auto& l) { l.deceleration = 60'000; })), "");
 }
 
-TEST(Spielauer, DoesNotSuitWhereItsFirstWaitsJumpTooFar) {
+TEST(Spielauer, DoesNotSuitIfItsFirstWaitsJumpTooFar) {
     // Its second wait is a third of the first: a jump of sqrt(2 a), here 490 steps/s.
     EXPECT_THAT(why_not(StepMethod::Spielauer, changed([](auto& l) { l.start = 50; })),
                 HasSubstr("its speed jumps by"));
@@ -58,7 +58,7 @@ TEST(Carrica, DoesNotSuitSpeedsBeyondItsClock) {
 TEST(Lai, SuitsWhereItsPulsesComeEvenlyEnough) {
     const SpeedLimits slow = changed([](auto& l) { l.max = 4'000; });
     EXPECT_EQ(why_not(StepMethod::Lai, slow), "");
-    // 46 pulses in 256 clocks are 5 or 6 clocks apart: 7877 and 6564 steps/s by turns.
+    // 46 pulses in 256 clocks are 5 or 6 clocks apart: alternately 7877 and 6564 steps/s.
     EXPECT_THAT(why_not(StepMethod::Lai, changed([](auto& l) { l.max = 7'100; })), HasSubstr("its speed jumps by"));
 }
 
@@ -74,7 +74,7 @@ TEST(Lam, SuitsAnAxisThatItsOwnRampsDoNotHurt) {
     EXPECT_EQ(why_not(StepMethod::Lam, slide), "");
 }
 
-TEST(Lam, DoesNotSuitWhereItsRampsBreakTheLimits) {
+TEST(Lam, DoesNotSuitIfItsRampsBreakTheLimits) {
     EXPECT_THAT(why_not(StepMethod::Lam, kBelt), HasSubstr("its speed jumps by"));
     EXPECT_THAT(why_not(StepMethod::Lam, {1'000, 1'666, 100'000, 90'000, 1e-6}), HasSubstr("must equal"));
 }
@@ -88,7 +88,7 @@ TEST(EveryOtherMethod, NeedsThreeTicksAStep) {
 
 TEST(LimitWatch, AllowsOneJumpAndAnAcceleration) {
     LimitWatch watch({.start = 100, .acceleration = 1'000, .deceleration = 500});
-    EXPECT_FALSE(watch.step(1.0 / 109));  // 9.2 ms: 109 steps/s may be had in it
+    EXPECT_FALSE(watch.step(1.0 / 109));  // 9.2 ms: they allow 109 steps/s
     EXPECT_FALSE(watch.step(1.0 / 117));  // 17.7 ms after rest
     const auto breach = watch.step(1.0 / 160);
     ASSERT_TRUE(breach);

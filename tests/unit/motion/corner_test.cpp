@@ -1,4 +1,4 @@
-// Corners between ticks: what is executed there keeps to what was planned, and fits a frame.
+// Corners between ticks: the executed motion matches the plan, and fits a frame.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ double speed_after(const Piece& p) {
 }
 
 TEST(Corner, BetweenTicksLeavesNoTraceInTheSpeedBehindIt) {
-    constexpr double kFewTicks = 4e-8;  // what acceleration makes of them, in steps per tick
+    constexpr double kFewTicks = 4e-8;  // the effect of acceleration in these ticks, in steps per tick
     for (std::int64_t length = 100; length < 200; ++length) {
         const Path path =
             plan_path(moves_through({{0, 0}, {length, 37}, {0, 0}}), {}, kLimits, {.least_move = Ticks{100}});

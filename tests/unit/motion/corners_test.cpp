@@ -1,4 +1,4 @@
-// Corners that follow each other closely: together they ask no more of an axis than its limits allow.
+// Corners that follow each other closely: together they stay within the limits of each axis.
 #include "core/motion/corners.hpp"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(Corners, OfAFinelyCutCircleKeepItsCentripetalAccelerationWithinLimits) {
     EXPECT_LE(most_strain(path), kWhole);
     const double speed = fastest_mm_s(path);
     EXPECT_LE(speed * speed / kRadius_mm, kAccel_mm_s2);
-    EXPECT_GE(speed * speed / kRadius_mm, 0.5 * kAccel_mm_s2) << "no slower than it must";
+    EXPECT_GE(speed * speed / kRadius_mm, 0.5 * kAccel_mm_s2) << "not slower than necessary";
 }
 
 TEST(Corners, EachWithinTheStartVelocityDoNotAddUpBeyondIt) {
@@ -92,7 +92,7 @@ TEST(Corners, EachWithinTheStartVelocityDoNotAddUpBeyondIt) {
     }
 }
 
-/// The slower it gets the less the corners cost, and the harder it may brake.
+/// At lower speed the corners cost less, and the machine may brake harder.
 TEST(Corners, OfACurveDoNotMakeAStopMuchLongerThanOnALine) {
     const Path path = through(circle(10, 0.5));
     const Subticks middle = subticks(Ticks{path.duration().floor().value / 2});
@@ -124,7 +124,8 @@ TEST(Corners, AStraightLineCutIntoChordsIsAsFastAsInOnePiece) {
     std::vector<AxisCounts> places;
     for (std::int64_t i = 0; i <= 200; ++i) { places.push_back({i * 30, i * 20}); }
     const auto seconds = [](const Path& path) { return static_cast<double>(path.duration().ceil().value) * kTick_s; };
-    EXPECT_LE(seconds(through(places)), 1.015 * seconds(through({{0, 0}, {6000, 4000}}))) << "but for its first jump";
+    EXPECT_LE(seconds(through(places)), 1.015 * seconds(through({{0, 0}, {6000, 4000}})))
+        << "except for its first jump";
 }
 
 TEST(Corners, BesideARestTooShortToPayForTwoJumpsEachIsSmaller) {

@@ -75,7 +75,7 @@ TEST(PiecesOf, BackwardMotionMirrorsForwardMotionBitForBit) {
 const PathLimits kRanade = limits(1'000, 5'000, 25'000, 25'000);
 constexpr Ticks kHalfSecond{500'000};
 
-TEST(PlanInTime, WhatFitsIsATriangle) {
+TEST(PlanInTime, AFeasibleMoveIsATriangle) {
     const auto p = plan_in_time(Displacement::steps(1'200), kHalfSecond, kRanade);
     ASSERT_TRUE(p.has_value());
     EXPECT_EQ(p->duration(), subticks(kHalfSecond));
@@ -83,7 +83,7 @@ TEST(PlanInTime, WhatFitsIsATriangle) {
     EXPECT_NEAR(p->phases[0].acceleration() / kPerSecond2, 11'200, 1);
 }
 
-TEST(PlanInTime, WhereTheTriangleIsTooFastATrapezoidServes) {
+TEST(PlanInTime, UsesATrapezoidIfTheTriangleIsTooFast) {
     const auto p = plan_in_time(Displacement::steps(1'800), kHalfSecond, kRanade);
     ASSERT_TRUE(p.has_value());
     ASSERT_EQ(p->phases.size(), 3u);
@@ -96,7 +96,7 @@ TEST(PlanInTime, TheLongestLegalDistanceIsStillLegal) {
     EXPECT_FALSE(plan_in_time(Displacement::steps(1'861), kHalfSecond, kRanade).has_value());
 }
 
-TEST(PlanInTime, AnInfeasibleMoveSaysWhatIsFeasible) {
+TEST(PlanInTime, ReportsTheFeasibleTimeOfAnInfeasibleMove) {
     const auto p = plan_in_time(Displacement::steps(2'000), kHalfSecond, kRanade);
     ASSERT_FALSE(p.has_value());
     EXPECT_NEAR(p.error().longest.as_steps(), 1'860, 0.01);

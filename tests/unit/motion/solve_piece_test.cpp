@@ -1,4 +1,4 @@
-// A piece is solved for its end: what one unit of velocity per tick cannot express is rounded to the nearest.
+// A piece is solved for its end: the velocity is rounded to the nearest unit per tick.
 #include <gtest/gtest.h>
 
 #include <limits>

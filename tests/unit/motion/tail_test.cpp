@@ -1,4 +1,4 @@
-// From every tick of a path there is a tail that every axis accepts: also just before, in and just behind a corner.
+// From every tick of a path there is a tail that every axis accepts: also just before, in and just after a corner.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ void fill(StaticVector<Piece, Capacity> AxisTrack::*part, const Path& path, Tick
     }
 }
 
-/// Runs the path to `end` as one frame, the tail behind it, and asks every axis.
+/// Runs the path to `end` as one frame, with the tail after it, and checks it on every axis.
 void expect_accepted(const Path& path, Ticks end, const std::vector<AxisLimits>& limits) {
     std::vector<Position> at{start_of(path, 0, path.moves[0].from[0]), start_of(path, 1, path.moves[0].from[1])};
     std::vector<AxisTrack> tracks{{at[0], {}, {}}, {at[1], {}, {}}};
@@ -85,7 +85,7 @@ TEST(Tail, IsAcceptedWhereBrakingIsFasterThanGainingSpeed) { expect_accepted_eve
 
 TEST(Tail, IsAcceptedWhereAccelerationIsAsSmallAsRounding) { expect_accepted_everywhere(1e-10, 7e-11); }
 
-/// Down to no speed at all, in two ticks at least: a jump to rest would add up with that of a corner just behind.
+/// Down to zero speed, in two ticks at least: a jump to rest would add up with that of a corner just after.
 TEST(Tail, EndsOnAWholeTickWithoutAJump) {
     const Subticks corner{12 * kSubticksPerTick + 40'000};
     const Profile hardly = plan_brake_to({}, 1e-7, 1e-6, corner);

@@ -1,4 +1,4 @@
-// LCM's multicast goes where the configuration says, or nowhere.
+// LCM's multicast leaves by the configured interface, or not at all.
 #include "services/network/multicast.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-TEST(LcmUrl, SaysWhereMessagesGo) {
+TEST(LcmUrl, ReadsTheAddressOfMessages) {
     const auto url = parse_lcm_url("udpm://239.1.2.3:7000?recv_buf_size=4194304&ttl=1");
     ASSERT_TRUE(url) << url.error();
     EXPECT_EQ(url->address, "239.1.2.3");
@@ -25,7 +25,7 @@ TEST(LcmUrl, HasLcmsDefaults) {
     EXPECT_EQ(url->ttl, 0);
 }
 
-TEST(LcmUrl, WhatIsWrongIsNamed) {
+TEST(LcmUrl, NamesTheError) {
     for (const char* wrong : {"udpm://239.1.2.3:70000", "udpm://239.1.2.3:x", "udpm://?ttl=256", "udpm://?ttl=one",
                               "udpm://10.0.0.1:7667", "udpm://example:7667"}) {
         EXPECT_FALSE(parse_lcm_url(wrong)) << wrong;
@@ -36,7 +36,7 @@ TEST(LcmUrl, OtherProvidersAreNoMulticast) { EXPECT_FALSE(parse_lcm_url("memq://
 
 TEST(Route, LoopbackLeadsToLo) { EXPECT_EQ(route_interface("127.0.0.1"), "lo"); }
 
-TEST(Route, WhatIsNoAddressIsRefused) { EXPECT_FALSE(route_interface("lo")); }
+TEST(Route, ATextThatIsNotAnAddressIsRefused) { EXPECT_FALSE(route_interface("lo")); }
 
 TEST(Multicast, ThatWouldLeaveByAnotherInterfaceIsRefused) {
     const NetworkConfig network{.interface = "none0", .lcm_url = "udpm://239.255.76.67:7667?ttl=1"};

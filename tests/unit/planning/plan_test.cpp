@@ -1,4 +1,4 @@
-// A plan says what the machine will do.
+// A plan predicts the machine's motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
     }
 }
 
-/// What an axis is asked for tick by tick, from the pieces that its steps are made of.
+/// The motion of an axis tick by tick, from the pieces that make its steps.
 struct Followed {
     double velocity = 0;      // the most, steps per tick
     double acceleration = 0;  // in pieces of a millisecond and more
@@ -91,13 +91,13 @@ TEST(Plan, HasThePeaksOfTheMotionItself) {
             const AxisConfig& axis = machine.axes[i];
             Followed made;
             for (const Path& path : plan->paths) { made.follow(path, machine.axes.size(), i); }
-            const AxisPlan& said = plan->axes[i];
-            EXPECT_NEAR(said.peak_velocity_mm_s, made.velocity * per_s / axis.steps_per_mm, 0.05) << axis.name;
+            const AxisPlan& axis_plan = plan->axes[i];
+            EXPECT_NEAR(axis_plan.peak_velocity_mm_s, made.velocity * per_s / axis.steps_per_mm, 0.05) << axis.name;
             const double acceleration = made.acceleration * per_s * per_s / axis.steps_per_mm;
-            EXPECT_GE(said.peak_acceleration_mm_s2, acceleration * 0.99 - 1) << axis.name;
-            EXPECT_LE(said.peak_acceleration_mm_s2, axis.max_accel_mm_s2 * 1.001) << axis.name;
-            EXPECT_LE(said.peak_jump_mm_s, axis.start_velocity_mm_s * 1.001) << axis.name;
-            EXPECT_LE(made.jump * per_s / axis.steps_per_mm, said.peak_jump_mm_s + 0.05) << axis.name;
+            EXPECT_GE(axis_plan.peak_acceleration_mm_s2, acceleration * 0.99 - 1) << axis.name;
+            EXPECT_LE(axis_plan.peak_acceleration_mm_s2, axis.max_accel_mm_s2 * 1.001) << axis.name;
+            EXPECT_LE(axis_plan.peak_jump_mm_s, axis.start_velocity_mm_s * 1.001) << axis.name;
+            EXPECT_LE(made.jump * per_s / axis.steps_per_mm, axis_plan.peak_jump_mm_s + 0.05) << axis.name;
         }
     }
 }

@@ -1,4 +1,4 @@
-// When a process that receives nothing opens its DDS participant anew, in virtual time.
+// A process that receives nothing opens its DDS participant again, in virtual time.
 #include "core/protocol/reception_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@ namespace {
 constexpr std::int64_t kTick_ns = 1000;
 constexpr Ticks kSecond{1'000'000};
 
-/// A process that looks whenever it is due, and what it finds.
+/// A process that checks whenever a check is due, and the results.
 class Process {
 public:
     Reception found{.may_reopen = true};
     std::vector<std::pair<double, ReopenReason>> reopened;  // when, in seconds
 
-    /// before_each: changes what is found, at each look.
+    /// before_each: changes the results, at each check.
     template <typename Change>
     void run(double seconds, Change before_each) {
         const Tick end = now_ + Ticks{static_cast<std::int64_t>(seconds * 1e6)};
@@ -51,7 +51,7 @@ TEST(ReceptionWatch, ReopensWhenAPeerThatIsThereStaysSilentForLongerThanItsLease
     process.run(10);
     process.found.is_peer_silent = true;
     process.run(2.9);
-    EXPECT_TRUE(process.reopened.empty()) << "a peer that has just ended is taken for present for its lease";
+    EXPECT_TRUE(process.reopened.empty()) << "a peer that has just ended counts as present for its lease";
     process.run(1);
     ASSERT_EQ(process.reopened.size(), 1U);
     EXPECT_EQ(process.reopened[0].second, ReopenReason::PeerSilent);

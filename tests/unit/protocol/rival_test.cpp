@@ -1,4 +1,4 @@
-// Of two processes of one axis exactly one leaves: the newcomer, whatever their hosts' clocks read.
+// Of two processes of one axis exactly one ends: the newer one, whatever their hosts' clocks read.
 #include "core/protocol/rival.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;
 
-/// Two processes that publish every 10 ms from their starts on, each by a clock of its own, and receive each other
+/// Two processes that publish every 10 ms from their starts on, each by its own clock, and receive each other
 /// after `discovery`. A state proves the other's life from the 20th on.
 struct Pair {
     struct Process {
@@ -20,9 +20,9 @@ struct Pair {
         std::int64_t discovery = 500'000;
     };
     std::array<Process, 2> processes;
-    std::int64_t joined = 0;  // before that they are on networks that are not connected
+    std::int64_t joined = 0;  // before that they are on separate networks
 
-    /// Which ones leave within a minute.
+    /// Which ones end within a minute.
     std::array<bool, 2> left() const {
         std::array<bool, 2> left{};
         std::array<int, 2> received{};
@@ -64,7 +64,7 @@ TEST(Rival, OfTwoStartedTogetherTheHigherIdentityLeaves) {
     }
 }
 
-TEST(Rival, OfTwoWhoseNetworksWereJoinedTheHigherIdentityLeaves) {
+TEST(Rival, TheHigherIdentityLeavesAfterNetworksAreJoined) {
     const Pair pair{.processes = {{{.identity = 5}, {.identity = 6}}}, .joined = 600 * kSecond};
     EXPECT_EQ(pair.left(), (std::array{false, true}));
 }
@@ -82,7 +82,7 @@ TEST(Rival, ExactlyOneLeavesWhateverTheirStartsAndDiscoveries) {
     }
 }
 
-TEST(Rival, NobodyLeavesForAProcessWithoutProof) {
+TEST(Rival, NoneLeavesForAProcessWithoutProof) {
     Rival rival(9, 1000, Tick{});
     for (int i = 0; i < 1000; ++i) { EXPECT_FALSE(rival.must_leave(5, false, Tick{i * 10'000})); }
 }

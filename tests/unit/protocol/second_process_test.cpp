@@ -1,4 +1,4 @@
-// What proves that another process lives: current states in a row, not old ones sent again.
+// Proof that another process lives: consecutive current states, not old ones sent again.
 #include "core/protocol/second_process.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The record counts from where the device stands, also where the device has outlived the process before.
+// The record counts from the device's position, even if the device has outlived the previous process.
 #include "services/record/axis_recorder.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ public:
     std::vector<step_batch_t> batches;
 };
 
-AxisOutputs says(std::int64_t position_steps, std::int64_t tick) {
+AxisOutputs outputs_at(std::int64_t position_steps, std::int64_t tick) {
     AxisOutputs out;
     out.state = AxisState{.position = Position::steps(position_steps), .tick = Tick{tick}};
     return out;
@@ -30,15 +30,15 @@ protected:
 };
 
 TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
-    recorder.loop(says(0, 100), 0, 0);
+    recorder.loop(outputs_at(0, 100), 0, 0);
     recorder.step({Tick{200}, +1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
     EXPECT_EQ(sink.batches[0].position_before, 0);
 }
 
-TEST_F(TheRecord, BeginsWhereADeviceStandsThatRanBefore) {
-    recorder.loop(says(400, 100), 0, 0);
+TEST_F(TheRecord, BeginsAtThePositionOfADeviceThatRanBefore) {
+    recorder.loop(outputs_at(400, 100), 0, 0);
     recorder.step({Tick{200}, -1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
@@ -46,7 +46,7 @@ TEST_F(TheRecord, BeginsWhereADeviceStandsThatRanBefore) {
 }
 
 TEST_F(TheRecord, BeginsInMachineCoordinatesWithAnAxisThatIsHomedFromTheStart) {
-    recorder.loop(says(400, 100), -3920, 0);
+    recorder.loop(outputs_at(400, 100), -3920, 0);
     recorder.step({Tick{200}, +1});
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
@@ -56,8 +56,8 @@ TEST_F(TheRecord, BeginsInMachineCoordinatesWithAnAxisThatIsHomedFromTheStart) {
 TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
     recorder.step({Tick{80}, +1});
     recorder.step({Tick{90}, +1});
-    recorder.step({Tick{101}, +1});  // after the look at the device
-    recorder.loop(says(400, 100), 0, 0);
+    recorder.step({Tick{101}, +1});  // after the device was read
+    recorder.loop(outputs_at(400, 100), 0, 0);
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
     EXPECT_EQ(sink.batches[0].position_before, 398);
@@ -65,7 +65,7 @@ TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
 }
 
 TEST_F(TheRecord, JumpsWhereTheAxisIsZeroed) {
-    recorder.loop(says(0, 100), 0, 0);
+    recorder.loop(outputs_at(0, 100), 0, 0);
     recorder.step({Tick{200}, -1});
     recorder.loop({}, -81, 0);
     recorder.step({Tick{400}, +1});
@@ -74,16 +74,16 @@ TEST_F(TheRecord, JumpsWhereTheAxisIsZeroed) {
     EXPECT_EQ(sink.batches[1].position_before, 80);
 }
 
-TEST_F(TheRecord, SaysWhereStepsLackTheirTimes) {
-    recorder.loop(says(0, 100), 0, 0);
+TEST_F(TheRecord, ShowsStepsWithoutTimes) {
+    recorder.loop(outputs_at(0, 100), 0, 0);
     recorder.step({Tick{200}, +1});
-    recorder.loop(says(1, 210), 0, 3);  // three more were made, and their times not kept
+    recorder.loop(outputs_at(1, 210), 0, 3);  // three more were made, without recorded times
     recorder.step({Tick{400}, +1});
-    recorder.loop(says(5, 410), 0, 3);
+    recorder.loop(outputs_at(5, 410), 0, 3);
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 2U);
     EXPECT_EQ(sink.batches[0].position_before + sink.batches[0].count, 1);
-    EXPECT_EQ(sink.batches[1].position_before, 4) << "not 1: a reader sees that the count jumps";
+    EXPECT_EQ(sink.batches[1].position_before, 4) << "not 1: the jump of the count is visible";
     EXPECT_EQ(sink.batches[1].sequence, 1) << "no message is missing";
 }
 

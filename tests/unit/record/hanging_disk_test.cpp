@@ -1,4 +1,4 @@
-// A service whose record or flight goes to a disk that hangs still ends when it is asked to.
+// A service whose record or flight goes to a disk that hangs still ends on request.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-/// Opening a FIFO that nobody reads never returns.
+/// Opening a FIFO without a reader never returns.
 class Fifo final : public RecordSink {
 public:
     void write(const std::string& /*channel*/, std::int64_t /*utime*/, std::span<const std::uint8_t> bytes) override {

@@ -1,4 +1,4 @@
-// What a process records is on its own board's disk as well, in LCM's format and bounded.
+// A process's record is also on its own board's disk, in LCM's format and bounded.
 #include "services/record/own_log.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST_F(OwnLog, KeepsTheNewestAndNeverOutgrowsItsLimit) {
     EXPECT_EQ(log.failures(), 0U);
 }
 
-TEST_F(OwnLog, ANewProcessGoesOnBehindTheOneBefore) {
+TEST_F(OwnLog, ANewProcessAppendsToTheOneBefore) {
     {
         auto log = begin(1'000'000);
         write(log, 0, 10);
@@ -77,7 +77,7 @@ TEST_F(OwnLog, ANewProcessGoesOnBehindTheOneBefore) {
     EXPECT_EQ(times().size(), 20U);
 }
 
-TEST_F(OwnLog, TwoThatRunSideBySideKeepBoth) {
+TEST_F(OwnLog, KeepsTheLogsOfTwoParallelProcesses) {
     {
         auto one = begin(1'000'000);
         auto other = begin(1'000'000);
@@ -99,7 +99,7 @@ TEST_F(OwnLog, FilesOfOthersAreLeftAlone) {
     EXPECT_TRUE(fs::exists(folder / "axis-X..lcm"));
 }
 
-TEST_F(OwnLog, ADirectoryThatCannotBeIsAnErrorWithItsRemedy) {
+TEST_F(OwnLog, ReportsAnImpossibleDirectoryWithTheRemedy) {
     fs::create_directories(folder.parent_path());
     std::ofstream(folder.string()) << "a file is in the way";
     MachineConfig machine{.name = "mill"};
@@ -126,16 +126,16 @@ TEST_F(OwnLog, ADirectoryThatGoesIsMadeUpForByTheNextFile) {
     EXPECT_EQ(times().back(), RotatingLog::kRetry_us + 24);
 }
 
-/// A disk of so many bytes in a directory, seen by this process alone.
+/// A disk of so many bytes in a directory, visible only to this process.
 bool mount_disk(const fs::path& folder, const char* size, unsigned long flags = 0) {
     return mount("tmpfs", folder.c_str(), "tmpfs", flags, size) == 0;
 }
 
-TEST_F(OwnLog, AFullDiskLeavesRoomToSayWhatIsLostAndIsUsedAgainWhenItHasRoom) {
+TEST_F(OwnLog, AFullDiskLeavesRoomForLossMessagesAndIsUsedAgainLater) {
     fs::create_directories(folder);
     if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
         !mount_disk(folder, "size=400k")) {
-        GTEST_SKIP() << "may not mount a disk of its own";
+        GTEST_SKIP() << "may not mount its own disk";
     }
     {
         auto log = begin(80'000'000);
@@ -144,7 +144,7 @@ TEST_F(OwnLog, AFullDiskLeavesRoomToSayWhatIsLostAndIsUsedAgainWhenItHasRoom) {
         EXPECT_GT(failed, 500U);
         log.write_kept("LOSS", 1000, std::vector<std::uint8_t>(100));
         log.flush();
-        EXPECT_EQ(log.failures(), failed) << "the loss is written though nothing else is";
+        EXPECT_EQ(log.failures(), failed) << "the loss is written, other messages are not";
         EXPECT_EQ(times().back(), 1000);
         ASSERT_TRUE(mount_disk(folder, "size=4m", MS_REMOUNT));
         write(log, 2000, 2010);

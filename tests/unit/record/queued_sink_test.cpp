@@ -1,4 +1,4 @@
-// A slow disk costs a log messages, and the log says which; it never costs the one who writes any time.
+// A slow disk costs a log messages, and the log lists them; it never delays the writer.
 #include "services/record/queued_sink.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct Disk {
     std::atomic<bool> is_busy = false;  // with a message
     std::vector<std::int64_t> written;  // utimes
     std::vector<RecordLoss> losses;
-    std::vector<std::size_t> losses_said;  // after so many messages
+    std::vector<std::size_t> losses_at;  // after so many messages
 };
 
 /// Each write takes until the disk opens.
@@ -47,7 +47,7 @@ protected:
             std::make_unique<DiskSink>(disk),
             [this](RecordSink&, const RecordLoss& loss) {
                 disk.losses.push_back(loss);
-                disk.losses_said.push_back(disk.written.size());
+                disk.losses_at.push_back(disk.written.size());
             },
             "MARK", queue_bytes);
     }
@@ -68,24 +68,24 @@ TEST_F(Queue, KeepsEveryMessageInItsOrder) {
     EXPECT_TRUE(disk.losses.empty());
 }
 
-TEST_F(Queue, LetsNobodyWaitForADiskThatHangs) {
+TEST_F(Queue, NeverMakesAWriterWaitForADiskThatHangs) {
     begin(2000);
     write(0);
-    while (!disk.is_busy) { std::this_thread::yield(); }   // the disk has it, and keeps it
+    while (!disk.is_busy) { std::this_thread::yield(); }   // the disk holds it
     for (std::int64_t i = 1; i < 1000; ++i) { write(i); }  // would never end if it waited
     const std::uint64_t lost = sink->failures();
     EXPECT_GT(lost, 900U);
     disk.opens.set_value();
     end();
     EXPECT_EQ(disk.written.size() + lost, 1000U);
-    ASSERT_EQ(disk.losses.size(), 1U) << "said once, where they are missing";
+    ASSERT_EQ(disk.losses.size(), 1U) << "recorded once, where they are missing";
     EXPECT_EQ(disk.losses[0].messages, lost);
     EXPECT_EQ(disk.losses[0].first_utime, disk.written.back() + 1);
     EXPECT_EQ(disk.losses[0].last_utime, 999);
-    EXPECT_EQ(disk.losses_said[0], disk.written.size());
+    EXPECT_EQ(disk.losses_at[0], disk.written.size());
 }
 
-TEST_F(Queue, SaysWhatAFullDiskRefused) {
+TEST_F(Queue, ReportsMessagesThatAFullDiskRefused) {
     begin(1 << 20);
     disk.is_full = true;
     disk.opens.set_value();
@@ -96,12 +96,12 @@ TEST_F(Queue, SaysWhatAFullDiskRefused) {
     write(2);
     end();
     EXPECT_EQ(disk.written, (std::vector<std::int64_t>{2}));
-    std::uint64_t said = 0;
-    for (const RecordLoss& loss : disk.losses) { said += loss.messages; }
-    EXPECT_EQ(said, 2U);
+    std::uint64_t reported = 0;
+    for (const RecordLoss& loss : disk.losses) { reported += loss.messages; }
+    EXPECT_EQ(reported, 2U);
 }
 
-/// A disk that is full: but for the room that is kept for what must be said.
+/// A full disk, except for the space reserved for loss messages.
 class FullSink : public RecordSink {
 public:
     explicit FullSink(std::vector<std::string>& kept) : kept_(kept) {}
@@ -116,10 +116,10 @@ private:
     std::uint64_t failures_ = 0;
 };
 
-TEST(FullDisk, ALossIsSaidInKeptRoomWheneverItHasDoubledAndAtTheEnd) {
+TEST(FullDisk, ALossIsRecordedInReservedSpaceWhenItDoublesAndAtTheEnd) {
     constexpr std::uint64_t kMessages = 1000;
     std::vector<std::string> kept;
-    std::uint64_t said = 0;
+    std::uint64_t reported = 0;
     std::size_t largest_mark = 0;
     {
         QueuedSink sink(
@@ -128,7 +128,7 @@ TEST(FullDisk, ALossIsSaidInKeptRoomWheneverItHasDoubledAndAtTheEnd) {
                 const std::size_t before = kept.size();
                 log.write("LOSS", loss.last_utime, std::vector<std::uint8_t>(8));
                 if (kept.size() == before) { return; }
-                said += loss.messages;
+                reported += loss.messages;
                 largest_mark = std::max(largest_mark, loss.mark.size());
             },
             "MARK", 1 << 20);
@@ -138,9 +138,9 @@ TEST(FullDisk, ALossIsSaidInKeptRoomWheneverItHasDoubledAndAtTheEnd) {
         }
         sink.write("MARK", kMessages, std::vector<std::uint8_t>(77));
     }
-    EXPECT_EQ(said, kMessages + 1) << "at the end every loss is said";
+    EXPECT_EQ(reported, kMessages + 1) << "at the end every loss is recorded";
     EXPECT_LE(kept.size(), 14U) << "however many messages are lost";
-    EXPECT_EQ(largest_mark, 77U) << "with how much the process has published";
+    EXPECT_EQ(largest_mark, 77U) << "with the process's published counts";
 }
 
 }  // namespace

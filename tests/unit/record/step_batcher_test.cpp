@@ -1,4 +1,4 @@
-// Every step of an axis leaves in a message, in order, and the messages say so themselves.
+// Every step of an axis is published in order, and the messages show that.
 #include "services/record/step_batcher.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Recorder {
                   position, [this](const step_batch_t& batch) { batches.push_back(batch); }) {}
 };
 
-/// The steps as the messages tell them; fails where the messages do not join.
+/// The steps of the messages; fails if the messages do not join.
 std::vector<StepEdge> steps_in(const std::vector<step_batch_t>& batches, std::int64_t position) {
     std::vector<StepEdge> steps;
     std::int64_t sequence = 0;
@@ -36,7 +36,7 @@ std::vector<StepEdge> steps_in(const std::vector<step_batch_t>& batches, std::in
     return steps;
 }
 
-TEST(StepBatcher, TellsEveryStepWithItsTickAndDirection) {
+TEST(StepBatcher, PublishesEveryStepWithItsTickAndDirection) {
     Recorder record(0, 100);
     std::vector<StepEdge> made;
     for (std::int64_t tick = 0; tick < 100'000; tick += 7) {

@@ -1,4 +1,4 @@
-// What each device was given makes the recorded steps again, whatever interrupted them; and what does not is said.
+// Each device's recorded input makes the recorded steps again, whatever interrupted them; a difference is reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ protected:
         result.clocks = clocks;
         return result;
     }
-    /// The replay makes the recorded steps, and its own log verifies as the recorded one does.
+    /// The replay makes the recorded steps, and its own log verifies like the recorded one.
     void expect_exact() const {
         LogSink sink(LogWriter::open(made()).value());
         const auto findings = replay_log(log(), &sink);
@@ -143,7 +143,7 @@ TEST_F(ARecordedRun, WithoutItsPlanIsReplayedAllTheSame) {
     EXPECT_FALSE(replay(altered).difference);
 }
 
-TEST_F(ARecordedRun, WithoutItsFirstFramesIsSaidToLackThem) {
+TEST_F(ARecordedRun, WithoutItsFirstFramesIsReportedAsIncomplete) {
     test::AlteredLog altered(log());
     altered.leave_out<run_t>("_X_RUN", [](const run_t& run) { return run.sequence < 3; });
     const Findings findings = replay(altered);
@@ -151,8 +151,8 @@ TEST_F(ARecordedRun, WithoutItsFirstFramesIsSaidToLackThem) {
     EXPECT_THAT(findings.difference->text, HasSubstr("the record of runs 0 to 2 are not in the log"));
 }
 
-/// Numbers that were damaged where their message still decodes: the verdict may be either, but there is one.
-TEST_F(ARecordedRun, WithAnyNumbersInItIsJudgedToItsEnd) {
+/// Damaged numbers in messages that still decode: any result is allowed, but there is one.
+TEST_F(ARecordedRun, WithAnyDamagedNumbersIsReplayedToItsEnd) {
     const test::AlteredLog whole(log());
     std::mt19937_64 random(11);
     for (int round = 0; round < 100; ++round) {
@@ -174,7 +174,7 @@ TEST_F(ARecordedRun, WithAnyNumbersInItIsJudgedToItsEnd) {
     }
 }
 
-TEST(ADevice, CannotBePoweredUpInMotionSoWhatBeginsInItIsPassedOver) {
+TEST(ADevice, CannotBePoweredUpInMotionSoThatMotionIsSkipped) {
     Findings findings;
     int made = 0;
     DeviceReplay device("X", findings, [&](const MadeStep&) { ++made; });

@@ -1,4 +1,4 @@
-// A log in the background never makes its process wait, and what it loses is counted and reported.
+// A log in the background never delays its process, and lost lines are counted and reported.
 #include <gtest/gtest.h>
 #include <spdlog/sinks/base_sink.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ TEST(LineQueue, GivesLinesInTheirOrder) {
     EXPECT_TRUE(queue.is_empty());
 }
 
-TEST(LineQueue, DropsAndCountsLinesThatFindNoPlace) {
+TEST(LineQueue, DropsAndCountsLinesWhenFull) {
     Queue queue;
     for (int round = 0; round < 3; ++round) {
         for (int i = 0; i < 6; ++i) { EXPECT_EQ(add(queue, std::to_string(i)), i < 4); }
@@ -53,7 +53,7 @@ TEST(LineQueue, CutsLinesThatAreTooLong) {
     EXPECT_EQ(take_all(queue), std::vector{std::string(LogLine::kMaxBytes, 'x')});
 }
 
-TEST(LineQueue, LosesNothingElseThoughManyThreadsAdd) {
+TEST(LineQueue, LosesNoLineWithManyWriters) {
     constexpr std::size_t kThreads = 4;
     constexpr int kLines = 20'000;
     auto queue = std::make_unique<LineQueue<64>>();
@@ -79,7 +79,7 @@ TEST(LineQueue, LosesNothingElseThoughManyThreadsAdd) {
     EXPECT_TRUE(queue->is_empty());
 }
 
-/// A disk that hangs until it is let go.
+/// A disk that hangs until it is released.
 class HungDisk final : public spdlog::sinks::base_sink<std::mutex> {
 public:
     void let_go() {

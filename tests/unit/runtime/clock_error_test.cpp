@@ -18,12 +18,12 @@ TEST(ClockError, MakesAClockFastAndSetsIt) {
     EXPECT_EQ(error->applied(now, seconds{10}), now - milliseconds{2000} + nanoseconds{1'000'000});
 }
 
-TEST(ClockError, NothingSaidIsNoError) {
+TEST(ClockError, AnEmptyTextIsNoError) {
     EXPECT_EQ(parse_clock_error(""), ClockError{});
     EXPECT_EQ(ClockError{}.applied(seconds{5}, seconds{3}), seconds{5});
 }
 
-TEST(ClockError, WhatCannotBeReadIsRefusedWithItsText) {
+TEST(ClockError, RefusesAnUnreadableTextAndNamesIt) {
     for (const char* text :
          {"offset", "offset=", "offset=x", "drift=5", "step=1", "step=1@-1", "ppm=1e99", "ppm=nan"}) {
         const auto error = parse_clock_error(std::string("ppm=5,") + text);

@@ -1,4 +1,4 @@
-// A process that is asked to end ends, whatever it then waits for.
+// A process with a stop request ends, whatever it waits for.
 #include "services/runtime/end_guard.hpp"
 
 #include <gtest/gtest.h>
@@ -22,14 +22,14 @@ protected:
     StopSignal stop;
     const EndGuard guard(stop, 200ms);
     raise(SIGTERM);
-    for (;;) { pause(); }  // as a join of a thread whose disk hangs
+    for (;;) { pause(); }  // like a join of a thread whose disk hangs
 }
 
-TEST_F(EndGuards, EndTheProcessThatWaitsForWhatNeverComes) {
+TEST_F(EndGuards, EndAProcessThatWaitsForever) {
     EXPECT_EXIT(end_with_a_thread_that_hangs(), testing::ExitedWithCode(kServiceFailed), "a disk may hang");
 }
 
-TEST_F(EndGuards, LeaveAProcessAloneThatIsNotAskedToEnd) {
+TEST_F(EndGuards, DoNotEndAProcessWithoutAStopRequest) {
     StopSignal stop;
     const EndGuard guard(stop, 100ms);
     std::this_thread::sleep_for(300ms);

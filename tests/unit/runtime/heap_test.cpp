@@ -1,4 +1,4 @@
-// What a process has freed of large blocks is the system's again, however often it was done before.
+// Freed large blocks are returned to the system, however often it was done before.
 #include "services/runtime/heap.hpp"
 
 #include <gtest/gtest.h>

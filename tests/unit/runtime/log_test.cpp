@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-TEST(Log, ALineSaysWhenWhoWhatAndWhichCode) {
+TEST(Log, ALineHasTimeServiceTextAndCode) {
     const auto path = std::filesystem::temp_directory_path() / ("lockstep_service_log_" + std::to_string(getpid()));
     ASSERT_TRUE(open_log({.service = "axis", .axis = "X", .file = path}));
     log_event(spdlog::level::warn, FaultCode::LimitHit, "at 100 % of {travel}");
@@ -24,7 +24,7 @@ TEST(Log, ALineSaysWhenWhoWhatAndWhichCode) {
     ASSERT_TRUE(open_log({.service = "test", .axis = ""}));
 }
 
-TEST(Log, OfAServiceThatLogsForeverTheNewestFilesAreKept) {
+TEST(Log, KeepsTheNewestFilesOfALongRun) {
     const auto directory = std::filesystem::temp_directory_path() / ("lockstep_long_log_" + std::to_string(getpid()));
     std::filesystem::create_directory(directory);
     ASSERT_TRUE(open_log({.service = "axis", .axis = "X", .file = directory / "axis-X.log"}));

@@ -1,4 +1,4 @@
-// A loop that stands still is noticed; one that runs, however slowly, is not.
+// A loop that stands still is detected; one that runs, however slowly, is not.
 #include "services/runtime/loop_watchdog.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A loop wakes at multiples of its period and skips what it missed.
+// A loop wakes at multiples of its period and skips missed periods.
 #include "services/runtime/periodic.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(PeriodicLoop, WakesAtMultiplesOfItsPeriodAndNeverTwiceForOne) {
     EXPECT_EQ(wakes.size(), 5u);
 }
 
-TEST(PeriodicLoop, SkipsAndCountsWhatItMissed) {
+TEST(PeriodicLoop, SkipsAndCountsMissedPeriods) {
     StopSignal stop;
     PeriodicLoop loop(2ms);
     int runs = 0;

@@ -1,4 +1,4 @@
-// What a service asks of its host is granted, or it is said what that costs; it runs either way.
+// A host grants a service's requests, or the effect of the refusal is reported; the service runs either way.
 #include "services/runtime/real_time.hpp"
 
 #include <gtest/gtest.h>
@@ -8,20 +8,20 @@
 namespace lockstep {
 namespace {
 
-/// In a thread: its scheduler and its processors go with it.
+/// In a thread: its scheduler and its processors end with it.
 std::vector<std::string> ask(const RealTimeConfig& wanted) {
-    std::vector<std::string> said;
-    std::thread([&] { said = ask_for_real_time(wanted); }).join();
-    return said;
+    std::vector<std::string> lines;
+    std::thread([&] { lines = ask_for_real_time(wanted); }).join();
+    return lines;
 }
 
-TEST(RealTime, AsksForNothingUnlessItIsConfigured) { EXPECT_TRUE(ask({}).empty()); }
+TEST(RealTime, RequestsNothingUnlessConfigured) { EXPECT_TRUE(ask({}).empty()); }
 
-TEST(RealTime, SaysWhatCameOfSchedulerAndMemory) {
-    const auto said = ask({.priority = 1});
-    ASSERT_EQ(said.size(), 2U);
-    EXPECT_TRUE(said[0].starts_with("scheduler FIFO, priority 1") || said[0].contains("to permit it: LimitRTPRIO"));
-    EXPECT_TRUE(said[1] == "memory locked" || said[1].contains("to permit it: LimitMEMLOCK"));
+TEST(RealTime, ReportsTheResultForSchedulerAndMemory) {
+    const auto lines = ask({.priority = 1});
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_TRUE(lines[0].starts_with("scheduler FIFO, priority 1") || lines[0].contains("to permit it: LimitRTPRIO"));
+    EXPECT_TRUE(lines[1] == "memory locked" || lines[1].contains("to permit it: LimitMEMLOCK"));
 }
 
 TEST(RealTime, AProcessorThatTheHostLacksIsNamed) {

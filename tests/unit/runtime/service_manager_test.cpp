@@ -1,4 +1,4 @@
-// What a service tells systemd, read from the socket that systemd would read.
+// A service's notifications to systemd, read from systemd's socket.
 #include "services/runtime/service_manager.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class ToldToSystemd : public testing::Test {
+class NotifiesSystemd : public testing::Test {
 protected:
     void SetUp() override {
         sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
@@ -31,7 +31,7 @@ protected:
         ::unlink(path_.c_str());
     }
     /// The next message; empty: there is none.
-    std::string told() const {
+    std::string notification() const {
         std::array<char, 256> text{};
         const ssize_t length = ::recv(socket_, text.data(), text.size(), MSG_DONTWAIT);
         return length < 0 ? "" : std::string(text.data(), static_cast<std::size_t>(length));
@@ -42,25 +42,25 @@ private:
     int socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
 };
 
-TEST_F(ToldToSystemd, ThatItIsUpAndThatItEnds) {
+TEST_F(NotifiesSystemd, ThatItIsUpAndThatItEnds) {
     const ServiceManager manager;
     manager.ready("axis X of machine mill");
-    EXPECT_EQ(told(), "READY=1\nSTATUS=axis X of machine mill");
+    EXPECT_EQ(notification(), "READY=1\nSTATUS=axis X of machine mill");
     manager.stopping();
-    EXPECT_EQ(told(), "STOPPING=1");
+    EXPECT_EQ(notification(), "STOPPING=1");
 }
 
-TEST_F(ToldToSystemd, ThatItIsAliveFourTimesInTheTimeTheWatchdogWaits) {
+TEST_F(NotifiesSystemd, ThatItIsAliveFourTimesInTheTimeTheWatchdogWaits) {
     ServiceManager manager;
     int times = 0;
     for (auto now = 10s + 0ms; now < 14s; now += 5ms) {
         manager.alive(now);
-        for (; told() == "WATCHDOG=1"; ++times) {}
+        for (; notification() == "WATCHDOG=1"; ++times) {}
     }
     EXPECT_EQ(times, 4);
 }
 
-TEST(NotToldToSystemd, AServiceThatItDidNotStartSaysNothing) {
+TEST(WithoutSystemd, AServiceThatItDidNotStartSendsNothing) {
     ServiceManager manager;
     manager.ready("axis X");
     manager.alive(1s);

@@ -1,4 +1,4 @@
-// Each expectation holds where the record agrees, fails where it does not, and reports what was found and where.
+// Each expectation holds if the record agrees, fails if it does not, and reports the result and its source.
 #include "clients/scenario/model/evaluation.hpp"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ std::vector<Check> checks(const std::string& expect, const Evidence& evidence,
     return evaluate(parsed(whole("expect { " + expect + " }")), observed, evidence);
 }
 
-/// The first check: expectations come before what is always checked.
+/// The first check: expectations come before the checks that are always made.
 Check check(const std::string& expect, const Evidence& evidence, const Observations& observed = good_observations()) {
     return checks(expect, evidence, observed).front();
 }

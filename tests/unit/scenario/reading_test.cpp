@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"3:3", "tick_ns is 5", "100 to 1000000"}},
         Bad{"NothingToShow", with_machine("step { home {} }"), {"no shows", "describe in one sentence"}},
         Bad{"NoStep", with_machine("shows: \"x\""), {"no step", "step { home {} }"}},
-        Bad{"ContinuedByNobody", whole("continues: true"), {"8:1", "standby"}},
+        Bad{"ContinuesWithoutStandby", whole("continues: true"), {"8:1", "standby"}},
         Bad{"EmptyStep", whole("step {}"), {"8:1", "is empty", "home, run, move, wait or act"}},
         Bad{"RunOfNothing", whole("step { run {} }"), {"8:8", "file:", "gcode:"}},
         Bad{"RunOfTwo", whole("step { run { file: \"a\" gcode: \"G4 P1\" } }"), {"8:8", "one program"}},
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"DuringAWait",
             whole("step { wait { seconds: 1 } during { act { kill: \"axis-X\" } } }"),
             {"8:", "during goes with home, run and move"}},
-        Bad{"NobodyToKill",
+        Bad{"UnknownProcess",
             whole("step { act { kill: \"axis-Q\" } }"),
             {"8:14", "axis-Q", "coordinator, axis-X, axis-Y"}},
         Bad{"NoStandby", whole("step { act { kill: \"coordinator-2\" } }"), {"there is no process 'coordinator-2'"}},
@@ -138,13 +138,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"FewerThanNoInterruptions", whole("expect { interruptions: -1 }"), {"interruptions is -1", "at least 0"}}),
     [](const auto& bad) { return std::string(bad.param.name); });
 
-TEST(ScenarioReading, AllThatIsWrongIsSaidInTheOrderOfTheText) {
+TEST(ScenarioReading, ReportsAllErrorsInTheOrderOfTheText) {
     const std::string errors = errors_of(whole("step {}\nexpect { path_within_mm: -1 }\ncontinues: true"));
     EXPECT_THAT(errors, StartsWith("8:1: "));
     EXPECT_LT(errors.find("9:10: "), errors.find("10:1: "));
 }
 
-TEST(ScenarioReading, AFileThatIsMissingOrEmptyIsSaid) {
+TEST(ScenarioReading, ReportsAMissingOrEmptyFile) {
     EXPECT_FALSE(load_scenario("/nowhere/at-all.textproto"));
     EXPECT_FALSE(parse_scenario("", "empty.textproto"));
 }

@@ -1,4 +1,4 @@
-// A verdict says what did not hold, to a person and in XML that others read.
+// A result lists the failed checks, as text and in XML.
 #include "clients/scenario/model/report.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ proto::ScenarioReport scenario(const std::string& name, bool held) {
     return report;
 }
 
-TEST(ScenarioReport, SaysWhatFailedAndWhere) {
+TEST(ScenarioReport, NamesFailuresAndTheirPlace) {
     const std::string text = to_text(scenario("plate", false), false);
     EXPECT_THAT(text, HasSubstr("plate: FAILED"));
     EXPECT_THAT(text, HasSubstr("FAILED  X at 10 mm: at 9 mm (whole.lcm, tick 7)"));

@@ -1,4 +1,4 @@
-// Keys that are made let their members in; whatever is wrong with them is said with file and remedy.
+// Generated keys admit their members; each error is reported with file and remedy.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -66,7 +66,7 @@ TEST_F(Keys, ThatAreMissingAreNamedWithTheRemedy) {
     EXPECT_THAT(admission.error(), HasSubstr("lockstep keys make"));
 }
 
-TEST_F(Keys, ThatOthersMayReadAreRefusedWithTheChmodThatMendsIt) {
+TEST_F(Keys, ThatOthersMayReadAreRefusedWithTheChmodThatCorrectsIt) {
     make();
     const fs::path key = keys() / "client.key";
     EXPECT_EQ(fs::status(key).permissions(), fs::perms(0600));
@@ -76,10 +76,10 @@ TEST_F(Keys, ThatOthersMayReadAreRefusedWithTheChmodThatMendsIt) {
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod 600 " + key.string())));
 }
 
-TEST_F(Keys, InADirectoryThatOthersMayWriteAreRefusedWithTheChmodThatMendsIt) {
+TEST_F(Keys, InADirectoryThatOthersMayWriteAreRefusedWithTheChmodThatCorrectsIt) {
     make();
     fs::permissions(keys(), fs::perms(0755));
-    EXPECT_THAT(errors_of(client_member()), IsEmpty()) << "others may look";
+    EXPECT_THAT(errors_of(client_member()), IsEmpty()) << "others may read";
     fs::permissions(keys(), fs::perms(0777));
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod go-w " + keys().string())));
     fs::permissions(keys(), fs::perms(0700));
@@ -87,7 +87,7 @@ TEST_F(Keys, InADirectoryThatOthersMayWriteAreRefusedWithTheChmodThatMendsIt) {
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod 600 " + (keys() / "ca").string())));
 }
 
-TEST_F(Keys, EndWhenTheyWereSaidToAndWarnBefore) {
+TEST_F(Keys, ExpireOnTheirDateAndWarnBefore) {
     make(std::chrono::days(100));
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     EXPECT_THAT(check_member(machine_, keys(), client_member(), now).warnings, IsEmpty());
@@ -128,7 +128,7 @@ TEST_F(Keys, AreNeverOverwrittenUnasked) {
     EXPECT_TRUE(fs::exists(fs::path(replaced->replaced) / "ca" / "identity-ca.key")) << "nothing is lost";
 }
 
-TEST_F(Keys, ThatAreNoneAreSaidToBe) {
+TEST_F(Keys, ThatAreNotKeysAreReported) {
     make();
     std::ofstream(keys() / "client.pem") << "a certificate, surely\n";
     EXPECT_THAT(errors_of(client_member()), testing::Contains(HasSubstr("client.pem: is not a certificate in PEM")));

@@ -1,4 +1,4 @@
-// Who may say what: by role, and each axis for itself.
+// Who may publish and read: by role, and each axis for itself.
 #include <gmock/gmock.h>
 
 #include "services/security/access_documents.hpp"
@@ -39,14 +39,14 @@ TEST(Rights, AnAxisWritesInItsOwnPartitionAlone) {
     EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("mill@4/0")));
 }
 
-TEST(Rights, AViewerSaysNothing) { EXPECT_THAT(published(viewer_member()), Not(HasSubstr("<publish>"))); }
+TEST(Rights, AViewerPublishesNothing) { EXPECT_THAT(published(viewer_member()), Not(HasSubstr("<publish>"))); }
 
 TEST(Rights, HoldInTheMachinesDomainAndNoOther) {
     EXPECT_THAT(published(client_member()), HasSubstr("<id>7</id>"));
     EXPECT_THAT(governance_xml(mill()), HasSubstr("<id>7</id>"));
 }
 
-TEST(Rights, EveryTopicIsSaidAndHeardBySomebody) {
+TEST(Rights, EveryTopicHasWritersAndReaders) {
     for (const TopicRights& topic : rights()) {
         EXPECT_FALSE(topic.writers.empty()) << topic.topic;
         EXPECT_FALSE(topic.readers.empty()) << topic.topic;

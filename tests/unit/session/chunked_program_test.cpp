@@ -53,7 +53,7 @@ TEST(ChunkedProgram, KeepsAFewInFlightAndSendsTheNextWhenOneIsAnswered) {
     EXPECT_EQ(next[0].index, kChunksInFlight);
 }
 
-TEST(ChunkedProgram, RepeatsWhatIsNotAnswered) {
+TEST(ChunkedProgram, RepeatsUnansweredChunks) {
     ChunkedProgram program(1, 1, 1, some_bytes(3 * kChunkBytes));
     (void)program.due(0ns);
     program.take_answer(1);
@@ -64,7 +64,7 @@ TEST(ChunkedProgram, RepeatsWhatIsNotAnswered) {
     EXPECT_EQ(again[0].index, 1u);
 }
 
-TEST(ChunkedProgram, CountsAnAnswerOnceAndNoOneElses) {
+TEST(ChunkedProgram, CountsOnlyItsOwnAnswersOnce) {
     ChunkedProgram program(1, 10, 1, some_bytes(2 * kChunkBytes));
     (void)program.due(0ns);
     for (const std::uint64_t sequence : {9, 10, 10, 12, 0}) { program.take_answer(sequence); }

@@ -13,32 +13,32 @@ JobResult result(std::uint64_t job, std::optional<JobOutcome> outcome, const Ter
     return result_of({.term = term, .job = job, .outcome = outcome, .job_begun = begun}, 5, kAsked, kAsked);
 }
 
-TEST(JobResult, IsWhatTheCoordinatorSaysOfThatJob) {
+TEST(JobResult, IsTheCoordinatorsOutcomeOfThatJob) {
     EXPECT_EQ(result(5, std::nullopt), JobResult::InProgress);
     EXPECT_EQ(result(5, JobOutcome::Done), JobResult::Done);
     EXPECT_EQ(result(5, JobOutcome::Stopped), JobResult::Stopped);
     EXPECT_EQ(result(5, JobOutcome::Failed), JobResult::Failed);
 }
 
-TEST(JobResult, IsNotThatOfTheJobBefore) {  // said before the reply, heard after it
+TEST(JobResult, IsNotThatOfTheJobBefore) {  // published before the reply, received after it
     EXPECT_EQ(result(4, JobOutcome::Done), JobResult::InProgress);
 }
 
 TEST(JobResult, IsUnknownAfterAnotherJobOrCoordinator) {
     EXPECT_EQ(result(6, JobOutcome::Done), JobResult::Lost);
-    EXPECT_EQ(result(0, std::nullopt, kLater), JobResult::Lost) << "started anew";
+    EXPECT_EQ(result(0, std::nullopt, kLater), JobResult::Lost) << "restarted";
 }
 
-TEST(JobResult, IsOpenWhileAnotherOwnerGoesOnWithIt) {
+TEST(JobResult, IsOpenWhileAnotherOwnerContinuesIt) {
     EXPECT_EQ(result(5, std::nullopt, kLater), JobResult::InProgress);
     EXPECT_EQ(result(5, std::nullopt, kLater, kLater), JobResult::Lost) << "a job of its own, of the same number";
     const MachineState stopped{.term = kLater, .job = 5, .outcome = JobOutcome::Stopped, .job_begun = kAsked};
-    EXPECT_EQ(result_of(stopped, 5, kAsked, kLater), JobResult::Stopped) << "by somebody, after it had gone on";
+    EXPECT_EQ(result_of(stopped, 5, kAsked, kLater), JobResult::Stopped) << "by a command, after it had continued";
 }
 
-TEST(JobResult, IsCutShortWhereAStandbyTookOver) {
+TEST(JobResult, IsCutShortIfAStandbyTookOver) {
     EXPECT_EQ(result(5, JobOutcome::Stopped, kLater), JobResult::CutShort);
-    EXPECT_EQ(result(5, JobOutcome::Done, kLater), JobResult::Done) << "the last owner had said so";
+    EXPECT_EQ(result(5, JobOutcome::Done, kLater), JobResult::Done) << "as the last owner reported";
 }
 
 }  // namespace

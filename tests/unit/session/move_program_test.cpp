@@ -32,7 +32,7 @@ TEST(Target, IsAnAxisAndAPlaceInMillimetres) {
     EXPECT_EQ(parse_target("Turret_2=+0.25")->axis, "Turret_2");
 }
 
-TEST(Target, ThatIsNoneIsRefusedWithAnExample) {
+TEST(Target, ThatIsInvalidIsRefusedWithAnExample) {
     for (const char* word :
          {"", "X", "X=", "=10", "X=ten", "X=10mm", "X=1e999", "X=nan", "X=inf", "X = 10", "X=0x10", "X=1,5"}) {
         const auto target = parse_target(word);
@@ -41,12 +41,12 @@ TEST(Target, ThatIsNoneIsRefusedWithAnExample) {
     }
 }
 
-TEST(Move, GoesToAbsolutePlacesAndLeavesOtherAxesWhereTheyStand) {
+TEST(Move, GoesToAbsolutePlacesAndDoesNotMoveOtherAxes) {
     EXPECT_THAT(move_of({.targets = {"X=10"}}).target_mm, ElementsAre(10, 3));
     EXPECT_THAT(move_of({.targets = {"Y=-3.5", "x=0"}}).target_mm, ElementsAre(0, -3.5));
 }
 
-TEST(Move, IsFromWhereTheAxesStandWhenRelative) {
+TEST(Move, StartsAtTheAxesPositionsIfRelative) {
     EXPECT_THAT(move_of({.targets = {"X=10", "Y=-1"}, .relative = true}).target_mm, ElementsAre(22.5, 2));
 }
 

@@ -33,24 +33,24 @@ proto::StatusReport running() {
     return status;
 }
 
-TEST(StatusText, SaysPhaseJobLineAndAge) {
+TEST(StatusText, ShowsPhaseJobLineAndAge) {
     EXPECT_THAT(status_text(running()),
                 HasSubstr("mill: Running, job 3, 42 %, line 120, 12.3 s left (received 4 ms ago)\n"));
 }
 
-TEST(StatusText, SaysWhereEachAxisIsAndHowFast) {
+TEST(StatusText, ShowsPositionAndSpeedOfEachAxis) {
     EXPECT_THAT(status_text(running()),
                 HasSubstr("X                       -5.0000        -10.000   Cruise       yes\n"));
     EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not received -\n"));
 }
 
-TEST(StatusText, SaysDegreesOfAnAxisThatTurns) {
+TEST(StatusText, ShowsDegreesOfARotaryAxis) {
     proto::StatusReport status = running();
     status.mutable_axes(0)->set_name("C");
     EXPECT_THAT(status_text(status), HasSubstr("C (deg)                 -5.0000        -10.000   Cruise       yes\n"));
 }
 
-TEST(StatusText, SaysAFaultWithItsCauseAndRemedyOnce) {
+TEST(StatusText, ShowsAFaultWithItsCauseAndRemedyOnce) {
     proto::StatusReport status = running();
     *status.mutable_fault() = fault_report(FaultCode::LimitHit, "X");
     *status.mutable_axes(0)->mutable_fault() = fault_report(FaultCode::LimitHit, "X");
@@ -60,7 +60,7 @@ TEST(StatusText, SaysAFaultWithItsCauseAndRemedyOnce) {
     EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
 }
 
-TEST(StatusText, FitsInEightyColumnsWhateverTheFault) {
+TEST(StatusText, FitsInEightyColumnsWithAnyFault) {
     std::vector<FaultCode> codes;
 #define X(name, number, text, cause, by_hand, remedies) codes.push_back(FaultCode::name);
     LOCKSTEP_FAULTS(X)
@@ -87,13 +87,13 @@ TEST(StatusText, NamesTheProcessesThatOpenedTheirParticipantAgainOrLostLogLines)
     EXPECT_THAT(status_text(status), HasSubstr("log lines that could not be written: Y 30\n"));
 }
 
-TEST(StatusText, SaysThatNobodyIsHeard) {
+TEST(StatusText, ShowsThatNothingIsReceived) {
     proto::StatusReport status;
     status.set_machine("mill");
     EXPECT_THAT(status_text(status), HasSubstr("mill: unknown (no coordinator received)"));
 }
 
-TEST(MachineFault, NamesAnAxisOnlyWhereItIsOneAxiss) {
+TEST(MachineFault, NamesAnAxisOnlyIfItIsOneAxiss) {
     const auto limit =
         fault_of({.fault = static_cast<std::uint16_t>(FaultCode::LimitHit), .fault_axis = 1}, two_axes());
     EXPECT_EQ(limit->axis(), "Y");
@@ -102,7 +102,7 @@ TEST(MachineFault, NamesAnAxisOnlyWhereItIsOneAxiss) {
     EXPECT_FALSE(fault_of({}, two_axes()));
 }
 
-TEST(ProgressText, SaysPercentLineAndRemainingTime) {
+TEST(ProgressText, ShowsPercentLineAndRemainingTime) {
     EXPECT_EQ(progress_bar(running()), "[############                  ]  42 %  line 120  12.3 s left");
     EXPECT_EQ(progress_text(running()), "Running: 42 %, line 120, 12.3 s left");
 }
@@ -115,7 +115,7 @@ TEST(ProgressText, IsNotFullBeforeTheEnd) {
     EXPECT_THAT(progress_bar(status), HasSubstr("[##############################] 100 %"));
 }
 
-TEST(HomingText, SaysAPlaceOnceItMeansSomething) {
+TEST(HomingText, ShowsPositionsOnlyOfHomedAxes) {
     EXPECT_EQ(homing_text(running()), "X homed at -5.000   Y not received");
 }
 

@@ -1,4 +1,4 @@
-// A simulated device on the bench with a driver to it, and frames that are easy to reckon with: a body is 10 steps in
+// A simulated device on the bench with a driver to it, and frames that are easy to compute: a body is 10 steps in
 // 1280 ticks, a tail one more step in 128, all at one step per 128 ticks, the first step 64 ticks after the start.
 #pragma once
 
@@ -18,7 +18,7 @@ inline constexpr Ticks kBody{1280};
 inline constexpr Ticks kTail{128};
 inline constexpr Tick kStart{1000};
 
-/// Standing in the middle of 100 mm, 80 steps a mm, with a motor stronger than anything asked of it.
+/// In the middle of 100 mm, 80 steps a mm, with a motor stronger than any motion requires.
 inline AxisConfig bench_axis() {
     AxisConfig axis;
     axis.name = "X";
@@ -30,7 +30,7 @@ inline AxisConfig bench_axis() {
     return axis;
 }
 
-/// No switch within reach: the steps are what is looked at.
+/// No switch within reach: only the steps matter.
 inline AxisConfig endless_axis() {
     AxisConfig axis = bench_axis();
     axis.position_min_mm = -1e6;

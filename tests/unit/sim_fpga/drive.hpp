@@ -30,7 +30,7 @@ inline std::vector<Ramp> trapezoid(double jump_mm_s, double speed_mm_s, double a
     return {{jump_mm_s, speed_mm_s, ramp_s}, {speed_mm_s, speed_mm_s, seconds}, {speed_mm_s, jump_mm_s, ramp_s}};
 }
 
-/// How many steps the motor loses on the way.
+/// How many steps the motor loses in the motion.
 inline std::int64_t steps_lost(const AxisConfig& axis, const std::vector<Ramp>& ramps) {
     Plant plant(axis, 1000);
     StepEngine engine(Tick{1'000'000}, rest_position(0, ramps.front().from_mm_s + ramps.front().to_mm_s < 0));

@@ -1,4 +1,4 @@
-// A driver works with the device it was built for, and believes no window.
+// A driver works with the device it was built for, and checks every window.
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {
@@ -29,7 +29,7 @@ TEST(Driver, RefusesAnotherTick) {
     EXPECT_NE(attach_error(bench.window, 500).find("the same tick_ns"), std::string::npos);
 }
 
-TEST(Driver, GoesOnWhereTheOneBeforeItStopped) {
+TEST(Driver, ContinuesWhereItsPredecessorStopped) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});
     bench.order(frame(1));
@@ -63,7 +63,7 @@ TEST(Driver, MemoryThatNoLongerShowsTheDeviceIsAnError) {
     }
 }
 
-TEST(Driver, CapturedTicksThatCannotBeAreNotHandedOn) {
+TEST(Driver, ImpossibleCapturedTicksAreNotPassedOn) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});
     bench.order(last_frame(1));
@@ -79,7 +79,7 @@ TEST(Driver, CapturedTicksThatCannotBeAreNotHandedOn) {
     }
 }
 
-TEST(Driver, AnOldStepIsNotHandedOnAgain) {
+TEST(Driver, AnOldStepIsNotPassedOnAgain) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});
     bench.order(last_frame(1));
@@ -90,13 +90,13 @@ TEST(Driver, AnOldStepIsNotHandedOnAgain) {
     EXPECT_FALSE(bench.driver.drain_capture([](StepEdge) { FAIL(); }));
 }
 
-TEST(Driver, ADeviceHeldUpInAnUpdateIsSeenAsItWasBefore) {
+TEST(Driver, ADeviceHeldUpInAnUpdateIsReadAsBefore) {
     DeviceBench bench;
     bench.at(Tick{5});
     bench.window.store(registers::kSequence, 7);
     bench.window.store(registers::kTick, 6);
     EXPECT_EQ(bench.driver.read()->now, Tick{5});
-    EXPECT_EQ(bench.at(Tick{8}).now, Tick{8}) << "and as it is once it goes on";
+    EXPECT_EQ(bench.at(Tick{8}).now, Tick{8}) << "and its current state once it continues";
 }
 
 TEST(Driver, ADeviceThatDiedInAnUpdateIsAnErrorNotAWaitForEver) {

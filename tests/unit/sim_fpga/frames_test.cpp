@@ -43,7 +43,7 @@ TEST(Frames, EveryStepsTickIsCaptured) {
     for (std::int64_t k = 0; k < 10; ++k) {
         EXPECT_EQ(steps[static_cast<std::size_t>(k)], (StepEdge{kStart + Ticks{64 + 128 * k}, 1}));
     }
-    EXPECT_TRUE(bench.steps().empty()) << "steps are handed over once";
+    EXPECT_TRUE(bench.steps().empty()) << "steps are passed on once";
 }
 
 TEST(Frames, NothingRunsUnarmed) {
@@ -225,7 +225,7 @@ TEST(Frames, ADwellKeepsTheRunInProgress) {
     EXPECT_TRUE(bench.at(kEnd1).finished);
 }
 
-TEST(Frames, AnotherRunForgetsWhatWasLoadedArmedAndVetoed) {
+TEST(Frames, ANewRunDropsLoadedArmedAndVetoedFrames) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});
     bench.order(frame(1));
@@ -241,7 +241,7 @@ TEST(Frames, AnotherRunForgetsWhatWasLoadedArmedAndVetoed) {
     EXPECT_EQ(bench.at(kMuchLater).position.count(), 11);
 }
 
-TEST(Frames, ARunAskedForInMotionWaitsForRestAndDisarmsTheOneInProgress) {
+TEST(Frames, ARunRequestedInMotionWaitsForRestAndDisarmsTheOneInProgress) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});
     bench.order(frame(1));
@@ -253,7 +253,7 @@ TEST(Frames, ARunAskedForInMotionWaitsForRestAndDisarmsTheOneInProgress) {
     EXPECT_EQ(bench.at(kStart + Ticks{20}).run, 1u);
     const DeviceStatus after = bench.at(kEnd2);
     EXPECT_EQ(after.run, 2u);
-    EXPECT_EQ(after.position.count(), 11) << "what is armed is run 2's, not frame 2 of run 1";
+    EXPECT_EQ(after.position.count(), 11) << "the armed frame is run 2's, not frame 2 of run 1";
 }
 
 TEST(Frames, TheCountGoesOnFromRunToRun) {

@@ -64,7 +64,7 @@ TEST(Motor, LosesStepsInTooGreatAnAcceleration) {
     EXPECT_GT(steps_lost(axis(), {{0, 500, 0.5}, {500, 500, 0.2}, {500, 0, 500 / (1.5 * kAccel)}}), 0);
 }
 
-TEST(Slide, AHandMovesItWithoutPulses) {
+TEST(Slide, CanBeMovedWithoutPulses) {
     Plant plant(axis(), 1000);
     plant.push(-8);
     EXPECT_EQ(plant.encoder(), -8);
@@ -83,7 +83,7 @@ TEST(Slide, LimitSwitchesCloseAMarginBeyondTheTravel) {
     EXPECT_TRUE(plant.inputs().limit_max);
 }
 
-TEST(Slide, AStuckSwitchReadsAsItIsStuckUntilItIsNotAnyMore) {
+TEST(Slide, AStuckSwitchKeepsItsReadingUntilItIsReleased) {
     Plant plant(axis(), 1000);
     plant.stick(&PlantInputs::limit_max, true);
     EXPECT_EQ(plant.inputs(), (PlantInputs{.limit_max = true}));

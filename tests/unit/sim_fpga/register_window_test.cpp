@@ -41,7 +41,7 @@ TEST(RegisterWindow, ADeviceIsDrivenThroughAnotherWindowOnItsName) {
     EXPECT_EQ(host.read()->position, Position::steps(10));
 }
 
-TEST(RegisterWindow, ItsCreatorTakesTheNameAwayAgain) {
+TEST(RegisterWindow, ItsCreatorRemovesTheName) {
     { ASSERT_TRUE(RegisterWindow::create_shared(own_name("gone"))); }
     const auto opened = RegisterWindow::open_shared(own_name("gone"));
     ASSERT_FALSE(opened);
@@ -53,10 +53,10 @@ TEST(RegisterWindow, ANameThatALivingDeviceHoldsIsRefused) {
     const auto second = RegisterWindow::create_shared(own_name("held"));
     ASSERT_FALSE(second);
     EXPECT_TRUE(mentions(second.error(), "in use")) << second.error();
-    EXPECT_TRUE(RegisterWindow::open_shared(own_name("held"))) << "the first is none the worse";
+    EXPECT_TRUE(RegisterWindow::open_shared(own_name("held"))) << "the first is not affected";
 }
 
-TEST(RegisterWindow, WhatADeadDeviceLeftIsReplaced) {
+TEST(RegisterWindow, MemoryOfADeadDeviceIsReplaced) {
     const std::string path = "/dev/shm/" + own_name("dead");
     { std::ofstream(path) << "remains"; }
     const auto window = RegisterWindow::create_shared(own_name("dead"));
@@ -73,7 +73,7 @@ TEST(RegisterWindow, AFileTooShortForTheMapIsRefused) {
     EXPECT_TRUE(mentions(window.error(), "shorter")) << window.error();
 }
 
-TEST(RegisterWindow, AMappedFileServesToo) {
+TEST(RegisterWindow, AMappedFileWorksToo) {
     const std::string path = ::testing::TempDir() + own_name("file");
     { std::ofstream(path) << std::string(registers::kWindowBytes, '\0'); }
     auto window = RegisterWindow::open_file(path);
@@ -83,7 +83,7 @@ TEST(RegisterWindow, AMappedFileServesToo) {
     EXPECT_EQ(bench.at(Tick{5}).now, Tick{5});
 }
 
-/// Accesses to memory that is no longer there: neither end crashes, and both see that this is no device.
+/// Accesses to missing memory: neither side crashes, and both see that this is not a device.
 TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
     for (const off_t left : {off_t{0}, off_t{4096}}) {  // with and without the page of the device's words
         DeviceBench bench(endless_axis(), RegisterWindow::create_shared(own_name("cut")).value());
@@ -102,7 +102,7 @@ TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
     }
 }
 
-TEST(RegisterWindow, OnlyTheOneThatIsCutShortIsLost) {
+TEST(RegisterWindow, OnlyTheWindowThatIsCutShortIsLost) {
     DeviceBench cut(bench_axis(), RegisterWindow::create_shared(own_name("one")).value());
     DeviceBench whole(bench_axis(), RegisterWindow::create_shared(own_name("other")).value());
     ASSERT_EQ(::truncate(("/dev/shm/" + own_name("one")).c_str(), 0), 0);
@@ -143,7 +143,7 @@ TEST(RegisterWindow, AReaderInAnotherThreadSeesConsistentStatesOnly) {
     while (!seen.finished) {
         const auto look = bench.driver.read();
         if (!look) {
-            continue;  // the other thread was held up for long
+            continue;  // the other thread was delayed for long
         }
         seen = *look;
         const Ticks run = seen.now < kStart ? Ticks{0} : seen.now - kStart;

@@ -1,4 +1,4 @@
-// What passes between host and device: segments one way, the ticks of steps the other.
+// Traffic between host and device: segments one way, the ticks of steps the other.
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {
@@ -11,11 +11,11 @@ device::LoadFrame frame_of(std::size_t pieces, Tick start, std::int64_t from_cou
     return frame;
 }
 
-TEST(SegmentRing, GoesRoundAsOftenAsItMust) {
+TEST(SegmentRing, WrapsAroundAnyNumberOfTimes) {
     DeviceBench bench(endless_axis());
     std::int64_t count = 0;
     Tick start{1000};
-    for (std::uint64_t run = 1; run <= 100; ++run) {  // 100 x 75 entries: seven times round, at any offset
+    for (std::uint64_t run = 1; run <= 100; ++run) {  // 100 x 75 entries: the ring wraps seven times, at any offset
         const device::LoadFrame frame = frame_of(75, start, count);
         bench.order(device::BeginRun{run});
         bench.order(frame);
@@ -56,7 +56,7 @@ TEST(SegmentRing, AFrameWithoutABodyOrARunIsRefused) {
     EXPECT_FALSE(bench.driver.apply(device::BeginRun{1})) << "a run's number must be new";
 }
 
-TEST(CaptureRing, HoldsEveryStepUntilItIsFullThenSaysSoAndCountsOn) {
+TEST(CaptureRing, HoldsEveryStepUntilFullThenReportsLossAndCountsOn) {
     DeviceBench bench(endless_axis());
     std::int64_t count = 0;
     Tick start{1000};
@@ -75,7 +75,7 @@ TEST(CaptureRing, HoldsEveryStepUntilItIsFullThenSaysSoAndCountsOn) {
     EXPECT_EQ(bench.driver.lost_captures(), 100'000 - registers::kCaptureRingEntries);
 }
 
-TEST(CaptureRing, GoesRoundWhileItIsDrained) {
+TEST(CaptureRing, WrapsAroundWhileItIsDrained) {
     DeviceBench bench(endless_axis());
     const Ticks body{128 * 200'000};
     bench.order(device::BeginRun{1});

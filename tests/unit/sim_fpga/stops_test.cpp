@@ -1,4 +1,4 @@
-// What makes pulses cease: limit switches, the home input, the host.
+// Causes for pulses to cease: limit switches, the home input, the host.
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {
@@ -13,7 +13,7 @@ void run_ten_frames(DeviceBench& bench, int direction, Trigger trigger = Trigger
     bench.order(device::Arm{10});
 }
 
-/// One last frame from where the axis stands.
+/// One last frame from the axis's position.
 void run_once_more(DeviceBench& bench, int direction) {
     const DeviceStatus now = bench.driver.read().value();
     device::LoadFrame next = frame(1, direction);
@@ -56,7 +56,7 @@ TEST(Stops, NoPulseGoesIntoAClosedLimitButTheWayBackIsFree) {
     EXPECT_EQ(back.position.count(), -29);
 }
 
-TEST(Stops, TheHomeSwitchStopsTheRunThatAskedForItAndLatchesTheCount) {
+TEST(Stops, TheHomeSwitchStopsTheRunThatRequestedItAndLatchesTheCount) {
     DeviceBench bench(standing_at(1.5));  // the switch is at 1: 40 steps down
     run_ten_frames(bench, -1, Trigger::HomeCloses);
     const DeviceStatus after = bench.at(kMuchLater);
@@ -66,7 +66,7 @@ TEST(Stops, TheHomeSwitchStopsTheRunThatAskedForItAndLatchesTheCount) {
     EXPECT_EQ(after.position.count(), -40);
 }
 
-TEST(Stops, TheHomeSwitchStopsNoRunThatDidNotAsk) {
+TEST(Stops, TheHomeSwitchStopsNoOtherRun) {
     DeviceBench bench(standing_at(1.5));
     run_ten_frames(bench, -1);
     const DeviceStatus after = bench.at(kMuchLater);
@@ -74,7 +74,7 @@ TEST(Stops, TheHomeSwitchStopsNoRunThatDidNotAsk) {
     EXPECT_EQ(after.position.count(), -101);
 }
 
-TEST(Stops, AnOpeningHomeSwitchStopsTheRunThatAskedForIt) {
+TEST(Stops, AnOpeningHomeSwitchStopsTheRunThatRequestedIt) {
     DeviceBench bench(standing_at(0.5));
     run_ten_frames(bench, +1, Trigger::HomeOpens);
     const DeviceStatus after = bench.at(kMuchLater);
@@ -82,7 +82,7 @@ TEST(Stops, AnOpeningHomeSwitchStopsTheRunThatAskedForIt) {
     EXPECT_EQ(after.trigger_count, 41);
 }
 
-TEST(Stops, AHomeLevelThatIsThereAlreadyEndsTheRunWithoutAPulse) {
+TEST(Stops, APresentHomeLevelEndsTheRunWithoutAPulse) {
     DeviceBench bench(standing_at(0.5));
     run_ten_frames(bench, +1, Trigger::HomeCloses);
     EXPECT_FALSE(bench.at(kStart - Ticks{1}).finished);
@@ -104,7 +104,7 @@ TEST(Stops, TheHostsStopCeasesPulsesAtOnce) {
     EXPECT_EQ(after.velocity, Velocity{});
 }
 
-TEST(Stops, ARunThatWasStoppedSaysWhetherItWasInATail) {
+TEST(Stops, AStoppedRunReportsWhetherItWasInATail) {
     for (const bool in_tail : {false, true}) {
         DeviceBench bench;
         bench.order(device::BeginRun{1});
@@ -130,7 +130,7 @@ TEST(Stops, AStopDoesNotOutliveItsRun) {
     EXPECT_EQ(after.position.count(), 4 + 11);
 }
 
-TEST(Stops, AfterAStopARunMayGoOnFromTheVeryFractionOfAStep) {
+TEST(Stops, AfterAStopARunMayContinueFromTheExactFractionOfAStep) {
     DeviceBench bench;
     run_ten_frames(bench, +1);
     bench.at(kStart + Ticks{500});
@@ -148,7 +148,7 @@ TEST(Stops, AfterAStopARunMayGoOnFromTheVeryFractionOfAStep) {
     EXPECT_EQ(after.position, stopped + Displacement::steps(11));
 }
 
-TEST(Stops, AStopBeforeTheStartKeepsTheRunFromBeginning) {
+TEST(Stops, AStopBeforeTheStartPreventsTheRun) {
     DeviceBench bench;
     run_ten_frames(bench, +1);
     bench.order(device::StopNow{});

@@ -43,7 +43,7 @@ void ask_for(Walker& m, CommandKind kind) { ASSERT_EQ(m.ask(kind).status, ReplyS
 void unhomed(Walker& m) { expect_phase(m, MachinePhase::Idle); }
 
 void without_an_axis(Walker& m) {
-    m.befall({.kind = Kind::Crash, .process = kY}, 3);
+    m.inject({.kind = Kind::Crash, .process = kY}, 3);
     m.wait(0.5);
     EXPECT_EQ(m.vm.state()->phase, MachinePhase::Waiting);
 }
@@ -165,32 +165,32 @@ void emergency_stopped_and_reset(Walker& m) {
 
 void axis_lost(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Crash, .process = kY}, 5);
+    m.inject({.kind = Kind::Crash, .process = kY}, 5);
     expect_phase(m, MachinePhase::Fault);
 }
 
 void axis_lost_and_back(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Crash, .process = kY}, 0.5);
+    m.inject({.kind = Kind::Crash, .process = kY}, 0.5);
     expect_phase(m, MachinePhase::Fault);
     m.wait(1);
 }
 
 void axis_lost_in_homing(Walker& m) {
     homing(m);
-    m.befall({.kind = Kind::Crash, .process = kY}, 5);
+    m.inject({.kind = Kind::Crash, .process = kY}, 5);
     expect_phase(m, MachinePhase::Fault);
 }
 
 void axis_lost_at_rest_and_back(Walker& m) {
     m.home();
-    m.befall({.kind = Kind::Crash, .process = kY}, 0.5);
+    m.inject({.kind = Kind::Crash, .process = kY}, 0.5);
     m.wait(1);
 }
 
 void axis_lost_while_held(Walker& m) {
     holding(m);
-    m.befall({.kind = Kind::Crash, .process = kY}, 5);
+    m.inject({.kind = Kind::Crash, .process = kY}, 5);
     expect_phase(m, MachinePhase::Fault);
 }
 
@@ -202,49 +202,49 @@ void reset_without_an_axis(Walker& m) {
 
 void cut_off(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Cut, .process = kY}, 5);
+    m.inject({.kind = Kind::Cut, .process = kY}, 5);
     expect_phase(m, MachinePhase::Fault);
 }
 
 void axis_stood_still(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Freeze, .process = kY}, 0.3);
+    m.inject({.kind = Kind::Freeze, .process = kY}, 0.3);
     expect_phase(m, MachinePhase::Fault);
 }
 
 void frame_damaged(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::DamageFrame, .process = kX}, 0);
+    m.inject({.kind = Kind::DamageFrame, .process = kX}, 0);
     expect_phase(m, MachinePhase::Fault);
 }
 
-/// In the last frame of the job: nothing follows that would have to join it.
+/// In the last frame of the job: no later frame has to join it.
 void ends_elsewhere(Walker& m) {
     running(m);
     ASSERT_TRUE(m.vm.advance_until([&] { return m.vm.state()->remaining_s < 0.008; }, Ticks{10'000'000}));
-    m.befall({.kind = Kind::DamageFrame, .process = kX, .ends_elsewhere = true}, 0);
+    m.inject({.kind = Kind::DamageFrame, .process = kX, .ends_elsewhere = true}, 0);
     expect_phase(m, MachinePhase::Fault);
     expect_fault(m, FaultCode::PositionMismatch);
 }
 
-/// Y is cut off from the others just when it has their evidence for a frame and they do not have its own: it runs the
-/// frame, they do not. When that is depends on the frame.
+/// Y is cut off from the others just when it has their evidence for a frame and they lack its own: it runs the
+/// frame, they do not. The time depends on the frame.
 void frames_differ(Walker& m) {
     running(m);
     for (int tries = 0; tries < 40 && m.vm.state()->phase != MachinePhase::Fault; ++tries) {
-        m.befall({.kind = Kind::Cut, .process = kY, .incoming = false}, 0.012);
+        m.inject({.kind = Kind::Cut, .process = kY, .incoming = false}, 0.012);
         m.wait(0.005);
-        m.befall({.kind = Kind::Cut, .process = kY, .outgoing = false}, 0.007);
+        m.inject({.kind = Kind::Cut, .process = kY, .outgoing = false}, 0.007);
         m.wait(0.2121);
     }
     expect_phase(m, MachinePhase::Fault);
     expect_fault(m, FaultCode::FramesDiffer);
 }
 
-/// One axis is started with another file than the rest; by hand, it is started again with theirs.
+/// One axis is started with another file than the rest; `by hand`, it is started again with theirs.
 void other_configuration(Walker& m) {
     m.home();
-    m.befall({.kind = Kind::Crash, .process = kY, .other_config = true}, 0.1);
+    m.inject({.kind = Kind::Crash, .process = kY, .other_config = true}, 0.1);
     m.wait(0.2);
     VirtualFault by_hand{.kind = Kind::Crash, .process = kY, .at = m.vm.now() + Ticks{4'000'000}, .lasts = {100'000}};
     m.vm.schedule(by_hand);
@@ -254,7 +254,7 @@ void other_configuration(Walker& m) {
 
 void device_lost(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::KillDevice, .process = kY}, 2);
+    m.inject({.kind = Kind::KillDevice, .process = kY}, 2);
     expect_phase(m, MachinePhase::Fault);
 }
 
@@ -265,20 +265,20 @@ void device_lost_and_back(Walker& m) {
 
 void device_overwritten(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Overwrite, .process = kY}, 1);
+    m.inject({.kind = Kind::Overwrite, .process = kY}, 1);
     expect_phase(m, MachinePhase::Fault);
 }
 
 void switch_not_found(Walker& m) {
     unhomed(m);
-    m.befall({.kind = Kind::Stick, .process = kX, .contact = &PlantInputs::home, .closed = false}, 20);
+    m.inject({.kind = Kind::Stick, .process = kX, .contact = &PlantInputs::home, .closed = false}, 20);
     ask_for(m, CommandKind::Home);
     expect_phase(m, MachinePhase::Fault, 20);
 }
 
 void switch_stuck(Walker& m) {
     unhomed(m);
-    m.befall({.kind = Kind::Stick, .process = kX, .contact = &PlantInputs::home, .closed = true}, 40);
+    m.inject({.kind = Kind::Stick, .process = kX, .contact = &PlantInputs::home, .closed = true}, 40);
     ask_for(m, CommandKind::Home);
     expect_phase(m, MachinePhase::Fault, 40);
 }
@@ -287,7 +287,7 @@ void switch_stuck(Walker& m) {
 void frames_late(Walker& m) {
     running(m);
     for (int stalls = 0; stalls < 40 && m.vm.state()->phase != MachinePhase::Fault; ++stalls) {
-        m.befall({.kind = Kind::Freeze, .process = kCoordinator}, 0.014);
+        m.inject({.kind = Kind::Freeze, .process = kCoordinator}, 0.014);
         m.wait(0.016);
     }
     expect_phase(m, MachinePhase::Fault);
@@ -295,31 +295,31 @@ void frames_late(Walker& m) {
 
 void coordinator_restarted(Walker& m) {
     m.home();
-    m.befall({.kind = Kind::Crash, .process = kCoordinator}, 0.02);
+    m.inject({.kind = Kind::Crash, .process = kCoordinator}, 0.02);
     m.wait(0.021);
 }
 
 void coordinator_restarted_in_motion(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Crash, .process = kCoordinator}, 0.1);
+    m.inject({.kind = Kind::Crash, .process = kCoordinator}, 0.1);
     m.wait(0.3);
 }
 
 void coordinator_silent_in_homing(Walker& m) {
     homing(m);
-    m.befall({.kind = Kind::Crash, .process = kCoordinator}, 0.5);
+    m.inject({.kind = Kind::Crash, .process = kCoordinator}, 0.5);
     m.wait(0.7);
     expect_fault(m, FaultCode::CoordinatorSilent);
 }
 
 void coordinator_silent_in_own_move(Walker& m) {
     own_move(m);
-    m.befall({.kind = Kind::Crash, .process = kCoordinator}, 0.5);
+    m.inject({.kind = Kind::Crash, .process = kCoordinator}, 0.5);
     m.wait(0.7);
     expect_fault(m, FaultCode::CoordinatorSilent);
 }
 
-/// A program is being sent: the last of its chunks has not come yet.
+/// A program is being sent: its last chunk has not arrived yet.
 void program_arriving(Walker& m) {
     m.home();
     m.send_all_but_the_last_chunk();
@@ -328,17 +328,17 @@ void program_arriving(Walker& m) {
 /// The owner ends in the middle of a job.
 void owner_replaced(Walker& m) {
     running(m);
-    m.befall({.kind = Kind::Crash, .process = *m.vm.owner()}, 60);
+    m.inject({.kind = Kind::Crash, .process = *m.vm.owner()}, 60);
     m.wait(0.5);
 }
 
-/// The coordinator stands still for so long that the axes may be off by more than the limit when it goes on.
+/// The coordinator stands still for so long that the axes' clock errors may exceed the limit when it continues.
 void clock_uncertain(Walker& m) {
     m.home();
     m.wait(1);
     ASSERT_EQ(m.go(CommandKind::Run, 85, 45, 2).status, ReplyStatus::Accepted);
     m.wait(0.5);
-    m.befall({.kind = Kind::Freeze, .process = kCoordinator}, 12);
+    m.inject({.kind = Kind::Freeze, .process = kCoordinator}, 12);
     m.wait(12);
     expect_phase(m, MachinePhase::Fault);
 }

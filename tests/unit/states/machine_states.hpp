@@ -1,4 +1,4 @@
-// The states that a machine can be in, each as the way into it.
+// The states of a machine, each with the way into it.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct MachineSituation {
 
 const std::vector<MachineSituation>& situations();
 
-/// For tests that have one as their parameter.
+/// For tests with a state as their parameter.
 std::string situation_name(const testing::TestParamInfo<MachineSituation>& info);
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// The coordinator's host starts again, and its clock begins anew, in whatever state the machine is: the axes rest, take
-// the new time, and the remedies that the machine offers lead back to jobs that run.
+// The coordinator's host starts again, and its clock restarts, in any state of the machine: the axes rest, take
+// over the new time, and the offered remedies lead back to jobs that run.
 #include <algorithm>
 
 #include "tests/unit/states/machine_states.hpp"
@@ -18,7 +18,7 @@ VirtualOptions on_boards() {
     return options;
 }
 
-/// Boards have clocks of their own, so only states that can be entered with any clocks.
+/// Boards have their own clocks, so only states that can be entered with any clocks.
 std::vector<MachineSituation> situations_on_boards() {
     std::vector<MachineSituation> chosen;
     for (const char* name :
@@ -43,17 +43,17 @@ class RebootedCoordinator : public testing::TestWithParam<MachineSituation> {};
 TEST_P(RebootedCoordinator, WithAYoungerClockRunsJobsAgainByTheRemediesOffered) {
     constexpr std::size_t kCoordinator = 2;
     Walker m(on_boards());
-    m.wait(20);  // its clock is older than what a machine slews
+    m.wait(20);  // its clock is older than a machine slews
     GetParam().enter(m);
     if (HasFatalFailure()) { return; }
     const Slot before = m.vm.state()->stamp;
-    m.befall({.kind = VirtualFault::Kind::Crash, .process = kCoordinator, .reboots = true}, 2);
+    m.inject({.kind = VirtualFault::Kind::Crash, .process = kCoordinator, .reboots = true}, 2);
     m.wait(1.5);
     const auto rests_at = places_of(m);
     m.wait(0.3);
     EXPECT_EQ(places_of(m), rests_at) << "without a coordinator nothing moves";
     m.wait(15);
-    EXPECT_LT(m.vm.state()->stamp, before) << "it is a younger clock";
+    EXPECT_LT(m.vm.state()->stamp, before) << "the clock is younger";
     EXPECT_TRUE(m.recovers()) << m.state_text();
 }
 

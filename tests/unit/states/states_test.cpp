@@ -1,5 +1,5 @@
-// In every state of the machine every command is answered, what is accepted has its effect, and the remedies offered
-// lead back to a machine that runs jobs. docs/states.md is what this walk finds; to write it anew:
+// In every state of the machine every command is answered, an accepted one has its effect, and the offered remedies
+// lead back to a machine that runs jobs. docs/states.md is the result of this walk; to write it again:
 //   LOCKSTEP_WRITE_STATES=1 build/bin/unit_states
 #include <cstdlib>
 #include <fstream>
@@ -41,7 +41,8 @@ std::string head() {
         "to\n"
         "a machine that runs jobs. `tests/unit/states` walks all of it in virtual time, follows the remedies, and "
         "fails\n"
-        "where this table is not what it found. To write it anew: `LOCKSTEP_WRITE_STATES=1 build/bin/unit_states`, in\n"
+        "where this table is not what it found. To write it again: `LOCKSTEP_WRITE_STATES=1 build/bin/unit_states`, "
+        "in\n"
         "the repository's folder.\n\n| state |";
     std::string rule = "|---|";
     for (const Question& question : questions()) {
@@ -72,7 +73,7 @@ protected:
         static std::map<std::string, std::string> rows;
         return rows;
     }
-    /// Brings a machine into the state, asks, follows the remedies. The cell.
+    /// Brings a machine into the state, sends the command, follows the remedies. Returns the cell.
     static std::string walk(const MachineSituation& situation, const Question& question, std::size_t choice = 0) {
         Walker machine(situation.options());
         situation.enter(machine);

@@ -36,7 +36,7 @@ Reply Walker::go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, b
     return ask(kind, 0, programs_);
 }
 
-void Walker::befall(VirtualFault fault, double seconds) {
+void Walker::inject(VirtualFault fault, double seconds) {
     fault.at = vm.now();
     fault.lasts = Ticks{static_cast<std::int64_t>(seconds * 1e6)};
     vm.schedule(fault);
@@ -65,7 +65,7 @@ bool Walker::is_settled() const {
     }
 }
 
-/// By a state said after what was asked last.
+/// With a state published after the last command.
 bool Walker::settles(double seconds) {
     wait(0.01);
     return is_settled() ||
@@ -140,8 +140,8 @@ std::size_t Walker::choices(FaultCode code) {
     return text != nullptr && text->remedies.is_choice ? text->remedies.count : 1;
 }
 
-/// By hand: what is wrong passes, and what is missing is sent.
-void Walker::mend() {
+/// `By hand`: faults end, and missing parts are sent.
+void Walker::repair() {
     if (const auto chunk = std::exchange(unsent_, std::nullopt)) { deliver(*chunk); }
     (void)vm.advance_until([this] { return !vm.faults_pending(); }, Ticks{120'000'000});
     wait(0.2);
@@ -167,7 +167,7 @@ void Walker::carry_out(Remedy remedy) {
 void Walker::follow(FaultCode code, std::size_t choice) {
     const FaultText* text = find_fault(code);
     ASSERT_NE(text, nullptr);
-    if (!text->by_hand.empty()) { mend(); }
+    if (!text->by_hand.empty()) { repair(); }
     const auto steps = text->remedies.list();
     for (const Remedy step : text->remedies.is_choice ? steps.subspan(choice, 1) : steps) { carry_out(step); }
 }

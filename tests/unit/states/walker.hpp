@@ -1,4 +1,4 @@
-// A machine in virtual time that is brought into a state, asked something, and brought back by the remedies it offers.
+// A machine in virtual time that is brought into a state, given a command, and brought back by the offered remedies.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// What a client may ask; the column of the table.
+/// A client's command; the column of the table.
 struct Question {
     std::string name;
     CommandKind kind = CommandKind::Stop;
@@ -17,7 +17,7 @@ struct Question {
     int feed_percent = 0;  // Override
 };
 
-/// What came of it: the cell of the table.
+/// Its result: the cell of the table.
 struct Answer {
     std::string text;
     std::optional<FaultCode> refusal;
@@ -33,21 +33,21 @@ public:
     using Rig::reaches;
     using Rig::vm;
     using Rig::wait;
-    /// A job of one straight line from where the axes stand; it pauses before, if so asked.
+    /// A job of one straight line from the axes' positions; it pauses before, if `pauses`.
     Reply go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, bool pauses = false);
-    void befall(VirtualFault fault, double seconds);
+    void inject(VirtualFault fault, double seconds);
     /// Of the program that Question::Program::Unknown names.
     void send_all_but_the_last_chunk();
 
-    /// Asks, and sees what comes of it. Fails where no answer comes in time, a refusal offers no remedy, or what was
-    /// accepted has no effect in time.
+    /// Sends the command and waits for its effect. Fails if no answer comes in time, a refusal offers no remedy, or an
+    /// accepted command has no effect in time.
     Answer answer_to(const Question& question);
 
-    /// How many ways to follow its remedies a refusal or fault offers.
+    /// How many alternative remedies a refusal or fault offers.
     static std::size_t choices(FaultCode code);
-    /// Does what the code's remedies say; each command of them must be accepted.
+    /// Follows the code's remedies; each command of them must be accepted.
     void follow(FaultCode code, std::size_t choice = 0);
-    /// Goes on by the remedies offered until a job has run to its end.
+    /// Continues by the offered remedies until a job has run to its end.
     bool recovers();
 
     std::string state_text() const;
@@ -58,7 +58,7 @@ private:
     void deliver(const ProgramChunk& chunk);
     bool settles(double seconds);
     bool is_settled() const;
-    void mend();
+    void repair();
     void carry_out(Remedy remedy);
     Reply put(const Question& question);
     void expect_effect(const Question& question, const Reply& reply, std::uint64_t jobs_before);

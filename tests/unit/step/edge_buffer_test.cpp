@@ -24,7 +24,7 @@ TEST(EdgeBuffer, GivesBackTickAndDirection) {
     EXPECT_EQ(edges.free().size(), 3U);
 }
 
-TEST(EdgeBuffer, HoldsNothingWhereThereIsNoRoomBeyondTheSlack) {
+TEST(EdgeBuffer, HoldsNothingWithoutRoomBeyondTheSlack) {
     std::array<std::int64_t, 5> room{};
     EXPECT_TRUE(EdgeBuffer(room).free().empty());
     EXPECT_TRUE(EdgeBuffer().free().empty());

@@ -71,7 +71,7 @@ TEST(StepEngine, AtTheTopSpeedStepsEverySecondTick) {
     EXPECT_EQ(run_all(backward).size(), 1'000'000U);
 }
 
-TEST(StepEngine, StopsRightAfterTheTickOfAStepWhenAsked) {
+TEST(StepEngine, StopsRightAfterTheTickOfAStepOnRequest) {
     StepEngine engine(Tick{}, rest_position(0, false));
     engine.begin({Ticks{1000}, {kStep64th}, {0}});
     EXPECT_EQ(engine.run(Tick{1000}, [](StepEdge edge) { return edge.tick < Tick{96}; }), Tick{96});
@@ -91,7 +91,7 @@ TEST(StepEngine, WaitsAndIsRenamedAtRest) {
     EXPECT_EQ(engine.position(), Position::steps(12));
 }
 
-TEST(StepEngineDeathTest, RefusesToExecuteWhatItCouldNotExecuteExactly) {
+TEST(StepEngineDeathTest, RefusesAPieceThatItCannotExecuteExactly) {
     StepEngine engine;
     EXPECT_DEATH(engine.begin({Ticks{-1}, {}, {}}), "");
     EXPECT_DEATH(engine.begin({Ticks{2}, {std::numeric_limits<std::int64_t>::max()}, {1}}), "");

@@ -1,4 +1,4 @@
-// The exact arithmetic that the skip-ahead form rests on, also where ticking through would take weeks.
+// The exact arithmetic of the skip-ahead form, also where ticking through would take weeks.
 #include "core/step/stretch.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(Stretch, AMoveOf2To40StepsLandsOnItsLastStepExactly) {
     EXPECT_EQ(at, Position::steps(std::int64_t{1} << 40));
 }
 
-/// Where a fall in speed ends just before or at the turn, the root is ill-conditioned and its seed may be anywhere
+/// If a fall in speed ends just before or at the turn, the root is ill-conditioned and its seed may be anywhere
 /// near.
 TEST(Stretch, TheStepAtATurnIsFoundByExactSearchWhereTheSeedIsOff) {
     const std::int64_t ticks = std::int64_t{1} << 41;

@@ -15,7 +15,7 @@ TEST(MachineChoice, IsTheOptionThenTheEnvironmentThenTheOneThatIsUp) {
     EXPECT_EQ(choose_file("", "", {"/run/lockstep/c/machine.textproto"}), "/run/lockstep/c/machine.textproto");
 }
 
-TEST(MachineChoice, IsTheInstalledOneWhereNoneIsUp) {
+TEST(MachineChoice, IsTheInstalledOneIfNoneIsUp) {
     EXPECT_EQ(choose_file("", nullptr, {}, kInstalledMachine), kInstalledMachine);
     EXPECT_EQ(choose_file("", nullptr, {"/run/lockstep/c/machine.textproto"}, kInstalledMachine),
               "/run/lockstep/c/machine.textproto");

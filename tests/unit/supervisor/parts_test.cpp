@@ -1,4 +1,4 @@
-// The parts of a machine on several hosts: which are awaited, which others run, which are lost in a damaged record.
+// The parts of a machine on several hosts: which are awaited, which run elsewhere, which are lost in a damaged record.
 #include "clients/session/parts.hpp"
 
 #include <gmock/gmock.h>
@@ -40,16 +40,16 @@ TEST(AwaitedParts, AreThoseOfOtherHostsWithTheirState) {
               "waits for axis Y on board-c: not there; on board-c: lockstep up\n");
 }
 
-TEST(AwaitedParts, AreNoneWhereAllHearEachOther) {
+TEST(AwaitedParts, AreNoneIfAllReceiveEachOther) {
     EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 3}), "");
 }
 
-TEST(AwaitedParts, AreThoseTooThatTheCoordinatorAloneDoesNotHear) {
+TEST(AwaitedParts, IncludeThoseThatOnlyTheCoordinatorDoesNotReceive) {
     EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 1}),
               "waits for axis Y on board-c: started, not received by the coordinator\n");
 }
 
-/// A process that looks like an axis's, started before whatever comes next.
+/// A process that looks like an axis's, started before the rest of the test.
 class Axis {
 public:
     Axis() : pid_(fork()) {
@@ -72,7 +72,7 @@ private:
 
 TEST(OwnParts, AreNotMistakenForThoseOfOtherHosts) {
     const ProcessRecord supervisor{"supervisor", getpid(), *start_of(getpid())};
-    // Whatever the number of a process on another host is here, and whatever started when.
+    // Independent of the number of a process on another host, and of its start.
     EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, supervisor,
                            {{std::nullopt, "board-a", 1}, {1, "board-c", getppid()}}),
               std::nullopt);
@@ -87,7 +87,7 @@ TEST(OwnParts, ThatRanBeforeTheSupervisorAreForeign) {
         << "the supervisor started it";
 }
 
-TEST(OwnParts, ThatAKilledProcessLeftOnTheNetworkAreNotForeign) {
+TEST(OwnParts, OfAKilledProcessStillOnTheNetworkAreNotForeign) {
     const std::vector<PresentProcess> present{{0, host_name(), getpid()}};  // its number is another program's now
     EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, ~std::uint64_t{0}}, present),
               std::nullopt);

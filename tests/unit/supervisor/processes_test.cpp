@@ -70,7 +70,7 @@ TEST(RestartPolicy, StartsAProcessThatSignalsEndAgainHoweverOften) {
     EXPECT_EQ(policy.after_end(1000s, ProcessEnd::Exit), 3200ms) << "the first exit after many signals";
 }
 
-TEST(RestartPolicy, ForgetsWhatIsLongAgo) {
+TEST(RestartPolicy, ForgetsOldExits) {
     RestartPolicy policy;
     for (int i = 0; i < 5; ++i) { (void)policy.after_end(1s, ProcessEnd::Exit); }
     EXPECT_EQ(policy.after_end(1s + kRestartWindow, ProcessEnd::Exit), std::nullopt);
@@ -92,7 +92,7 @@ TEST(ServiceLines, AreACoordinatorAndAnAxisEach) {
     EXPECT_THAT(lines[1].words, Contains(StateDirectory("mill").machine_file().string()));
 }
 
-TEST(ServiceLines, AreOnlyOfWhatIsPlacedOnTheHost) {
+TEST(ServiceLines, AreOnlyOfThePartsPlacedOnTheHost) {
     const auto on_a_board = service_lines(two_axes(), {.axes = {1}}, {}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(on_a_board), ElementsAre("axis-Y"));
     const auto on_the_main_host = service_lines(two_axes(), {.coordinator = true}, {}, "/opt/bin", StateDirectory("m"));
@@ -104,7 +104,7 @@ TEST(ServiceLines, WithAStandbyHaveTwoCoordinatorsOfEqualRank) {
     EXPECT_THAT(names_of(lines), ElementsAre("coordinator", "coordinator-2", "axis-X", "axis-Y"));
     for (const std::size_t i : {0, 1}) { EXPECT_THAT(lines[i].words, Contains("--standby")); }
     EXPECT_THAT(lines[0].words, Not(Contains("--second")));
-    EXPECT_THAT(lines[1].words, Contains("--second")) << "it has keys of its own";
+    EXPECT_THAT(lines[1].words, Contains("--second")) << "it has its own keys";
 }
 
 TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {

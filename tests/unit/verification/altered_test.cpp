@@ -1,4 +1,4 @@
-// Whatever is changed in a log, however little, is found and named.
+// Any change in a log, however small, is found and named.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ protected:
         return findings && findings->difference ? *findings->difference : Difference{};
     }
 
-    /// In the tenth message with steps of axis X while the program runs: where the changes are made.
+    /// The tenth message with steps of axis X while the program runs: the changes are made there.
     bool is_the_one(const step_batch_t& batch) {
         return batch.axis == "X" && batch.position_before > 800 && ++seen == 10;
     }
@@ -257,7 +257,7 @@ TEST_F(Altered, AJobWithWildNumbers) {
 }
 
 TEST_F(Altered, AnyRecordOfAJobLost) {
-    for (std::int64_t place = 2; place < 6; ++place) {  // behind homing: begun, two epochs, ended
+    for (std::int64_t place = 2; place < 6; ++place) {  // after homing: begun, two epochs, ended
         log = AlteredLog(original);
         std::int64_t number = 0;
         ASSERT_EQ(log.leave_out<job_t>("_JOB", [&](const job_t&) { return number++ == place; }), 1U);
@@ -266,7 +266,7 @@ TEST_F(Altered, AnyRecordOfAJobLost) {
     }
 }
 
-TEST_F(Altered, CutShortItSaysHowFarItWasCompared) {
+TEST_F(Altered, CutShortItReportsHowFarItWasCompared) {
     const std::size_t whole = log.events().size();
     for (const std::size_t part : {whole / 2, whole * 2 / 3, whole - whole / 10}) {
         log = AlteredLog(original);
@@ -302,7 +302,7 @@ TEST_F(Altered, MessagesThatCameTwiceAreNoDifference) {
     EXPECT_FALSE(findings->difference) << to_text(*findings);
 }
 
-TEST_F(Altered, WhatIsNoLogIsRefused) {
+TEST_F(Altered, AFileThatIsNotALogIsRefused) {
     EXPECT_FALSE(verify_log("deploy/examples/plate.gcode"));
     EXPECT_FALSE(verify_log("/nowhere.lcm"));
     log.leave_out<step_batch_t>("_STEPS", [](const step_batch_t&) { return true; });

@@ -1,5 +1,5 @@
-// A log of a run in which all was good, cut at any message: what it still has is exact, and what it lacks is unknown.
-// Never does a healthy run look bad, and never is called good what the log does not have.
+// A log of a good run, cut at any message: the rest is exact, and the missing part is unknown.
+// A healthy run is never rated bad, and a part that the log lacks is never rated good.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

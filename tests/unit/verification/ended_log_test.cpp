@@ -1,5 +1,5 @@
-// A log that ends badly: with an axis killed in motion, or with a job whose coordinator was. What was run is still what
-// was planned, and a step that is not is still found.
+// A log that ends badly: with an axis killed in motion, or with a job whose coordinator was. The run is still as
+// planned, and a wrong step is still found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ class EndedLog : public testing::Test {
 protected:
     std::filesystem::path path() const { return test::test_directory() / "run.lcm"; }
 
-    /// A process is killed in the middle of a job; another takes its place after a while. The log ends two seconds
+    /// A process is killed in the middle of a job; another replaces it after a while. The log ends two seconds
     /// after the kill.
     void record(VirtualOptions options, std::size_t killed, std::int64_t into_ms, std::int64_t dead_ms) {
         RecordedMachine recorded(options, path());
@@ -60,10 +60,10 @@ protected:
         });
         return log.write(test::test_directory() / "altered.lcm");
     }
-    void expect_exact_and_alterations_found(const std::string& axis, const std::string& said) const {
+    void expect_exact_and_alterations_found(const std::string& axis, const std::string& note) const {
         const Findings found = verified(path());
         EXPECT_FALSE(found.difference) << to_text(found);
-        EXPECT_THAT(to_text(found), HasSubstr(said));
+        EXPECT_THAT(to_text(found), HasSubstr(note));
         std::int64_t tick = 0;
         const Findings altered = verified(with_a_step_later(axis, tick));
         ASSERT_TRUE(altered.difference) << to_text(altered);
@@ -75,7 +75,7 @@ protected:
 
 class KilledInMotion : public EndedLog, public testing::WithParamInterface<int> {};
 
-TEST_P(KilledInMotion, AnAxisThatNobodyReplaces) {
+TEST_P(KilledInMotion, AnAxisWithoutSuccessor) {
     record(kY, GetParam(), 10'000);
     expect_exact_and_alterations_found("Y", "its process ended; they are as planned: ");
 }
@@ -88,7 +88,7 @@ TEST_P(KilledInMotion, AnAxisWhoseSuccessorFindsItsStepsInTheDevice) {
     }
 }
 
-TEST_P(KilledInMotion, ACoordinatorThatNobodyReplaces) {
+TEST_P(KilledInMotion, ACoordinatorWithoutSuccessor) {
     record(kCoordinator, GetParam(), 10'000);
     expect_exact_and_alterations_found("X", "has no end in the log; the axes are at rest; what was run of it is");
 }
@@ -141,7 +141,7 @@ TEST_F(EndedLog, ALivingAxisThatLacksItsLastRunIsADifference) {
     EXPECT_EQ(found.difference->axis, "Y");
 }
 
-TEST_F(EndedLog, CutShortInMotionItIsNotWhole) {
+TEST_F(EndedLog, CutShortInMotionItIsIncomplete) {
     record(kCoordinator, 700, 10'000);
     AlteredLog log(path());
     std::size_t last_run = 0;

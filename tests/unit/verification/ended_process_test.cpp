@@ -1,4 +1,4 @@
-// A process that is killed leaves its last run or its last steps unwritten: what it left is held to the plan, and said.
+// A process that is killed leaves its last run or steps unrecorded: these are compared with the plan, and reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// An axis whose process 7 ran frames of 10 ms at a step every 100 ticks; process 8 comes after it.
+/// An axis whose process 7 ran frames of 10 ms at a step every 100 ticks; process 8 follows it.
 class EndedProcess : public testing::Test {
 protected:
     static constexpr std::int64_t kFrame = 10'000;
@@ -26,7 +26,7 @@ protected:
                 .pieces = {{Ticks{kFrame}, Velocity{(std::int64_t{1} << 62) / 25}, {}}},
                 .stop_count = before + kSteps};
     }
-    /// By it the axis may come to rest in the place of frame 2.
+    /// With it the axis may come to rest in place of frame 2.
     static analysis::Run tail_of_first() {
         analysis::Run tail = frame(2);
         tail.frame = 1;
@@ -34,19 +34,19 @@ protected:
         tail.pieces = {{Ticks{kFrame / 2}, tail.pieces[0].velocity, {}}};
         return tail;
     }
-    /// The first steps of a run, as its process says them.
-    analysis::StepBatch said(const analysis::Run& run, int count) {
+    /// The first steps of a run, as published by its process.
+    analysis::StepBatch published(const analysis::Run& run, int count) {
         analysis::StepBatch batch{run.incarnation, batches_++, run.from.count(), {}};
         for (StepMaker maker(run); count-- > 0 && maker.next() != nullptr; maker.pass()) {
             batch.steps.push_back(*maker.next());
         }
         return batch;
     }
-    /// Another process, from where it is and later.
+    /// Another process, from its position on and later.
     void another_process_moves() {
         batches_ = 0;
         const analysis::Run run = frame(9, 8);
-        check.take(said(run, kSteps));
+        check.take(published(run, kSteps));
         analysis::Run first = run;
         first.sequence = 0;
         check.take(first);
@@ -57,7 +57,7 @@ protected:
         return text;
     }
 
-    static bool nobody_ended(std::int64_t /*incarnation*/) { return false; }
+    static bool none_ended(std::int64_t /*incarnation*/) { return false; }
 
     Findings findings;
     std::vector<Course> plan;
@@ -68,11 +68,11 @@ protected:
 
 TEST_F(EndedProcess, StepsThatLackTheirRunAreThoseOfThePlan) {
     plan = {{frame(2)}};
-    check.take(said(frame(1), kSteps));
+    check.take(published(frame(1), kSteps));
     check.take(frame(1));
-    check.take(said(frame(2), 30));
+    check.take(published(frame(2), 30));
     another_process_moves();
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 2 * kSteps + 30);
     EXPECT_THAT(notes(), HasSubstr("axis Y: 30 steps from tick"));
@@ -81,38 +81,38 @@ TEST_F(EndedProcess, StepsThatLackTheirRunAreThoseOfThePlan) {
 
 TEST_F(EndedProcess, StepsThatLackTheirRunAndAreNotThoseOfThePlanAreADifference) {
     plan = {{frame(2)}};
-    check.take(said(frame(1), kSteps));
+    check.take(published(frame(1), kSteps));
     check.take(frame(1));
-    auto batch = said(frame(2), 30);
+    auto batch = published(frame(2), 30);
     batch.steps[20].tick += Ticks{1};
     check.take(batch);
     another_process_moves();
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     ASSERT_TRUE(findings.difference);
     EXPECT_THAT(findings.difference->text, HasSubstr("they are not as planned"));
     EXPECT_EQ(findings.difference->tick_expected, batch.steps[20].tick - Ticks{1});
     EXPECT_EQ(findings.difference->tick_seen, batch.steps[20].tick);
 }
 
-/// It braked to rest instead, by the plan's other course; the record of either is lacking.
-TEST_F(EndedProcess, TheStepsTellWhichOfThePlansCoursesWasTaken) {
+/// It braked to rest instead, the plan's other course; neither is recorded.
+TEST_F(EndedProcess, TheStepsDetermineTheCourseTaken) {
     plan = {{tail_of_first()}, {frame(2), frame(3)}};
-    check.take(said(frame(1), kSteps));
+    check.take(published(frame(1), kSteps));
     check.take(frame(1));
-    check.take(said(frame(2), kSteps));
-    check.take(said(frame(3), 20));
+    check.take(published(frame(2), kSteps));
+    check.take(published(frame(3), 20));
     another_process_moves();
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 3 * kSteps + 20);
     EXPECT_THAT(notes(), HasSubstr("they are as planned: frame 2, frame 3; of their course at least 80 steps"));
 }
 
-TEST_F(EndedProcess, WhereTooFewStepsTellNoCourseIsNamedAlone) {
+TEST_F(EndedProcess, TooFewStepsLeaveSeveralCourses) {
     plan = {{tail_of_first()}, {frame(2), frame(3)}};
-    check.take(said(frame(1), kSteps));
+    check.take(published(frame(1), kSteps));
     check.take(frame(1));
-    check.take(said(frame(2), 30));
+    check.take(published(frame(2), 30));
     check.finish([](std::int64_t) { return true; }, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_THAT(notes(),
@@ -121,11 +121,11 @@ TEST_F(EndedProcess, WhereTooFewStepsTellNoCourseIsNamedAlone) {
 
 TEST_F(EndedProcess, StepsThatTheNextOneFoundInTheDeviceAreOfThePlanToo) {
     plan = {{frame(2)}};
-    check.take(said(frame(1), kSteps));
+    check.take(published(frame(1), kSteps));
     check.take(frame(1));
-    check.take(said(frame(2), 30));
+    check.take(published(frame(2), 30));
     batches_ = 0;
-    analysis::StepBatch found = said(frame(2), kSteps);
+    analysis::StepBatch found = published(frame(2), kSteps);
     found.incarnation = 8;
     found.position_before_steps += 40;
     found.steps.erase(found.steps.begin(), found.steps.begin() + 40);
@@ -137,21 +137,21 @@ TEST_F(EndedProcess, StepsThatTheNextOneFoundInTheDeviceAreOfThePlanToo) {
     EXPECT_THAT(notes(), HasSubstr("10 steps before the next process's are not on record"));
 }
 
-TEST_F(EndedProcess, StepsOfAnOwnMoveThatLackTheirRunAreSaid) {
-    check.take(said(frame(1), 30));
+TEST_F(EndedProcess, ReportsStepsOfAnOwnMoveThatLackTheirRun) {
+    check.take(published(frame(1), 30));
     another_process_moves();
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     EXPECT_FALSE(findings.difference);
     EXPECT_EQ(findings.steps, kSteps);
     EXPECT_THAT(notes(), HasSubstr("30 steps from tick"));
     EXPECT_THAT(notes(), HasSubstr("no plan to compare them with"));
 }
 
-TEST_F(EndedProcess, StepsThatItDidNotComeToSayAreCounted) {
-    check.take(said(frame(1), 60));
+TEST_F(EndedProcess, CountsUnpublishedSteps) {
+    check.take(published(frame(1), 60));
     check.take(frame(1));
     another_process_moves();
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 60 + kSteps);
     EXPECT_THAT(notes(), HasSubstr("axis Y: 40 steps after tick"));
@@ -161,15 +161,15 @@ TEST_F(EndedProcess, StepsThatItDidNotComeToSayAreCounted) {
 TEST_F(EndedProcess, NoProcessHoldsMoreStepsThanAMessageTakes) {
     for (std::int64_t number = 1; number <= 21; ++number) { check.take(frame(number)); }
     another_process_moves();
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     ASSERT_TRUE(findings.difference);
     EXPECT_THAT(findings.difference->text, HasSubstr("2100 steps after"));
 }
 
-TEST_F(EndedProcess, WithoutAnotherBehindItNothingExcusesAMissingStep) {
-    check.take(said(frame(1), 60));
+TEST_F(EndedProcess, WithoutASuccessorAMissingStepIsADifference) {
+    check.take(published(frame(1), 60));
     check.take(frame(1));
-    check.finish(nobody_ended, {});
+    check.finish(none_ended, {});
     EXPECT_TRUE(findings.difference);
 }
 

@@ -1,4 +1,4 @@
-// What the machine does verifies, through holds, stops, pauses and faults.
+// The machine's motion verifies, through holds, stops, pauses and faults.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -37,7 +37,7 @@ TEST_F(Exact, AProgramRunToItsEnd) {
     expect_exact(1);
 }
 
-/// Two boards: what each device was given verifies, by its own clock.
+/// Two boards: each device's run verifies, by its own clock.
 VirtualOptions own_clocks(MachineConfig machine) {
     machine.timing.time_source = TimeSource::Network;
     const std::uint64_t hash = config_hash(machine);

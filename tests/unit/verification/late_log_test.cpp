@@ -1,4 +1,4 @@
-// A log that begins later than the machine is verified from there on; only what is missing in between counts.
+// A log that begins later than the machine is verified from there on; only messages missing in between count.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -67,7 +67,7 @@ TEST_F(LateLog, BegunWithinAJobIsExactFromTheNextJobOn) {
     EXPECT_THAT(to_text(findings), HasSubstr("the result applies from job 3 on"));
 }
 
-TEST_F(LateLog, WhatIsMissingInBetweenIsFound) {
+TEST_F(LateLog, FindsMessagesMissingInBetween) {
     const std::int64_t at = begin_of_job(2) + 1'000'000;
     ASSERT_EQ(log.leave_out<run_t>("_X_RUN",
                                    [&, seen = 0](const run_t& run) mutable { return run.utime > at && ++seen == 3; }),

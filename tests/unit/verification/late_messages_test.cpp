@@ -1,5 +1,5 @@
-// An axis whose messages come late in the log, since its process stalled or the network held them up, is analysed as if
-// they had not.
+// An axis whose messages come late in the log, since its process stalled or the network delayed them, is analysed like
+// any other.
 #include <gtest/gtest.h>
 
 #include "clients/analysis/analysis.hpp"
@@ -23,7 +23,7 @@ protected:
         report.clear_log();
         return report;
     }
-    /// The log with what is of these channels two seconds later in it.
+    /// The log with the messages of these channels two seconds later in it.
     std::filesystem::path with_late(std::string_view channels) const {
         AlteredLog log(path());
         for (AlteredLog::Event& event : log.events()) {
@@ -56,7 +56,7 @@ TEST_F(LateMessages, OnlyTheStepsOfAnAxis) {
     expect_same_though_late("_Y_STEPS");
 }
 
-TEST_F(LateMessages, OfAProcessThatStallsInMotionAndGoesOn) {
+TEST_F(LateMessages, OfAProcessThatStallsInMotionAndContinues) {
     const MachineConfig machine = test::example("two-axis");
     {
         RecordedMachine recorded(machine, path());

@@ -1,4 +1,4 @@
-// A program of any length is on record, in parts, and verifies; where a part is missing it is said.
+// A program of any length is recorded, in parts, and verifies; a missing part is reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST_F(LongProgram, VerifiesFromItsParts) {
     EXPECT_GT(analyzed->jobs.back().move_count, kLines / 2);
 }
 
-TEST_F(LongProgram, SaysWhichPartsAreMissing) {
+TEST_F(LongProgram, ReportsMissingParts) {
     AlteredLog log(path());
     ASSERT_EQ(log.leave_out<program_part_t>("_PROGRAM", [](const program_part_t& part) { return part.part == 1; }), 1U);
     const auto findings = verify_log(log.write(test::test_directory() / "lacks.lcm"));
@@ -101,7 +101,7 @@ TEST(ProgramRecord, FitsASmallQueueAsItArrivesInChunks) {
         EXPECT_EQ(recorder.published().program_parts, kChunks + 1);
         EXPECT_EQ(sink.failures(), 0U);
     }
-    EXPECT_EQ(written, kChunks + 2U) << "parts, whose they are, and the job";
+    EXPECT_EQ(written, kChunks + 2U) << "the parts, their head, and the job";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A device that dies and is replaced by another, which counts anew: what was run up to then and after is verified.
+// A device that dies and is replaced by another, which counts from 0: the runs before and after are verified.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ Findings verified_with_a_device_lost(std::int64_t into_ms) {
     return findings.value_or(Findings{});
 }
 
-TEST(LostDevice, WhatWasRunBeforeItDiedAndAfterItWasReplacedIsVerified) {
+TEST(LostDevice, RunsBeforeItDiedAndAfterItWasReplacedAreVerified) {
     for (const std::int64_t into_ms : {350, 900, 1500, 1777}) {
         const Findings findings = verified_with_a_device_lost(into_ms);
         EXPECT_FALSE(findings.difference) << into_ms << ": " << to_text(findings);

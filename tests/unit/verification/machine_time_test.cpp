@@ -1,4 +1,4 @@
-// A log says when each step was made in machine time, whatever clocks the boards have, and how well that is known.
+// A log contains the machine time of each step, whatever clocks the boards have, and its uncertainty.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ protected:
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
     }
 
-    /// The log with every batch at its true time, which nobody on the machine can know.
+    /// The log with every batch at its true time, which the machine cannot know.
     std::filesystem::path with_true_times() const {
         test::AlteredLog altered(log);
         for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -91,7 +91,7 @@ protected:
     const std::filesystem::path log = test::test_directory() / "run.lcm";
 };
 
-TEST_F(MachineTime, OfEveryStepIsTrueWithinTheErrorSaid) {
+TEST_F(MachineTime, OfEveryStepIsTrueWithinTheReportedError) {
     LoggedSteps logged;
     ASSERT_TRUE(read_log(log, logged).has_value());
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -106,7 +106,7 @@ TEST_F(MachineTime, OfEveryStepIsTrueWithinTheErrorSaid) {
     }
 }
 
-TEST_F(MachineTime, MakesTheSkewThatIsReportedTheTrueOneWithinTheErrorSaid) {
+TEST_F(MachineTime, GivesTheTrueSkewWithinTheReportedError) {
     const auto found = analyze_log(log);
     ASSERT_TRUE(found.has_value()) << found.error();
     ASSERT_EQ(found->step_skew.size(), 1U);
@@ -127,7 +127,7 @@ TEST_F(MachineTime, MakesTheSkewThatIsReportedTheTrueOneWithinTheErrorSaid) {
     EXPECT_NE(summary(*found).find("its steps are known in machine time within"), std::string::npos);
 }
 
-TEST_F(MachineTime, IsVerifiedAStepThatIsLateBeyondWhatItsClocksCanBeIsFound) {
+TEST_F(MachineTime, IsVerifiedAndAStepBeyondTheClockErrorIsFound) {
     ASSERT_FALSE(verification::verify_log(log)->difference);
     test::AlteredLog altered(log);
     int seen = 0;
@@ -145,8 +145,8 @@ TEST_F(MachineTime, IsVerifiedAStepThatIsLateBeyondWhatItsClocksCanBeIsFound) {
         << findings->difference->text;
 }
 
-/// A network on which a message takes up to 4 ms: what is known of the time changes by as much from one exchange to the
-/// next, and where a message of steps ends, intervals of machine time with it.
+/// A network on which a message takes up to 4 ms: the estimate of time changes by as much between exchanges, and
+/// so do intervals of machine time at the ends of messages of steps.
 TEST(MachineTimeOfAPoorNetwork, SpeedsAreThoseByTheDevicesClockWhichTheMotorFollows) {
     const std::filesystem::path log = test::test_directory() / "run.lcm";
     VirtualOptions options = boards_apart();
@@ -165,7 +165,7 @@ TEST(MachineTimeOfAPoorNetwork, SpeedsAreThoseByTheDevicesClockWhichTheMotorFoll
     const auto& steps = logged.axes["X"];
     Ticks least{1'000'000};
     for (std::size_t i = 1; i < steps.size(); ++i) { least = std::min(least, steps[i].machine - steps[i - 1].machine); }
-    EXPECT_LT(static_cast<double>(least.value), 0.8 / top) << "else this proves nothing";
+    EXPECT_LT(static_cast<double>(least.value), 0.8 / top) << "otherwise this proves nothing";
 
     const auto found = analyze_log(log);
     ASSERT_TRUE(found.has_value()) << found.error();
@@ -190,7 +190,7 @@ TEST(MachineTimeByPtp, OfAMachineThatCountsFrom1970IsReadAndVerified) {
     EXPECT_TRUE(found->damages.empty());
     ASSERT_EQ(found->step_skew.size(), 1U);
     EXPECT_EQ(found->step_skew.front().largest, Ticks{0});
-    EXPECT_EQ(found->step_skew.front().error, options.machine.clock_error_limit() * 2) << "believed, and said so";
+    EXPECT_EQ(found->step_skew.front().error, options.machine.clock_error_limit() * 2) << "accepted, and reported";
     EXPECT_FALSE(verification::verify_log(log)->difference);
 }
 

@@ -1,5 +1,5 @@
-// A log that lacks something, of a run in which all was good: what the verdict rests on and is not there is said to be
-// unknown. Nothing that only the missing part could show is called good, or bad.
+// A log of a good run that lacks something: the results that depend on the missing part are
+// unknown. Nothing that only the missing part could show is rated good, or bad.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -61,22 +61,22 @@ TEST_F(PartialLog, IsGoodWhereNothingIsMissing) {
     EXPECT_EQ(worst_grade(findings(whole)), Grade::Good) << all_of(whole);
 }
 
-TEST_F(PartialLog, OfOneAxisSaysNothingOfThePath) {
+TEST_F(PartialLog, OfOneAxisHasNoPath) {
     const Analysis one = without([](const auto& event) { return !is_of(event, "_Y_") && !is_of(event, "_Z_"); });
     EXPECT_EQ(worst_grade(findings(one)), Grade::Unknown) << all_of(one);
     expect_finding(
         one, "unknown the motion of Y and Z cannot be determined: their steps are not in this log; lockstep log merge");
-    EXPECT_LT(one.largest_distance_mm.value_or(0), 0.02) << "only where Y and Z are known to stand still";
+    EXPECT_LT(one.largest_distance_mm.value_or(0), 0.02) << "only while Y and Z are known to stand still";
 }
 
-TEST_F(PartialLog, WithoutTheCoordinatorsRecordDoesNotKnowWhatWasAsked) {
+TEST_F(PartialLog, WithoutTheCoordinatorsRecordHasNoCommandedMotion) {
     const Analysis unasked = without([](const auto& event) { return !is_of(event, "_JOB"); });
     EXPECT_EQ(worst_grade(findings(unasked)), Grade::Unknown) << all_of(unasked);
     expect_finding(unasked, "unknown the commanded motion cannot be determined: the coordinator's record");
     expect_finding(unasked, "good no step of X, Y and Z is missing");
 }
 
-TEST_F(PartialLog, ThatBeganInMotionDoesNotKnowWhatTheJobAsked) {
+TEST_F(PartialLog, ThatBeganInMotionHasNoCommandedMotionOfTheJob) {
     std::int64_t from = 0;
     const Analysis second = without([&](const auto& event) {
         if (is_of(event, "_JOB")) { from = event.utime; }  // up to the job's last epoch
@@ -105,8 +105,8 @@ TEST_F(PartialLog, WithoutAnAxissRunsDoesNotKnowWhetherItsStepsCameInTime) {
     expect_finding(found, "were in time cannot be determined: the times commanded are not in this log");
 }
 
-/// Whatever is missing, and from when to when: a good run is never called bad, and no distance is measured from a place
-/// where an axis was no more.
+/// Whatever is missing, and for whatever time: a good run is never rated bad, and no distance is measured from an
+/// outdated position of an axis.
 TEST_F(PartialLog, NeverTakesMissingMessagesForAFault) {
     std::mt19937 random(5);
     const Analysis whole = without([](const auto&) { return true; });

@@ -1,4 +1,4 @@
-// However the end of a record is lost, merge, verify and analyze each say so; and where nobody can know, they say that.
+// However the end of a record is lost, merge, verify and analyze each report it, or report that it is unknown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A machine that is homed, runs two programs, rests, and ends as asked; each process keeps a log of its own.
+/// A machine that is homed, runs two programs, rests, and ends on request; each process keeps its own log.
 class RecordEnd : public testing::Test {
 protected:
     static void SetUpTestSuite() {
@@ -57,7 +57,7 @@ protected:
         return "";
     }
 
-    /// Merges them, and verifies and analyzes what comes of it.
+    /// Merges them, and verifies and analyzes the result.
     void look_at(const std::map<std::string, AlteredLog>& logs) {
         merge::MergeOptions options;
         for (const auto& [process, log] : logs) {
@@ -66,7 +66,7 @@ protected:
         look_at(options);
     }
     void look_at(const AlteredLog& log) {
-        look_at({.logs = {log.write(test::test_directory() / "heard.lcm")}, .progress = {}});
+        look_at({.logs = {log.write(test::test_directory() / "received.lcm")}, .progress = {}});
     }
     void look_at(const merge::MergeOptions& options) {
         const fs::path whole = test::test_directory() / "whole.lcm";
@@ -105,7 +105,7 @@ protected:
         });
         return utime;
     }
-    /// What a writer wrote that was killed, cut off from power, or found its disk full.
+    /// The log of a writer that was killed, cut off from power, or found its disk full.
     static void cut(AlteredLog& log, std::int64_t utime) {
         std::erase_if(log.events(), [&](const AlteredLog::Event& event) { return event.utime >= utime; });
     }
@@ -117,7 +117,7 @@ protected:
     std::array<std::string, 3> texts;
 };
 
-TEST_F(RecordEnd, IsThereWhereEveryProcessEndedAndEveryLogIsGiven) {
+TEST_F(RecordEnd, IsPresentIfEveryProcessEndedAndEveryLogIsGiven) {
     look_at(own_logs());
     EXPECT_TRUE(merged.is_complete());
     EXPECT_TRUE(merged.end.is_closed());
@@ -159,19 +159,20 @@ TEST_F(RecordEnd, LogOfTheCoordinatorThatIsNotGivenIsFound) {
 }
 
 TEST_F(RecordEnd, LastMessagesThatALoggerDroppedAreFound) {
-    AlteredLog heard(original);
+    AlteredLog received(original);
     std::int64_t last = 0;
-    heard.change<step_batch_t>("_X_STEPS", [&](const step_batch_t& batch) {
+    received.change<step_batch_t>("_X_STEPS", [&](const step_batch_t& batch) {
         last = std::max(last, batch.sequence);
         return false;
     });
-    ASSERT_EQ(heard.leave_out<step_batch_t>("_X_STEPS", [&](const auto& batch) { return batch.sequence == last; }), 1U);
-    look_at(heard);
+    ASSERT_EQ(received.leave_out<step_batch_t>("_X_STEPS", [&](const auto& batch) { return batch.sequence == last; }),
+              1U);
+    look_at(received);
     expect_missing("axis X: 1 message of steps missing at the end (numbers " + std::to_string(last) + " to " +
                    std::to_string(last) + ")");
 }
 
-TEST_F(RecordEnd, WhereAllLogsEndAtOnceItIsSaidUpToWhenTheRecordIsWhole) {
+TEST_F(RecordEnd, ReportsUpToWhenTheRecordIsCompleteIfAllLogsEndAtOnce) {
     auto logs = own_logs();
     for (auto& [process, log] : logs) { cut(log, begin_of_job(3)); }
     look_at(logs);
@@ -186,12 +187,12 @@ TEST_F(RecordEnd, OfALogWithoutMarksCannotBeKnown) {
     expect_open("whether the end is missing cannot be known of coordinator, axis X, axis Y");
 }
 
-TEST_F(RecordEnd, ALossThatALogSaysAtItsEndIsFound) {
+TEST_F(RecordEnd, ALossRecordedAtALogsEndIsFound) {
     const auto marked_last = [](const AlteredLog::Event& event, const std::string& process) {
         return event.channel.ends_with("_MARK") && decode_lcm<record_mark_t>(event.data).value().process == process;
     };
     auto logs = own_logs();
-    for (auto& [process, log] : logs) {  // all disks are full: each log has room for its own last mark alone
+    for (auto& [process, log] : logs) {  // all disks are full: each log has room only for its own last mark
         const auto own = std::find_if(log.events().rbegin(), log.events().rend(),
                                       [&](const auto& event) { return marked_last(event, process); });
         const AlteredLog::Event last = *own;
@@ -204,7 +205,7 @@ TEST_F(RecordEnd, ALossThatALogSaysAtItsEndIsFound) {
     EXPECT_THAT(texts[0], HasSubstr("axis Y: "));
 }
 
-TEST_F(RecordEnd, OfAKilledProcessIsFoundByWhatTheCoordinatorReceived) {
+TEST_F(RecordEnd, OfAKilledProcessIsFoundFromTheCoordinatorsMarks) {
     const fs::path log = test::test_directory() / "killed.lcm";
     {
         test::RecordedMachine recorded(test::example("two-axis"), log);

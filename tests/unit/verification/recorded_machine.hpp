@@ -16,7 +16,7 @@
 
 namespace lockstep::test {
 
-/// A directory of the test's own.
+/// A directory for one test.
 inline std::filesystem::path test_directory() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
     const auto path =
@@ -29,7 +29,7 @@ inline MachineConfig example(const std::string& name) {
     return load_machine_file("deploy/examples/" + name + ".textproto").value();
 }
 
-/// From where the machine is parked.
+/// From the park positions.
 inline Program program_of(const MachineConfig& machine, std::string_view gcode) {
     return parse_gcode(gcode, gcode_setup(machine, parked_mm(machine), "example.gcode")).value();
 }
@@ -52,7 +52,7 @@ public:
     void advance_ms(std::int64_t ms) {
         vm_.advance_until([] { return false; }, Ticks{ms * 1000});
     }
-    /// Said again until it is answered.
+    /// Repeated until it is answered.
     void command(CommandKind kind, std::uint64_t program = 0) {
         bool answered = false;
         for (int tries = 0; tries < 50 && !answered; ++tries) {

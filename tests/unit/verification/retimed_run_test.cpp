@@ -1,4 +1,4 @@
-// A run on a clock of the device's own is the planned one within half a tick at the end of each piece, and no further.
+// A run on the device's own clock is the planned one within half a tick at the end of each piece, and no further.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ protected:
         }
         return plan;
     }
-    /// As an axis gives it to its device, whose clock is up to 700 ppm off and whose pace changes.
+    /// The run that an axis gives its device, whose clock is up to 700 ppm off and whose rate changes.
     analysis::Run on_another_clock(const analysis::Run& plan) {
         analysis::Run run = plan;
         run.start = Tick{between(0, 1'000'000'000)};
@@ -59,7 +59,7 @@ TEST_F(RetimedRun, EndsEachPieceWithinHalfATick) {
     }
 }
 
-/// One piece more goes into what the next one covers less, so that the run still ends where it must.
+/// One piece covers more and the next one less, so that the run still ends at its place.
 TEST_F(RetimedRun, PieceThatEndsATickFurtherIsFound) {
     constexpr std::int64_t kTicks = 1000;
     const auto speed = std::int64_t{1} << 50;

@@ -1,4 +1,4 @@
-// How far apart axes step is told by the record alone.
+// The skew between axes is measured from the record alone.
 #include <gtest/gtest.h>
 
 #include "clients/analysis/analysis.hpp"
@@ -30,7 +30,7 @@ protected:
     const std::filesystem::path original = test::test_directory() / "original.lcm";
 };
 
-TEST_F(Skew, IsNoneWhereOneClockDrivesAllDevices) {
+TEST_F(Skew, IsZeroIfOneClockDrivesAllDevices) {
     const PairSkew skew = skew_in(original);
     EXPECT_EQ(skew.first, "X");
     EXPECT_EQ(skew.second, "Y");
@@ -38,7 +38,7 @@ TEST_F(Skew, IsNoneWhereOneClockDrivesAllDevices) {
     EXPECT_EQ(skew.largest, Ticks{0});
 }
 
-TEST_F(Skew, IsThreeMicrosecondsWhereOneAxisIsThreeMicrosecondsLate) {
+TEST_F(Skew, IsThreeMicrosecondsIfOneAxisIsThreeMicrosecondsLate) {
     test::AlteredLog log(original);
     ASSERT_GT(log.change<step_batch_t>(
                   "_Y_STEPS", [](step_batch_t& batch) { return batch.count > 0 && (batch.first_tick += 3) > 0; }),
@@ -60,7 +60,7 @@ TEST_F(Skew, IsTheLargestOfAll) {
     ASSERT_EQ(log.change<step_batch_t>("_X_STEPS",
                                        [&](step_batch_t& batch) {
                                            if (batch.position_before < 800 || ++seen != 10) { return false; }
-                                           batch.delta_ticks[1] -= 2;  // one step before its time
+                                           batch.delta_ticks[1] -= 2;  // one step early
                                            batch.delta_ticks[2] += 2;
                                            return true;
                                        }),
@@ -70,7 +70,7 @@ TEST_F(Skew, IsTheLargestOfAll) {
     EXPECT_EQ(skew.largest, Ticks{2});
 }
 
-TEST_F(Skew, IsNotMadeUpWhereStepsAreMissing) {
+TEST_F(Skew, IsNotInventedWhereStepsAreMissing) {
     test::AlteredLog log(original);
     int seen = 0;
     ASSERT_EQ(log.leave_out<step_batch_t>(

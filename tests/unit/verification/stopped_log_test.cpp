@@ -1,4 +1,4 @@
-// When pulses ceased is told by the last step, not by the frame that was cut.
+// The last step marks when pulses ceased, not the frame that was cut.
 #include <gtest/gtest.h>
 
 #include "clients/analysis/analysis.hpp"

@@ -1,5 +1,5 @@
-// On a network that loses, delays, reorders and repeats messages, with holds, stops and resumptions at any time, what
-// was run is still what the programs give: late frames interrupt an epoch and the next goes on from there.
+// On a network that loses, delays, reorders and repeats messages, with holds, stops and resumptions at any time, the
+// run is still what the programs give: late frames interrupt an epoch and the next continues from there.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -57,7 +57,7 @@ void Storm::expect_exact(const MachineConfig& machine) {
 
 TEST_P(Storm, StillExact) { expect_exact(test::example("two-axis")); }
 
-TEST_P(Storm, StillExactWhereMovesAreCoordinatedByLaisPlanner) {
+TEST_P(Storm, StillExactWithLaisPlanner) {
     MachineConfig machine = test::example("two-axis");
     machine.coordination = StepMethod::Lai;
     ASSERT_TRUE(suits_lai_path(machine).has_value());

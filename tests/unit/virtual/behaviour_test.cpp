@@ -1,4 +1,4 @@
-// What the machine does when asked, and when things go wrong: each a small story.
+// The machine's behaviour on commands, and on faults.
 #include <cmath>
 
 #include "core/methods/paper_steps.hpp"
@@ -59,7 +59,7 @@ TEST_F(Rig, AnAxisThatOthersMoveWithoutStandsBy) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
 }
 
-TEST_F(Rig, NothingToHoldResumeOrStopIsSaid) {
+TEST_F(Rig, RefusesHoldResumeAndStopWithoutAJob) {
     home();
     EXPECT_EQ(why(ask(CommandKind::Hold)), FaultCode::NothingToDo);
     EXPECT_EQ(why(ask(CommandKind::Resume)), FaultCode::NothingToDo);
@@ -83,7 +83,7 @@ TEST_F(Rig, AStopIsOnThePathAndTheMachineIsReadyAgain) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
 }
 
-TEST_F(Rig, AHoldBeginsSoonAndAResumeEndsWhereTheProgramDoes) {
+TEST_F(Rig, AHoldBeginsSoonAndAResumeEndsAtTheProgramsEnd) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);
     wait(0.8);
@@ -114,7 +114,7 @@ TEST_F(Rig, APauseWaitsForAPerson) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 500}));
 }
 
-TEST_F(Rig, AnEmergencyStopCeasesPulsesAtOnceAndAsksForHoming) {
+TEST_F(Rig, AnEmergencyStopCeasesPulsesAtOnceAndRequiresHoming) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
     wait(0.8);
@@ -123,7 +123,7 @@ TEST_F(Rig, AnEmergencyStopCeasesPulsesAtOnceAndAsksForHoming) {
     EXPECT_EQ(fault(), FaultCode::EmergencyStopped);
     const auto at = counts();
     wait(0.5);
-    EXPECT_EQ(counts(), at) << "position is kept";
+    EXPECT_EQ(counts(), at) << "the position is kept";
     EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::InFault);
     EXPECT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
@@ -142,7 +142,7 @@ TEST_F(Rig, AnEmergencyStopNeedsNoCoordinator) {
     const auto at = counts();
     EXPECT_LT(at[0], 8500);
     wait(0.5);
-    EXPECT_EQ(counts(), at) << "position is kept";
+    EXPECT_EQ(counts(), at) << "the position is kept";
     for (std::size_t i = 0; i < 2; ++i) { EXPECT_EQ(axis_fault(i), FaultCode::EmergencyStopped); }
 }
 
@@ -171,7 +171,7 @@ TEST_F(Rig, ALimitSwitchStopsItsAxisAtOnceAndTheOthersOnTheirLine) {
               true);
 }
 
-TEST_F(Rig, AMotorThatLosesStepsIsFoundOut) {
+TEST_F(Rig, ALossOfStepsIsDetected) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
     wait(0.8);
@@ -190,7 +190,7 @@ protected:
           }()}) {}
 };
 
-TEST_F(RigWithoutSwitch, HomingThatFindsNoSwitchSaysSo) {
+TEST_F(RigWithoutSwitch, HomingWithoutASwitchIsAFault) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 30)) << describe();
@@ -211,10 +211,10 @@ protected:
 TEST_F(RigOnSwitch, AnAxisThatStandsOnItsSwitchPullsOffFirst) {
     home();
     EXPECT_EQ(counts()[0], 500);
-    EXPECT_NEAR(vm.device(0).plant().position_mm(), 5, 0.011) << "where the machine says it is";
+    EXPECT_NEAR(vm.device(0).plant().position_mm(), 5, 0.011) << "at the reported position";
 }
 
-TEST_F(Rig, HomingEndsWhereTheMachineSaysItIs) {
+TEST_F(Rig, HomingEndsAtTheReportedPosition) {
     home();
     for (std::size_t i = 0; i < 2; ++i) { EXPECT_NEAR(vm.device(i).plant().position_mm(), 5, 0.011); }
 }
@@ -233,8 +233,8 @@ Tick listen_until_owner(Coordinator& coordinator, const MachineConfig& machine) 
     return now;
 }
 
-/// What a coordinator that has just started decides after it received another owner's states for so many slots, each
-/// `age` slots after it was stamped.
+/// The decisions of a coordinator that has just started, after it received another owner's states for so many slots,
+/// each `age` slots after it was stamped.
 CoordinatorOutputs meet_owner(Coordinator& coordinator, const MachineConfig& machine, int slots, Slot age) {
     CoordinatorOutputs out;
     Tick now{3'000'000};
@@ -245,7 +245,7 @@ CoordinatorOutputs meet_owner(Coordinator& coordinator, const MachineConfig& mac
     return out;
 }
 
-TEST(Coordinators, WhoHearsAnOwnerBeforeItOwnsAnythingEnds) {
+TEST(Coordinators, OneThatReceivesAnOwnerBeforeItOwnsAnythingEnds) {
     const MachineConfig machine = small_machine();
     Coordinator second(machine, 2'000, 1, methods::begin_steps);
     EXPECT_TRUE(meet_owner(second, machine, SecondProcess::kStatesThatProve, 1).must_quit);
@@ -273,7 +273,7 @@ TEST(Coordinators, StatesOfAnEarlierProcessOfAnAxisDoNotReplaceThoseOfTheOneThat
         states.push_back({.identity = 5, .stamp = stamp, .config_hash = 2});
     }
     (void)coordinator.step({.now = now, .axes = states});
-    EXPECT_NE(coordinator.phase(), MachinePhase::Fault) << "by the other configuration of the earlier process";
+    EXPECT_NE(coordinator.phase(), MachinePhase::Fault) << "from the other configuration of the earlier process";
 }
 
 TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {
@@ -285,7 +285,7 @@ TEST(Coordinators, AnAxisWithAnotherConfigurationIsAFault) {
     EXPECT_EQ(coordinator.phase(), MachinePhase::Fault);
 }
 
-TEST(Coordinators, ACommandThatComesTwiceIsDoneOnceAndAnsweredTwice) {
+TEST(Coordinators, ARepeatedCommandIsExecutedOnceAndAnsweredTwice) {
     const MachineConfig machine = small_machine();
     Coordinator coordinator(machine, 2'000, 1, methods::begin_steps);
     const Tick now = listen_until_owner(coordinator, machine);
@@ -331,7 +331,7 @@ TEST(Coordinator, DoesNotTakeItsOwnStallForTheSilenceOfOthers) {
     EXPECT_EQ(coordinator.step({.now = now + machine.slot_ticks()}).state->axes_present, 0u) << "but its silence since";
 }
 
-TEST(Coordinator, AnswersWhatItWasAskedWhileItStalled) {
+TEST(Coordinator, AnswersCommandsReceivedDuringItsStall) {
     const MachineConfig machine = small_machine();
     VirtualMachine vm({.machine = machine});
     (void)vm.advance_until([&] { return vm.state() && vm.state()->phase == MachinePhase::Idle; }, Ticks{2'000'000});
@@ -339,7 +339,7 @@ TEST(Coordinator, AnswersWhatItWasAskedWhileItStalled) {
     vm.schedule({.kind = VirtualFault::Kind::Freeze, .process = machine.axes.size(), .at = vm.now(), .lasts = stall});
     const auto asked = vm.command(CommandKind::Resume);
     (void)vm.advance_until([] { return false; }, stall + machine.slot_ticks() * std::int64_t{12});
-    ASSERT_NE(vm.reply_to(asked), nullptr) << "it listens to the axes first, and to nobody in vain";
+    ASSERT_NE(vm.reply_to(asked), nullptr) << "it receives the axes first, then every command";
     EXPECT_EQ(vm.reply_to(asked)->fault, static_cast<std::uint16_t>(FaultCode::NothingToDo));
 }
 

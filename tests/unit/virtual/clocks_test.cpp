@@ -1,4 +1,4 @@
-// Boards with clocks of their own: offsets of seconds, rates 100 ppm apart, and still one machine.
+// Boards with their own clocks: offsets of seconds, rates 100 ppm apart, and still one machine.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -26,7 +26,7 @@ VirtualOptions own_clocks(std::int64_t limit_us = 250) {
     return options;
 }
 
-/// What was commanded in machine time, what the devices did in true time, and how far apart axes said they may be.
+/// The commanded motion in machine time, the devices' motion in true time, and the axes' published bounds.
 class TrueTime : public VirtualObserver {
 public:
     TrueTime(const VirtualOptions& options, VirtualMachine& vm) : options_(options) { vm.observe(*this); }
@@ -43,7 +43,7 @@ public:
     }
     void record() { recording_ = true; }
 
-    /// Every step within the bound that its axis published last before it, and two ticks.
+    /// Every step is within the last bound that its axis published before it, and two ticks.
     void expect_within_bounds() {
         for (std::size_t axis = 0; axis < options_.clocks.size(); ++axis) {
             const std::vector<Tick> commanded = commanded_of(axis);
@@ -57,7 +57,7 @@ public:
             }
         }
     }
-    /// In ticks, over all steps judged.
+    /// In ticks, over all steps compared.
     double worst() const { return worst_; }
     std::int64_t widest() const { return widest_; }
     std::size_t steps() const { return made_.at(0).size(); }
@@ -116,7 +116,7 @@ protected:
     TrueTime truth;
 };
 
-TEST_F(OwnClocks, AnAxisSaysHowFarOffItsTimeMayBe) {
+TEST_F(OwnClocks, AnAxisReportsItsClockErrorBound) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     wait(10);
     EXPECT_GT(widest_error(), 0);
@@ -159,7 +159,7 @@ protected:
     TightLimit() : Rig(own_clocks(1)) {}
 };
 
-TEST_F(TightLimit, NoCoordinatedMoveBeginsWhereAClockMayBeFurtherOffThanTheLimit) {
+TEST_F(TightLimit, NoCoordinatedMoveBeginsWithAClockErrorAboveTheLimit) {
     home();
     const Reply reply = run(program_of({{20, 20}}, 20));
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
@@ -192,7 +192,7 @@ TEST_F(SetClock, AProcessWhoseClockIsSetDuringAMoveGoesByItsDevicesAndTheJobIsEx
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{9500, 9500}));
 }
 
-/// The network between X and the coordinator is lost for clock messages and all else.
+/// The network between X and the coordinator fails for all messages.
 TEST_F(OwnClocks, WithoutTheCoordinatorTheBoundGrows) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     wait(10);

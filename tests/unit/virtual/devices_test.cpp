@@ -1,5 +1,5 @@
-// Devices that die, stop, or show nonsense: in every state of the machine it comes to Fault, names axis and fault, and
-// is usable again by the remedy.
+// Devices that die, stop, or show impossible values: in every state of the machine it comes to Fault, names axis and
+// fault, and is usable again after the remedy.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -114,7 +114,7 @@ TEST_F(Devices, OneThatDiesWhileTheMachineStopsEndsTheStop) {
     }
 }
 
-TEST_F(Devices, AResetBeforeItIsBackIsTakenAndTheMachineWaitsForIt) {
+TEST_F(Devices, AResetBeforeItReturnsIsAcceptedAndTheMachineWaitsForIt) {
     home();
     strike(Kind::KillDevice, 3);
     expect_device_lost();
@@ -139,8 +139,8 @@ TEST_F(Devices, AnAxisThatStartsBeforeItsDeviceWaitsForItWithoutAFault) {
     home();
 }
 
-/// Registers that can be opened, and nobody behind them: a device is one whose clock goes on.
-TEST_F(Devices, WhatADeadOneLeftIsNotTakenForADevice) {
+/// Registers that can be opened, without a device: only a device's clock advances.
+TEST_F(Devices, MemoryOfADeadOneIsNotTakenForADevice) {
     home();
     strike(Kind::StopDevice, 4);
     expect_device_lost();
@@ -154,12 +154,12 @@ TEST_F(Devices, WhatADeadOneLeftIsNotTakenForADevice) {
     expect_usable();
 }
 
-TEST_F(Devices, OneThatStopsAtRestAndGoesOnProvesItsPositionAndAResetIsEnough) {
+TEST_F(Devices, OneThatStopsAtRestAndContinuesProvesItsPositionAndAResetIsEnough) {
     home();
     strike(Kind::StopDevice, 0.2);
     expect_device_lost();
     wait(0.5);
-    EXPECT_EQ(vm.state()->phase, MachinePhase::Fault) << "nobody resets it but a person";
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Fault) << "only a person resets it";
     EXPECT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 1)) << describe();
     EXPECT_TRUE(vm.axis_states()[kY]->homed);
@@ -168,7 +168,7 @@ TEST_F(Devices, OneThatStopsAtRestAndGoesOnProvesItsPositionAndAResetIsEnough) {
     EXPECT_NEAR(vm.device(kY).plant().position_mm(), 10, 1e-9);
 }
 
-TEST_F(Devices, OneThatStopsInMotionAndGoesOnComesToRestAndIsNotHomed) {
+TEST_F(Devices, OneThatStopsInMotionAndContinuesComesToRestAndIsNotHomed) {
     start_job();
     strike(Kind::StopDevice, 0.3);
     expect_device_lost();
@@ -186,7 +186,7 @@ TEST_F(Devices, OneThatStallsNoLongerThanItMayIsNotNoticed) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
 }
 
-/// Its own standstill proves nothing of the device.
+/// Its own standstill proves nothing about the device.
 TEST_F(Devices, AnAxisThatStalledForLongDoesNotGiveUpItsDevice) {
     home();
     vm.schedule({.kind = Kind::Freeze, .process = kY, .at = vm.now(), .lasts = {300'000}});
@@ -214,7 +214,7 @@ TEST_F(Devices, RegistersThatAreOverwrittenAtRestAreNoDevice) {
     }
 }
 
-TEST_F(Devices, OneThatIsPoweredUpAnewBetweenTwoLooksIsAnother) {
+TEST_F(Devices, OneThatIsPoweredUpAgainBetweenTwoReadingsIsAnother) {
     start_job();
     strike(Kind::KillDevice, 0.0001);
     expect_device_lost();

@@ -1,4 +1,4 @@
-// Processes that stall, end and come back, links that break: each a small story, with what the machine makes of it.
+// Processes that stall, end and restart, links that fail: each with the machine's reaction.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -17,12 +17,12 @@ protected:
         ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);
         wait(0.8);
     }
-    void befall(Kind kind, std::size_t process, double seconds) {
+    void inject(Kind kind, std::size_t process, double seconds) {
         vm.schedule({.kind = kind, .process = process, .at = vm.now(), .lasts = ticks(seconds)});
     }
     static Ticks ticks(double seconds) { return {static_cast<std::int64_t>(seconds * 1e6)}; }
-    /// Both slides on the line from (5, 5) mm to (85, 45) mm, by where they truly are: but for a frame of 5 ms that
-    /// an axis was not there to be told of.
+    /// Both slides on the line from (5, 5) mm to (85, 45) mm, by their true positions: except for a frame of 5 ms that
+    /// an axis did not receive.
     void expect_on_the_line() {
         const double frame_mm = 40 * 0.005;
         const double x = vm.device(0).plant().position_mm() - 5;
@@ -38,7 +38,7 @@ protected:
     }
 };
 
-/// How often the coordinator has begun anew.
+/// How many epochs the coordinator has begun.
 class Epochs : public VirtualObserver {
 public:
     void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
@@ -47,11 +47,11 @@ public:
     int begun = 0;
 };
 
-TEST_F(Faults, AStallThatTheSlotsAllowForIsNotEvenNoticed) {
+TEST_F(Faults, AnAllowedStallHasNoEffect) {
     Epochs epochs;
     vm.observe(epochs);
     start_job();
-    befall(Kind::Freeze, kY, 0.001);
+    inject(Kind::Freeze, kY, 0.001);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     EXPECT_EQ(epochs.begun, 1);
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
@@ -59,7 +59,7 @@ TEST_F(Faults, AStallThatTheSlotsAllowForIsNotEvenNoticed) {
 
 TEST_F(Faults, NothingIsBegunWithoutAnAxis) {
     home();
-    befall(Kind::Crash, kY, 100);
+    inject(Kind::Crash, kY, 100);
     wait(1);
     const Reply reply = run(program_of({{20, 10}}, 40));
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
@@ -70,27 +70,27 @@ TEST_F(Faults, AStalledCoordinatorOnlyCostsTime) {
     Epochs epochs;
     vm.observe(epochs);
     start_job();
-    befall(Kind::Freeze, kCoordinator, 0.1);
+    inject(Kind::Freeze, kCoordinator, 0.1);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
-    EXPECT_EQ(epochs.begun, 2) << "rests on the path, and goes on by itself";
+    EXPECT_EQ(epochs.begun, 2) << "rests on the path, and continues by itself";
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
 }
 
 TEST_F(Faults, AnAxisThatEndsLeavesTheOtherOnThePath) {
     start_job();
-    befall(Kind::Crash, kY, 1);
+    inject(Kind::Crash, kY, 1);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::AxisLost);
     wait(1.2);
     expect_on_the_line();  // the device of the one that ended ran on by itself
-    EXPECT_FALSE(vm.axis_states()[kY]->homed) << "a new process cannot prove where it stands";
+    EXPECT_FALSE(vm.axis_states()[kY]->homed) << "a new process cannot prove its position";
     EXPECT_TRUE(vm.axis_states()[0]->homed);
     expect_usable();
 }
 
-TEST_F(Faults, AnAxisThatComesBackDoesNotHomeByItself) {
+TEST_F(Faults, ARestartedAxisDoesNotHomeByItself) {
     home();
-    befall(Kind::Crash, kY, 1);
+    inject(Kind::Crash, kY, 1);
     StepLog log;
     vm.observe(log);
     wait(3);
@@ -102,20 +102,20 @@ TEST_F(Faults, AnAxisThatRestartsWhileItIsHomedIsLost) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
     wait(0.1);
-    befall(Kind::Crash, kY, 0.005);
+    inject(Kind::Crash, kY, 0.005);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::AxisLost);
     wait(5);
     expect_usable();
 }
 
-/// The axes have done as many commands of the one before it as it has given.
-TEST_F(Faults, AResetByACoordinatorThatWasStartedAnewIsWaitedFor) {
+/// The axes have executed as many commands of the previous coordinator as the new one has given.
+TEST_F(Faults, AwaitsAResetByARestartedCoordinator) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
     wait(0.3);
     const Term before = vm.state()->term;
-    befall(Kind::Crash, kCoordinator, 0.1);
+    inject(Kind::Crash, kCoordinator, 0.1);
     wait(0.01);
     (void)vm.command(CommandKind::EmergencyStop);
     ASSERT_TRUE(vm.advance_until([&] { return vm.state()->term > before && vm.state()->phase == MachinePhase::Fault; },
@@ -130,7 +130,7 @@ TEST_F(Faults, AnAxisThatRestartsWhileTheJobIsHeldIsLost) {
     start_job();
     ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
-    befall(Kind::Crash, kY, 0.005);
+    inject(Kind::Crash, kY, 0.005);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << "nothing is resumed with it";
     EXPECT_EQ(fault(), FaultCode::AxisLost);
     expect_usable();
@@ -140,7 +140,7 @@ TEST_F(Faults, ANewCoordinatorIsIdleOnlyWhenAxesThatHaltedWithoutOneAreReset) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
     wait(0.1);
-    befall(Kind::Crash, kCoordinator, 0.05);
+    inject(Kind::Crash, kCoordinator, 0.05);
     wait(0.1);
     ASSERT_TRUE(vm.advance_until([&] { return vm.state()->phase == MachinePhase::Fault; }, ticks(20)));
     EXPECT_EQ(fault(), FaultCode::CoordinatorSilent);
@@ -150,9 +150,9 @@ TEST_F(Faults, ANewCoordinatorIsIdleOnlyWhenAxesThatHaltedWithoutOneAreReset) {
     EXPECT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
 }
 
-TEST_F(Faults, AnAxisCutOffFromAllIsSaidAndTheMachineUsableAgain) {
+TEST_F(Faults, AnAxisCutOffFromAllIsReportedAndTheMachineUsableAgain) {
     start_job();
-    befall(Kind::Cut, kY, 0.5);
+    inject(Kind::Cut, kY, 0.5);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_TRUE(fault() == FaultCode::AxisLost || fault() == FaultCode::FramesDiffer) << name_of(fault());
     wait(1);

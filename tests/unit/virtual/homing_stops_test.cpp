@@ -91,7 +91,7 @@ public:
 private:
     void TestBody() override {}
 
-    /// The order's way takes four slots at most, a frame in progress two spans, each of a stall and two slots.
+    /// The order takes four slots at most, a frame in progress two spans, each of a stall and two slots.
     std::size_t most_steps_to_rest(std::size_t i) const {
         const AxisConfig& axis = vm.machine().axes[i];
         const double speed = stage(i) == HomingStage::Park ? axis.max_velocity_mm_s : axis.homing.search_velocity_mm_s;
@@ -108,7 +108,7 @@ private:
         bool is_first = true;
         for (const Tick step : log_.axes[i].steps) {
             if (step <= log_.axes[i].run_begins) { continue; }
-            const Ticks wait = (step - before) * std::int64_t{is_first ? 2 : 1};  // half a step on its way
+            const Ticks wait = (step - before) * std::int64_t{is_first ? 2 : 1};  // it is half a step on its way
             EXPECT_FALSE(watch.step(static_cast<double>(wait.value) * 1e-6)) << "axis " << i;
             before = step;
             is_first = false;
@@ -164,7 +164,7 @@ TEST_F(HomingRig, AnAxisThatFailsToHomeStopsTheOthersBeforeTheFault) {
     vm.schedule({.kind = VirtualFault::Kind::Crash, .process = 0, .at = vm.now(), .lasts = {5'000'000}});
     ASSERT_TRUE(reaches(MachinePhase::Fault, 2)) << describe();
     EXPECT_EQ(fault(), FaultCode::AxisLost);
-    EXPECT_TRUE(vm.axis_states()[1]->at_rest) << "Fault is said at rest";
+    EXPECT_TRUE(vm.axis_states()[1]->at_rest) << "Fault is published at rest";
     EXPECT_FALSE(vm.axis_states()[1]->homed);
 }
 

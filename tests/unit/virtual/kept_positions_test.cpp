@@ -1,4 +1,4 @@
-// Axes whose positions outlive their processes: homed again where the device proves it, and not otherwise.
+// Axes whose positions outlive their processes: homed again only if the device proves it.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -28,7 +28,7 @@ protected:
     std::vector<double> at_{5, 5};
 };
 
-TEST_F(KeptPositions, AnAxisThatEndsAtRestComesBackHomedAndTheMachineMovesOn) {
+TEST_F(KeptPositions, AnAxisThatEndsAtRestRestartsHomedAndTheMachineContinues) {
     home();
     EXPECT_EQ(doubt(), FaultCode::None);
     crash_y(0.05);
@@ -44,7 +44,7 @@ TEST_F(KeptPositions, AnAxisThatEndsAtRestComesBackHomedAndTheMachineMovesOn) {
     run_to(10, 40);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 4000}));
-    EXPECT_NEAR(vm.device(kY).plant().position_mm(), 40, 1e-9) << "where it truly is";
+    EXPECT_NEAR(vm.device(kY).plant().position_mm(), 40, 1e-9) << "its true position";
 }
 
 TEST_F(KeptPositions, AnAxisThatWasNeverHomedHasNone) {
@@ -54,11 +54,11 @@ TEST_F(KeptPositions, AnAxisThatWasNeverHomedHasNone) {
     EXPECT_FALSE(y_is_homed());
     EXPECT_EQ(doubt(), FaultCode::PositionNotKept);
     home();
-    EXPECT_EQ(doubt(), FaultCode::None) << "it is homed now, what was before does not matter";
+    EXPECT_EQ(doubt(), FaultCode::None) << "it is homed now, the past does not matter";
 }
 
-/// In every phase of a job: what has run since the position was kept, nobody has watched to its end.
-TEST_F(KeptPositions, AnAxisThatEndsInMotionComesBackUnhomedAndSaysWhy) {
+/// In every phase of a job: runs after the position was kept were not observed to their end.
+TEST_F(KeptPositions, AnAxisThatEndsInMotionRestartsUnhomedAndReportsWhy) {
     home();
     for (int part = 0; part < 10; ++part) {
         run_to(30, 20);
@@ -73,14 +73,14 @@ TEST_F(KeptPositions, AnAxisThatEndsInMotionComesBackUnhomedAndSaysWhy) {
     }
 }
 
-TEST_F(KeptPositions, AnAxisThatEndsWhileItHomesComesBackUnhomed) {
+TEST_F(KeptPositions, AnAxisThatEndsInHomingRestartsUnhomed) {
     home();
     for (int part = 0; part < 10; ++part) {
         ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
         wait(0.02 + 0.15 * part);
         if (vm.state()->phase != MachinePhase::Homing) { break; }
         crash_y(3);
-        EXPECT_FALSE(y_is_homed()) << part << ": whoever homes doubts the old zero";
+        EXPECT_FALSE(y_is_homed()) << part << ": homing invalidates the old zero";
         EXPECT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
         home();
     }
@@ -98,7 +98,7 @@ TEST_F(KeptPositions, AnAxisThatWasStoppedInAnEmergencyStaysUnhomed) {
     EXPECT_EQ(doubt(), FaultCode::DeviceHasRun);
 }
 
-TEST_F(KeptPositions, AnAxisThatIsPushedMeanwhileComesBackUnhomed) {
+TEST_F(KeptPositions, AnAxisThatIsPushedMeanwhileRestartsUnhomed) {
     home();
     vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kY, .at = vm.now(), .lasts = {100'000}});
     wait(0.05);

@@ -1,5 +1,5 @@
 // A device that makes more steps than its capture ring holds while its process stalls: the axis is in fault, and the
-// record has all steps whose times were kept, and a jump where they were not.
+// record has all steps with recorded times, and a jump for the others.
 #include <gmock/gmock.h>
 
 #include "clients/simulation/machine_recorder.hpp"
@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-/// 400,000 steps/s, by frames so long that a stalled process leaves its device with more steps to make than fit.
+/// 400,000 steps/s, with frames so long that a stalled process leaves its device with more steps to make than fit.
 MachineConfig fast_machine() {
     MachineConfig machine = small_machine();
     machine.timing = {};
@@ -26,7 +26,7 @@ public:
             faults.push_back(decode_lcm<axis_position_t>(bytes).value().fault);
         }
     }
-    /// By how much the count first goes on from elsewhere; 0: it never does. From the message `from` on.
+    /// The first jump of the count; 0: none. From the message `from` on.
     std::int64_t first_jump(std::size_t from) const {
         for (std::size_t i = from + 1; i < batches.size(); ++i) {
             std::int64_t end = batches[i - 1].position_before;

@@ -41,7 +41,7 @@ TEST_F(FullMachine, MovesAllAxesTogetherAndStopsForTheLastOne) {
 
     ASSERT_EQ(ask(CommandKind::Home, axis_bit(kMaxAxes - 1)).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
-    EXPECT_EQ(counts().back(), 500) << "it alone is at its park position";
+    EXPECT_EQ(counts().back(), 500) << "only it is at its park position";
     EXPECT_EQ(counts().front(), 1500);
 
     Program back = all_to(90);
@@ -53,7 +53,7 @@ TEST_F(FullMachine, MovesAllAxesTogetherAndStopsForTheLastOne) {
     vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kMaxAxes - 1, .at = vm.now(), .lasts = long_time});
     ASSERT_TRUE(reaches(MachinePhase::Fault, 10)) << describe();
     EXPECT_EQ(fault(), FaultCode::AxisLost);
-    EXPECT_LT(counts().front(), 9000) << "nobody goes on without it";
+    EXPECT_LT(counts().front(), 9000) << "no axis continues without it";
 }
 
 }  // namespace

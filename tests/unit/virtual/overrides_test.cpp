@@ -1,4 +1,4 @@
-// Feed and rapid are turned while the machine runs: soon, on the path, within limits, and kept.
+// Feed and rapid are changed while the machine runs: soon, on the path, within limits, and kept.
 #include <cmath>
 
 #include "tests/unit/virtual/rig.hpp"
@@ -20,7 +20,7 @@ protected:
         return std::abs(vm.axis_states()[axis]->velocity.steps_per_tick()) * 1e6 / 100;
     }
     double seconds() const { return static_cast<double>(vm.now().value) * 1e-6; }
-    /// From being asked to run it until it is done.
+    /// From the command until it is done.
     double time_of(const Program& program) {
         const double begun = seconds();
         EXPECT_EQ(run(program).status, ReplyStatus::Accepted);
@@ -42,7 +42,7 @@ TEST_F(Overridden, ALowerFeedIsReachedSoonAndTheMoveEndsInTheSamePlace) {
     EXPECT_EQ(fault(), FaultCode::None);
 }
 
-TEST_F(Overridden, ProgressNeverFallsWhileWhatRemainsIsEstimatedAnew) {
+TEST_F(Overridden, ProgressNeverFallsWhenTheRemainingTimeIsEstimatedAgain) {
     home();
     ASSERT_EQ(run(program_of({{85, 5}, {85, 85}}, 40)).status, ReplyStatus::Accepted);
     wait(1);
@@ -76,7 +76,7 @@ TEST_F(Overridden, AHigherFeedIsReachedSoonButNeverBeyondAnAxissLimits) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
 }
 
-TEST_F(Overridden, FeedAndRapidAreTurnedEachForItself) {
+TEST_F(Overridden, FeedAndRapidAreOverriddenSeparately) {
     home();
     ASSERT_EQ(turn({.feed_percent = 50}).status, ReplyStatus::Accepted);
     EXPECT_NEAR(time_of(program_of({{85, 5}}, 40)), 80.0 / 20, 0.1);
@@ -87,7 +87,7 @@ TEST_F(Overridden, FeedAndRapidAreTurnedEachForItself) {
     EXPECT_EQ(vm.state()->overrides, (Overrides{100, 10}));
 }
 
-TEST_F(Overridden, WhileHeldTheyHoldFromTheResumeOn) {
+TEST_F(Overridden, ChangesWhileHeldApplyFromTheResumeOn) {
     home();
     ASSERT_EQ(run(program_of({{85, 5}}, 40)).status, ReplyStatus::Accepted);
     wait(0.5);
@@ -101,7 +101,7 @@ TEST_F(Overridden, WhileHeldTheyHoldFromTheResumeOn) {
     EXPECT_EQ(counts()[0], 8500);
 }
 
-TEST_F(Overridden, WhatIsNotWithinTenToTwoHundredPercentIsRefusedAndChangesNothing) {
+TEST_F(Overridden, ValuesOutsideTenToTwoHundredPercentAreRefused) {
     home();
     for (const int percent : {1, 9, 201, 65'535}) {
         const Reply reply = turn({.feed_percent = percent});

@@ -1,4 +1,4 @@
-// Moves of an axis on its own, by each method: exact, at the method's own times, and stopped, stalled or refused well.
+// Moves of an axis on its own, by each method: exact, at the method's own times, and stopped, stalled or refused
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ MachineConfig machine_by(StepMethod method) {
     return machine;
 }
 
-/// What an axis has run of its own, and its steps.
+/// The own runs of an axis, and its steps.
 class OwnMoveLog : public VirtualObserver {
 public:
     void on_step(std::size_t axis, StepEdge step) override {
@@ -85,12 +85,12 @@ protected:
         for (const double at_s : times_s) { ticks.push_back(std::llround(at_s * 1e6)); }
         return ticks;
     }
-    /// By the steps alone, but for what a tick more or less makes of the speed.
+    /// From the steps alone, except for the effect of a tick on the speed.
     void expect_within_limits() const {
         const auto limits = methods::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
         const double rounding = 1.1 * limits.max * limits.max * limits.tick_s;
         LimitWatch watch({limits.start + rounding, limits.acceleration, limits.deceleration});
-        // Ranade's first step falls half a step on its way.
+        // Ranade's first step falls half a step after the start.
         const std::int64_t first = (log.steps.front().tick - log.tracks.front().start).value;
         EXPECT_FALSE(watch.step(static_cast<double>(GetParam() == StepMethod::Ranade ? 2 * first : first) * 1e-6));
         for (std::size_t k = 1; k < log.steps.size(); ++k) {
@@ -164,7 +164,7 @@ TEST_P(ByEachMethod, AProcessMayStallForItsSlots) {
     expect_steps(9'000);
 }
 
-TEST_P(ByEachMethod, OneThatStallsForLongRestsAndGoesOnByItself) {
+TEST_P(ByEachMethod, OneThatStallsForLongRestsAndContinuesByItself) {
     home();
     ASSERT_EQ(own({95, 5}).status, ReplyStatus::Accepted);
     wait(0.2);
@@ -173,7 +173,7 @@ TEST_P(ByEachMethod, OneThatStallsForLongRestsAndGoesOnByItself) {
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
     EXPECT_EQ(counts()[0], 9'500);
     EXPECT_EQ(log.steps.size(), 9'000u);
-    EXPECT_TRUE(std::ranges::any_of(log.tracks, &ExecutedTrack::tail)) << "it stood in between";
+    EXPECT_TRUE(std::ranges::any_of(log.tracks, &ExecutedTrack::tail)) << "it rested in between";
     EXPECT_EQ(vm.axis_states()[0]->following_error_steps, 0);
 }
 
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(All, ByEachMethod,
                                          StepMethod::Carrica),
                          [](const auto& method) { return std::string(name_of(method.param)); });
 
-TEST_F(OwnMoves, AxesArriveWhenTheyArrive) {
+TEST_F(OwnMoves, AxesArriveIndependently) {
     home();
     expect_done({95, 6});
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{9'500, 600}));
@@ -197,7 +197,7 @@ TEST_F(OwnMoves, AMoveInAGivenTimeTakesExactlyThat) {
     EXPECT_EQ(counts()[0], 2'500);
 }
 
-TEST_F(OwnMoves, AMoveThatIsTooSoonIsRefusedWithWhatCouldBe) {
+TEST_F(OwnMoves, AMoveInTooShortATimeIsRefusedWithTheMinimum) {
     home();
     const Reply reply = own({95, 5}, Ticks{500'000});
     EXPECT_EQ(why(reply), FaultCode::BadProgram);
@@ -209,12 +209,12 @@ TEST_F(OwnMoves, AMoveThatIsTooSoonIsRefusedWithWhatCouldBe) {
     EXPECT_EQ(counts()[0], 500);
 }
 
-TEST_F(OwnMoves, WhatCannotBeIsRefusedBeforeAnythingMoves) {
+TEST_F(OwnMoves, ImpossibleMovesAreRefusedBeforeAnythingMoves) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     EXPECT_EQ(why(own({10, 10})), FaultCode::NotHomed);
     home();
     EXPECT_EQ(why(own({10, 101})), FaultCode::OutsideTravel);
-    EXPECT_EQ(own({5, 5}).status, ReplyStatus::Accepted) << "where it stands already";
+    EXPECT_EQ(own({5, 5}).status, ReplyStatus::Accepted) << "at its position already";
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     ASSERT_EQ(own({95, 5}).status, ReplyStatus::Accepted);
     wait(0.1);

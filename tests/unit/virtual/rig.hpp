@@ -1,4 +1,4 @@
-// A small machine in virtual time, and the few sentences in which tests speak to it.
+// A small machine in virtual time, and the helpers of its tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ protected:
     VirtualMachine vm;
 
 private:
-    std::uint64_t job_ = 0;  // what is asked of the state's phase is asked of this job or a later one
+    std::uint64_t job_ = 0;  // queries of the state's phase refer to this job or a later one
     std::uint64_t programs_ = 0;
 };
 

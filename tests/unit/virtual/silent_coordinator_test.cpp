@@ -83,7 +83,7 @@ protected:
     LastSteps log;
 
 private:
-    /// Of whatever job: a new coordinator counts them anew.
+    /// For any job: a new coordinator counts them from 0.
     bool becomes(MachinePhase phase, double seconds) {
         return vm.advance_until([&] { return vm.state()->phase == phase; }, {std::llround(seconds * 1e6)});
     }

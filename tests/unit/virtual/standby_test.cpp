@@ -9,7 +9,7 @@ namespace {
 
 using Kind = VirtualFault::Kind;
 
-/// What each axis ran, of whom, and what each coordinator said of itself.
+/// The runs of each axis with their owners, and each coordinator's notices.
 class Owners : public VirtualObserver {
 public:
     void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
@@ -46,7 +46,7 @@ protected:
     void TearDown() override { owners.expect_one_writer_each(); }
 
     static Ticks ticks(double seconds) { return {static_cast<std::int64_t>(seconds * 1e6)}; }
-    /// Who owns the machine, and who stands by. Both may have claimed it at first: they began together.
+    /// Determines the owner and the standby. Both may have claimed the machine at first: they began together.
     void settle() {
         home();
         owner = vm.owner().value();
@@ -59,7 +59,7 @@ protected:
         ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);
         wait(0.8);
     }
-    void befall(Kind kind, std::size_t process, double seconds, std::optional<std::size_t> peer = {}) {
+    void inject(Kind kind, std::size_t process, double seconds, std::optional<std::size_t> peer = {}) {
         vm.schedule({.kind = kind, .process = process, .at = vm.now(), .lasts = ticks(seconds), .peer = peer});
     }
     bool taken_over() {
@@ -83,7 +83,7 @@ protected:
 
 TEST_F(Standby, TakesOverAtRestWhenTheOwnerEnds) {
     start_job();
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over()) << describe();
     EXPECT_EQ(fault(), FaultCode::None);
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped) << "the job is at its end";
@@ -91,13 +91,13 @@ TEST_F(Standby, TakesOverAtRestWhenTheOwnerEnds) {
     expect_moves_without_homing();
 }
 
-TEST_F(Standby, KeepsTheOverridesThatSomebodyTurned) {
+TEST_F(Standby, KeepsTheOverridesOfTheOwnerBefore) {
     settle();
     ASSERT_EQ(vm.state()->overrides, Overrides{});
     const auto asked = vm.turn({50, 25});
     wait(0.1);
     ASSERT_EQ(vm.reply_to(asked)->status, ReplyStatus::Accepted);
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over());
     EXPECT_EQ(vm.state()->overrides, (Overrides{50, 25}));
 }
@@ -105,33 +105,33 @@ TEST_F(Standby, KeepsTheOverridesThatSomebodyTurned) {
 TEST_F(Standby, NumbersJobsOnFromThoseOfTheOwnerBefore) {
     start_job();
     const auto job = vm.state()->job;
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over());
     EXPECT_EQ(vm.state()->job, job);
     expect_moves_without_homing();
     EXPECT_EQ(vm.state()->job, job + 1);
 }
 
-TEST_F(Standby, AnOwnerThatWakesUpLateMovesNothingAndStandsDown) {
+TEST_F(Standby, AnOwnerThatStalledForLongMovesNothingAndGivesUpTheMachine) {
     start_job();
-    befall(Kind::Freeze, owner, 2);
+    inject(Kind::Freeze, owner, 2);
     ASSERT_TRUE(taken_over()) << describe();
     const auto at = counts();
     owners.epochs = 0;
     wait(2.5);
-    EXPECT_EQ(owners.epochs, 0) << "it asks the axes first";
+    EXPECT_EQ(owners.epochs, 0) << "it queries the axes first";
     EXPECT_EQ(owners.stood_down, 1);
     EXPECT_EQ(counts(), at);
     EXPECT_EQ(vm.owner(), other);
     expect_moves_without_homing();
 }
 
-/// Its network may need a while to find the axes again: they are first heard just when it would think them lost.
+/// Its network may need a while to discover the axes again: they are first received when it would regard them as lost.
 class Woken : public Standby, public testing::WithParamInterface<int> {};
 
-TEST_P(Woken, AnOwnerMovesNothingBeforeItHasHeardEveryAxisTwice) {
+TEST_P(Woken, AnOwnerMovesNothingBeforeItReceivedEveryAxisTwice) {
     start_job();
-    befall(Kind::Freeze, owner, 2);
+    inject(Kind::Freeze, owner, 2);
     vm.schedule({.kind = Kind::Cut, .process = owner, .at = vm.now(), .lasts = ticks(2 + 0.001 * GetParam())});
     ASSERT_TRUE(taken_over()) << describe();
     owners.epochs = 0;
@@ -148,7 +148,7 @@ TEST_F(Standby, AnOwnerThatStalledInItsOwnMovesOrdersNothingMore) {
     vm.give_program(7, program_of({{90, 90}}, 40));
     ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 7).status, ReplyStatus::Accepted);
     wait(0.05);
-    befall(Kind::Freeze, owner, 6);
+    inject(Kind::Freeze, owner, 6);
     ASSERT_TRUE(
         vm.advance_until([&] { return vm.owner() == other && vm.state()->phase == MachinePhase::Fault; }, ticks(3)))
         << describe();
@@ -160,18 +160,18 @@ TEST_F(Standby, AnOwnerThatStalledInItsOwnMovesOrdersNothingMore) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 1000}));
 }
 
-TEST_F(Standby, DoesNothingWhileItAloneDoesNotHearTheOwner) {
+TEST_F(Standby, DoesNothingIfOnlyItDoesNotReceiveTheOwner) {
     start_job();
-    befall(Kind::Cut, other, 4, owner);
+    inject(Kind::Cut, other, 4, owner);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     wait(1);
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
     EXPECT_EQ(owners.claims, 0);
 }
 
-TEST_F(Standby, CutOffFromAllClaimsInVainAndGivesWay) {
+TEST_F(Standby, CutOffFromAllClaimsInVainAndGivesUp) {
     start_job();
-    befall(Kind::Cut, other, 0.5);
+    inject(Kind::Cut, other, 0.5);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     wait(0.5);
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
@@ -181,29 +181,29 @@ TEST_F(Standby, CutOffFromAllClaimsInVainAndGivesWay) {
 
 TEST_F(Standby, TakesOverFromAnOwnerThatIsCutOff) {
     start_job();
-    befall(Kind::Cut, owner, 1.5);
+    inject(Kind::Cut, owner, 1.5);
     ASSERT_TRUE(vm.advance_until([&] { return owners.claims > 0 && idle(); }, ticks(3))) << describe();
     wait(2);
-    EXPECT_EQ(owners.stood_down, 1) << "when it hears again";
+    EXPECT_EQ(owners.stood_down, 1) << "when it receives again";
     EXPECT_EQ(vm.owner(), other);
     expect_moves_without_homing();
 }
 
-TEST_F(Standby, TakesOverFromAnOwnerThatIsHeardByNobody) {
+TEST_F(Standby, TakesOverFromAnOwnerThatNoPeerReceives) {
     start_job();
     vm.schedule({.kind = Kind::Cut, .process = owner, .at = vm.now(), .lasts = ticks(60), .incoming = false});
     ASSERT_TRUE(vm.advance_until([&] { return owners.stood_down == 1 && idle(); }, ticks(3)))
-        << "it hears whom the axes follow";
+        << "it receives the axes' states, with the owner that they follow";
     expect_moves_without_homing();
 }
 
-/// X hears only the first coordinator, Y only the second: nobody has both axes, so nothing can move.
-TEST_F(Standby, NobodyMovesAMachineWhoseAxesAreSplit) {
+/// X receives only the first coordinator, Y only the second: neither has both axes, so nothing can move.
+TEST_F(Standby, NoCoordinatorMovesAMachineWhoseAxesAreSplit) {
     settle();
     const auto at = counts();
-    befall(Kind::Cut, 1, 2, owner);
-    befall(Kind::Cut, 0, 2, other);
-    befall(Kind::Cut, owner, 2, other);
+    inject(Kind::Cut, 1, 2, owner);
+    inject(Kind::Cut, 0, 2, other);
+    inject(Kind::Cut, owner, 2, other);
     wait(1);
     EXPECT_EQ(run(program_of({{20, 10}}, 40)).status, ReplyStatus::Refused);
     wait(2);
@@ -215,25 +215,25 @@ TEST_F(Standby, NobodyMovesAMachineWhoseAxesAreSplit) {
     expect_moves_without_homing();
 }
 
-TEST_F(Standby, WhoComesBackStandsByAndTakesOverInItsTurn) {
+TEST_F(Standby, ARestartedOneStandsByAndTakesOverLater) {
     start_job();
-    befall(Kind::Crash, owner, 0.5);
+    inject(Kind::Crash, owner, 0.5);
     ASSERT_TRUE(taken_over());
     wait(1);
-    EXPECT_EQ(vm.owner(), other) << "it comes back as the standby";
+    EXPECT_EQ(vm.owner(), other) << "it restarts as the standby";
     std::swap(owner, other);
     term = vm.state()->term;
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over()) << describe();
     expect_moves_without_homing();
 }
 
-TEST_F(Standby, DoesNotDoACommandThatTheOwnerMayHaveBegun) {
+TEST_F(Standby, DoesNotExecuteACommandThatTheOwnerMayHaveBegun) {
     settle();
     vm.give_program(7, program_of({{90, 90}}, 40));
     const auto asked = vm.command(CommandKind::Run, 0, 7);
     wait(0.01);
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over());
     const auto at = counts();
     vm.repeat_command();
@@ -245,10 +245,10 @@ TEST_F(Standby, DoesNotDoACommandThatTheOwnerMayHaveBegun) {
     EXPECT_EQ(counts(), at);
 }
 
-/// Axes stop by themselves; whoever takes over must not refuse to say so.
+/// Axes stop by themselves; a coordinator that takes over must not refuse to report it.
 TEST_F(Standby, TakesAnEmergencyStopThatTheOwnerNeverAnswered) {
     start_job();
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     wait(0.001);
     const auto asked = vm.command(CommandKind::EmergencyStop);
     ASSERT_TRUE(vm.advance_until([&] { return vm.owner() == other && vm.state()->term > term; }, ticks(3)));
@@ -259,7 +259,7 @@ TEST_F(Standby, TakesAnEmergencyStopThatTheOwnerNeverAnswered) {
     EXPECT_EQ(fault(), FaultCode::EmergencyStopped);
 }
 
-/// Who takes over goes on with the job.
+/// A coordinator that takes over continues the job.
 class Continue : public Standby {
 protected:
     Continue() : Standby(OnTakeover::Continue) {
@@ -268,13 +268,13 @@ protected:
     }
     static Program there_and_back() { return program_of({{85, 45}, {20, 60}, {20, 60}, {30, 20}}, 40); }
 
-    /// From the job's first step to its end, the owner ending after so long.
+    /// From the job's first step to its end; the owner ends after so long.
     void run_with_crash_after(double seconds) {
         settle();
         steps.steps.clear();
         ASSERT_EQ(run(there_and_back()).status, ReplyStatus::Accepted);
         wait(seconds);
-        befall(Kind::Crash, owner, 100);
+        inject(Kind::Crash, owner, 100);
         ASSERT_TRUE(reaches(MachinePhase::Idle, 30)) << describe();
     }
     /// The steps of each axis in their order, without their times: the path.
@@ -299,10 +299,10 @@ protected:
     Doubts doubts;
 };
 
-TEST_F(Continue, GoesOnWithTheJobToItsEndAsTheSameJob) {
+TEST_F(Continue, ContinuesTheJobToItsEndAsTheSameJob) {
     start_job();
     const auto job = vm.state()->job;
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over()) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
     EXPECT_EQ(vm.state()->job, job);
@@ -312,9 +312,9 @@ TEST_F(Continue, GoesOnWithTheJobToItsEndAsTheSameJob) {
     expect_moves_without_homing();
 }
 
-TEST_F(Continue, StopsWhereSomebodyHasAskedForThatMeanwhile) {
+TEST_F(Continue, StopsIfACommandRequestedItMeanwhile) {
     start_job();
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     wait(0.002);
     (void)vm.command(CommandKind::Hold);
     ASSERT_TRUE(taken_over()) << describe();
@@ -326,16 +326,16 @@ TEST_F(Continue, StopsAJobThatWasHeld) {
     start_job();
     ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Holding, 3));
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over()) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
     EXPECT_EQ(doubts.cut, std::vector{TakeoverDoubt::NotRunning});
 }
 
-TEST_F(Continue, StopsWhereAnAxisWasStartedAnew) {
+TEST_F(Continue, StopsIfAnAxisRestarted) {
     start_job();
-    befall(Kind::Crash, owner, 100);
-    befall(Kind::Crash, 1, 0.01);
+    inject(Kind::Crash, owner, 100);
+    inject(Kind::Crash, 1, 0.01);
     ASSERT_TRUE(taken_over()) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
     ASSERT_EQ(doubts.cut.size(), 1u);
@@ -344,7 +344,7 @@ TEST_F(Continue, StopsWhereAnAxisWasStartedAnew) {
 
 TEST_F(Continue, CanBeStoppedAndHeldLikeAnyOther) {
     start_job();
-    befall(Kind::Crash, owner, 100);
+    inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(vm.advance_until([&] { return doubts.continued == 1; }, ticks(3)));
     wait(0.3);
     ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
@@ -356,9 +356,9 @@ TEST_F(Continue, CanBeStoppedAndHeldLikeAnyOther) {
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
 }
 
-TEST_F(Continue, AnOwnerThatWakesUpLateLeavesTheJobToTheOther) {
+TEST_F(Continue, AnOwnerThatStalledForLongLeavesTheJobToTheOther) {
     start_job();
-    befall(Kind::Freeze, owner, 1.5);
+    inject(Kind::Freeze, owner, 1.5);
     ASSERT_TRUE(taken_over()) << describe();
     wait(2);
     EXPECT_EQ(owners.stood_down, 1);
@@ -367,12 +367,12 @@ TEST_F(Continue, AnOwnerThatWakesUpLateLeavesTheJobToTheOther) {
     expect_moves_without_homing();
 }
 
-/// X hears only the first coordinator, Y only the second: the job stands still until the network is mended.
-TEST_F(Continue, NobodyGoesOnWithAMachineWhoseAxesAreSplit) {
+/// X receives only the first coordinator, Y only the second: the job stands still until the network is repaired.
+TEST_F(Continue, NoCoordinatorContinuesOnAMachineWhoseAxesAreSplit) {
     start_job();
-    befall(Kind::Cut, 1, 2, owner);
-    befall(Kind::Cut, 0, 2, other);
-    befall(Kind::Cut, owner, 2, other);
+    inject(Kind::Cut, 1, 2, owner);
+    inject(Kind::Cut, 0, 2, other);
+    inject(Kind::Cut, owner, 2, other);
     wait(1.5);
     const auto at = counts();
     wait(0.4);
@@ -383,7 +383,7 @@ TEST_F(Continue, NobodyGoesOnWithAMachineWhoseAxesAreSplit) {
 /// The same job on the same machine; the owner ends at an instant of it, or never.
 class ContinueAt : public Continue, public testing::WithParamInterface<int> {};
 
-TEST_P(ContinueAt, AnyInstantEndsWhereTheUndisturbedJobDoesOnTheSamePath) {
+TEST_P(ContinueAt, AnyInstantEndsAtTheSamePlaceOnTheSamePath) {
     run_with_crash_after(0.001 * GetParam());
     const bool is_undisturbed = GetParam() == 20'000;
     EXPECT_EQ(doubts.continued, is_undisturbed ? 0 : 1);
@@ -396,7 +396,7 @@ TEST_P(ContinueAt, AnyInstantEndsWhereTheUndisturbedJobDoesOnTheSamePath) {
     };
     run_of(0, 500, 8500), run_of(0, 8500, 2000), run_of(0, 2000, 3000);
     run_of(1, 500, 4500), run_of(1, 4500, 6000), run_of(1, 6000, 2000);
-    EXPECT_EQ(path(), expected) << "each step once, none to and fro";
+    EXPECT_EQ(path(), expected) << "each step once, none back and forth";
 }
 
 INSTANTIATE_TEST_SUITE_P(Slots, ContinueAt, testing::Range(3, 60, 3));

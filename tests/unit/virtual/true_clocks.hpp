@@ -1,4 +1,4 @@
-// Clocks of boards' own, for machines in virtual time.
+// Clocks of separate boards, for machines in virtual time.
 #pragma once
 
 #include "services/virtual/virtual_machine.hpp"

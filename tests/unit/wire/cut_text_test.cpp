@@ -12,7 +12,7 @@ TEST(CutText, EndsBetweenTwoWords) {
     EXPECT_EQ(cut_text("X is at 12.345 mm", 12), "X is at ...");
 }
 
-TEST(CutText, EndsNoUtf8CharacterHalfway) {
+TEST(CutText, CutsNoUtf8Character) {
     for (std::size_t most = 5; most < 12; ++most) {
         const std::string cut = cut_text("\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4", most);
         EXPECT_LE(cut.size(), most);

@@ -1,4 +1,4 @@
-// What Cyclone DDS is told: it is bound to the configured interface, and multicasts unless it is told whom to ask.
+// Cyclone DDS's settings: it is bound to the configured interface, and uses multicast unless peers are named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,21 +11,21 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(DdsProfile, MulticastFindsTheOthersUnlessPeersAreNamed) {
+TEST(DdsProfile, DiscoveryUsesMulticastUnlessPeersAreNamed) {
     const auto profile = dds_profile({.interface = "eth0"});
     EXPECT_THAT(*profile, HasSubstr(R"(<NetworkInterface name="eth0")"));
     EXPECT_THAT(*profile, Not(HasSubstr("AllowMulticast")));
     EXPECT_THAT(*profile, Not(HasSubstr("Peer")));
 }
 
-TEST(DdsProfile, NamedPeersAreAskedWithoutMulticast) {
+TEST(DdsProfile, NamedPeersAreContactedWithoutMulticast) {
     const auto profile = dds_profile({.interface = "eth0", .peers = {"10.0.0.1", "mill-x"}});
     EXPECT_THAT(*profile, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
     EXPECT_THAT(*profile, HasSubstr(R"(<Peers><Peer address="10.0.0.1"/><Peer address="mill-x"/></Peers>)"));
     EXPECT_THAT(*profile, HasSubstr("<ParticipantIndex>auto</ParticipantIndex>"));
 }
 
-TEST(DdsProfile, ManyProcessesAskEachOtherLessOften) {
+TEST(DdsProfile, ManyProcessesContactEachOtherLessOften) {
     const auto few = dds_profile({.processes = 4});
     const auto many = dds_profile({.processes = 65});
     EXPECT_THAT(*few, HasSubstr("max=\"20 ms\">2 ms</HeartbeatInterval><NackDelay>0 ms"));
@@ -34,8 +34,8 @@ TEST(DdsProfile, ManyProcessesAskEachOtherLessOften) {
     EXPECT_THAT(*many, HasSubstr("<SPDPInterval>2000 ms</SPDPInterval><LeaseDuration>10000 ms"));
 }
 
-TEST(DdsProfile, TheSendBufferHoldsWhatIsAskedOfPeersThatAreNotThere) {
-    EXPECT_EQ(peer_send_buffer(1), kMotionSendBuffer) << "a process is there itself";
+TEST(DdsProfile, TheSendBufferHoldsThePacketsToAbsentPeers) {
+    EXPECT_EQ(peer_send_buffer(1), kMotionSendBuffer) << "the process itself is present";
     EXPECT_GT(peer_send_buffer(5), peer_send_buffer(4));
     const auto profile = dds_profile({.interface = "eth0", .peers = {"10.0.0.1", "10.0.0.2"}});
     EXPECT_THAT(*profile, HasSubstr("<SocketSendBufferSize max=\"" + std::to_string(peer_send_buffer(2)) + " B\"/>"));
@@ -45,7 +45,7 @@ TEST(DdsProfile, ReceiveBuffersAreSmallEnoughToBeFilledSoon) {
     EXPECT_THAT(*dds_profile({.interface = "eth0"}), HasSubstr("<ReceiveBufferSize>256 KiB</ReceiveBufferSize>"));
 }
 
-TEST(DdsProfile, ANameThatIsNoInterfacesNeverGetsIn) {
+TEST(DdsProfile, AnInvalidInterfaceNameIsRefused) {
     EXPECT_FALSE(dds_profile({.interface = "\"/><Tracing"}).has_value());
 }
 

@@ -1,4 +1,4 @@
-// A sample that lies is refused, with the field that lies.
+// An invalid sample is refused, with the invalid field.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-/// Makes an enumeration hold a number that is none of its own, as a hostile sender may.
+/// Sets an enumeration to an invalid number, as a hostile sender may.
 template <typename Enum>
 void overwrite(Enum& field, std::uint32_t number) {
     static_assert(sizeof field == sizeof number);
@@ -32,7 +32,7 @@ Frame good_frame() {
     return {.number = 1, .ticks = {200}, .axes = {{{}, {piece, piece}, {piece}}, {{}, {piece}, {piece}}}};
 }
 
-/// good_frame() after `lie` has been at its message.
+/// good_frame() after `lie` has altered its message.
 void expect_frame_refused(const std::string& field, const std::function<void(SetpointMessage&)>& lie) {
     SetpointMessage message = to_wire(good_frame());
     ASSERT_TRUE(from_wire(message));
@@ -40,7 +40,7 @@ void expect_frame_refused(const std::string& field, const std::function<void(Set
     expect_refused<lockstep_wire_Setpoint>(message, field);
 }
 
-TEST(HostileFrame, CountsThatLieAreRefused) {
+TEST(HostileFrame, WrongCountsAreRefused) {
     expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = 0; });
     expect_frame_refused("number of axes", [](auto& m) { m.from_count._length = kMaxAxes + 1; });
     expect_frame_refused("number of phases", [](auto& m) { m.from_phase._length = 1; });
@@ -68,7 +68,7 @@ TEST(HostileFrame, NumbersThatWouldOverflowAreRefused) {
     expect_frame_refused("acceleration", [](auto& m) { m.storage.acceleration[2] = kMin; });
 }
 
-/// Whatever is written over a message, translating it is defined: it is refused, or what comes out is within bounds.
+/// Whatever is written over a message, translating it is defined: it is refused, or the result is within bounds.
 TEST(HostileFrame, RandomDamageNeverGetsPastTheBounds) {
     RandomMessages random(2);
     for (int i = 0; i < 2000; ++i) {

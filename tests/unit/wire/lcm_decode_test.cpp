@@ -1,4 +1,4 @@
-// The record's messages are decoded, or refused where a byte of their structure is wrong; never trusted.
+// The record's messages are decoded, or refused if a byte of their structure is wrong.
 #include "services/wire/lcm/lcm_decode.hpp"
 
 #include <gtest/gtest.h>
@@ -143,7 +143,7 @@ TEST(LcmDecode, DamageIsRefusedOrHarmless) {
     expect_survives_damage(a_flight_note());
 }
 
-TEST(LcmDecode, ACountThatLiesIsRefused) {
+TEST(LcmDecode, AWrongCountIsRefused) {
     step_batch_t batch = a_batch();
     Bytes bytes = encoded(batch);
     const std::size_t count_at = bytes.size() - 3 * 5 - 4;

@@ -1,4 +1,4 @@
-// A log is read to its end whatever happened to it, and what is missing is said.
+// A log is read to its end despite any damage, and missing parts are reported.
 #include "services/wire/lcm/lcm_log.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST_F(LcmLog, GivesBackWhatWasWritten) {
     EXPECT_TRUE(reader->damages().empty());
 }
 
-TEST_F(LcmLog, CutAnywhereGivesAllWholeEventsAndSaysWhatIsLeft) {
+TEST_F(LcmLog, CutAnywhereGivesAllWholeEventsAndReportsTheRest) {
     const Bytes whole = log_of(4);
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const Read cut = read(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
@@ -111,7 +111,7 @@ TEST_F(LcmLog, ALengthThatSwallowsLaterEventsCostsOneEvent) {
     EXPECT_EQ(read(bytes).numbers, (Numbers{0, 1, 3, 4, 5, 6, 7}));
 }
 
-TEST_F(LcmLog, BytesThatDoNotBelongAreSkipped) {
+TEST_F(LcmLog, ForeignBytesAreSkipped) {
     Bytes bytes = log_of(4);
     const Bytes garbage(1000, 0xED);
     bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(offset_of(2)), garbage.begin(), garbage.end());
@@ -161,7 +161,7 @@ TEST_F(LcmLog, EventsAcrossTheWindowsEdgeAreWhole) {
     EXPECT_FALSE(reader->next().value());
 }
 
-TEST_F(LcmLog, AFileThatIsNotThereIsAnError) {
+TEST_F(LcmLog, AMissingFileIsAnError) {
     const auto reader = LogReader::open("/nonexistent/log");
     ASSERT_FALSE(reader);
     EXPECT_NE(reader.error().find("/nonexistent/log"), std::string::npos);

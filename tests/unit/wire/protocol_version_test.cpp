@@ -1,4 +1,4 @@
-// Processes that speak another protocol are told of, and no others.
+// Processes with another protocol are reported, and no others.
 #include <gmock/gmock.h>
 
 #include "services/wire/dds/partitions.hpp"
@@ -9,14 +9,14 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(ProtocolVersion, OfAnotherIsToldWithBothNumbers) {
+TEST(ProtocolVersion, ReportsAnotherProtocolWithBothNumbers) {
     const auto text = other_version(calling_card(kProtocol + 1, "mill"), "mill");
     ASSERT_TRUE(text);
     EXPECT_THAT(*text, HasSubstr("machine 'mill' uses protocol " + std::to_string(kProtocol + 1) + ", this one " +
                                  std::to_string(kProtocol)));
 }
 
-TEST(ProtocolVersion, NothingIsSaidOfOnesOwnOfOtherMachinesAndOfWhatIsNoCard) {
+TEST(ProtocolVersion, ReportsNothingForItsOwnProtocolOtherMachinesAndInvalidCards) {
     EXPECT_FALSE(other_version(calling_card(kProtocol, "mill"), "mill"));
     EXPECT_FALSE(other_version(calling_card(kProtocol + 1, "lathe"), "mill"));
     EXPECT_FALSE(other_version(calling_card(kProtocol + 1, "mill2"), "mill"));

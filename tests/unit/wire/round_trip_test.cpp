@@ -1,4 +1,4 @@
-// What core says arrives as it was said, for every message.
+// Core's messages arrive unchanged, for every type.
 #include <gtest/gtest.h>
 
 #include "services/wire/translate/translate.hpp"

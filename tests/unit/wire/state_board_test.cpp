@@ -1,4 +1,4 @@
-// States by shared memory: all of them whole and in order, whoever is killed, late or lying.
+// States in shared memory: complete and in order, even if a process is killed, late or hostile.
 #include "services/wire/shared/state_board.hpp"
 
 #include <gmock/gmock.h>
@@ -44,15 +44,15 @@ protected:
                     "mill.states";
 };
 
-AxisState said(std::uint32_t axis, Slot stamp) { return {.axis = axis, .stamp = stamp}; }
+AxisState state_of(std::uint32_t axis, Slot stamp) { return {.axis = axis, .stamp = stamp}; }
 
-std::vector<AxisState> heard(StateBoardReader& reader) {
+std::vector<AxisState> read_from(StateBoardReader& reader) {
     std::vector<AxisState> states;
     reader.take([&](AxisState&& state) { states.push_back(state); });
     return states;
 }
 
-TEST_F(StateBoard, AllHearWhatTheOthersSayInItsOrder) {
+TEST_F(StateBoard, AllReadTheStatesOfTheOthersInOrder) {
     RandomMessages random(5);
     StateBoardWriter first = writer(0);
     StateBoardWriter last = writer(kMaxAxes - 1);
@@ -66,36 +66,37 @@ TEST_F(StateBoard, AllHearWhatTheOthersSayInItsOrder) {
             to->write(states.back());
         }
     }
-    EXPECT_THAT(heard(of_coordinator), ElementsAre(states[0], states[2], states[4], states[1], states[3], states[5]));
-    EXPECT_THAT(heard(of_first), ElementsAre(states[1], states[3], states[5])) << "not its own";
-    EXPECT_THAT(heard(of_coordinator), IsEmpty()) << "each once";
+    EXPECT_THAT(read_from(of_coordinator),
+                ElementsAre(states[0], states[2], states[4], states[1], states[3], states[5]));
+    EXPECT_THAT(read_from(of_first), ElementsAre(states[1], states[3], states[5])) << "not its own";
+    EXPECT_THAT(read_from(of_coordinator), IsEmpty()) << "each once";
 }
 
-TEST_F(StateBoard, WhatWasSaidBeforeSomebodyListensIsNotHeard) {
+TEST_F(StateBoard, IgnoresStatesWrittenBeforeTheReaderOpened) {
     StateBoardWriter axis = writer(1);
-    axis.write(said(1, 1));
+    axis.write(state_of(1, 1));
     StateBoardReader late = reader();
-    EXPECT_THAT(heard(late), IsEmpty());
-    axis.write(said(1, 2));
-    EXPECT_THAT(heard(late), ElementsAre(said(1, 2)));
+    EXPECT_THAT(read_from(late), IsEmpty());
+    axis.write(state_of(1, 2));
+    EXPECT_THAT(read_from(late), ElementsAre(state_of(1, 2)));
 }
 
-TEST_F(StateBoard, WhoStalledFindsTheNewest) {
+TEST_F(StateBoard, AStalledReaderGetsTheNewest) {
     StateBoardWriter axis = writer(1);
     StateBoardReader stalled = reader();
-    constexpr Slot kSaid = 2 * kStatesKept + 17;
-    for (Slot stamp = 1; stamp <= kSaid; ++stamp) { axis.write(said(1, stamp)); }
-    const std::vector<AxisState> states = heard(stalled);
+    constexpr Slot kWritten = 2 * kStatesKept + 17;
+    for (Slot stamp = 1; stamp <= kWritten; ++stamp) { axis.write(state_of(1, stamp)); }
+    const std::vector<AxisState> states = read_from(stalled);
     ASSERT_EQ(states.size(), kStatesKept);
     for (std::size_t i = 0; i < states.size(); ++i) {
-        EXPECT_EQ(states[i].stamp, kSaid - static_cast<Slot>(kStatesKept - 1 - i));
+        EXPECT_EQ(states[i].stamp, kWritten - static_cast<Slot>(kStatesKept - 1 - i));
     }
 }
 
-TEST_F(StateBoard, IsHeardWholeAndInOrderWhileItIsWritten) {
+TEST_F(StateBoard, IsReadWholeAndInOrderDuringWrites) {
     StateBoardWriter axis = writer(2);
     StateBoardReader listener = reader();
-    std::jthread says([&](const std::stop_token& stop) {
+    std::jthread writer_thread([&](const std::stop_token& stop) {
         for (Slot i = 1; !stop.stop_requested(); ++i) {
             axis.write({.identity = static_cast<Identity>(i),
                         .axis = 2,
@@ -128,50 +129,50 @@ TEST_F(StateBoard, AnAxisHasOneProcess) {
     EXPECT_TRUE(StateBoardWriter::open(path, 3));
 }
 
-TEST_F(StateBoard, WhoIsKilledLeavesItsPartToTheNext) {
+TEST_F(StateBoard, AKilledProcessLeavesItsPartToTheNext) {
     StateBoardReader listener = reader();
     const pid_t child = fork();
     if (child == 0) {
         StateBoardWriter axis = writer(1);
-        axis.write(said(1, 41));
+        axis.write(state_of(1, 41));
         raise(SIGKILL);
     }
     waitpid(child, nullptr, 0);
-    EXPECT_THAT(heard(listener), ElementsAre(said(1, 41)));
-    writer(1).write(said(1, 42));
-    EXPECT_THAT(heard(listener), ElementsAre(said(1, 42)));
+    EXPECT_THAT(read_from(listener), ElementsAre(state_of(1, 41)));
+    writer(1).write(state_of(1, 42));
+    EXPECT_THAT(read_from(listener), ElementsAre(state_of(1, 42)));
 }
 
-TEST_F(StateBoard, WhatIsHalfWrittenIsNotHeard) {
+TEST_F(StateBoard, IgnoresHalfWrittenState) {
     StateBoardWriter axis = writer(0);
     StateBoardReader listener = reader();
-    for (const Slot stamp : {1, 2, 3}) { axis.write(said(0, stamp)); }
+    for (const Slot stamp : {1, 2, 3}) { axis.write(state_of(0, stamp)); }
     const std::size_t slot_bytes = NumberedSlot<lockstep_wire_AxisState>::kWords * sizeof(std::uint64_t);
     overwrite(kFirstSlotByte + 2 * slot_bytes, std::string(8, '\0'));  // its number
-    EXPECT_THAT(heard(listener), ElementsAre(said(0, 1), said(0, 3)));
+    EXPECT_THAT(read_from(listener), ElementsAre(state_of(0, 1), state_of(0, 3)));
 }
 
-TEST_F(StateBoard, AnotherVersionIsRefusedUntilItsAxisBeginsAnew) {
+TEST_F(StateBoard, AnotherVersionIsRefusedUntilItsAxisRestarts) {
     StateBoardReader listener = reader();
     {
         StateBoardWriter axis = writer(0);
         overwrite(0, "another!");
-        axis.write(said(0, 1));
-        EXPECT_THAT(heard(listener), IsEmpty());
+        axis.write(state_of(0, 1));
+        EXPECT_THAT(read_from(listener), IsEmpty());
         EXPECT_EQ(listener.refusals().count, 1U);
         EXPECT_THAT(listener.refusals().last, HasSubstr("another version"));
     }
-    StateBoardWriter anew = writer(0);
-    (void)heard(listener);
-    anew.write(said(0, 2));
-    EXPECT_THAT(heard(listener), ElementsAre(said(0, 2)));
+    StateBoardWriter restarted = writer(0);
+    (void)read_from(listener);
+    restarted.write(state_of(0, 2));
+    EXPECT_THAT(read_from(listener), ElementsAre(state_of(0, 2)));
 }
 
-TEST_F(StateBoard, NobodySpeaksForAnotherAxis) {
+TEST_F(StateBoard, RefusesStatesOfAnotherAxis) {
     StateBoardWriter axis = writer(0);
     StateBoardReader listener = reader();
-    axis.write(said(1, 1));
-    EXPECT_THAT(heard(listener), IsEmpty());
+    axis.write(state_of(1, 1));
+    EXPECT_THAT(read_from(listener), IsEmpty());
     EXPECT_THAT(listener.refusals().last, HasSubstr("in the part of axis 0"));
 }
 
@@ -180,24 +181,24 @@ TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
     StateBoardReader listener = reader();
     RandomMessages random(6);
     for (int i = 0; i < 2000; ++i) {
-        for (int said = 0; said < 3; ++said) { axis.write(random.axis_state()); }
+        for (int i = 0; i < 3; ++i) { axis.write(random.axis_state()); }
         const auto at = static_cast<std::size_t>(random.between(8, 3000));  // the count of states as well
         overwrite(kPartBytes + at, std::string(1, static_cast<char>(random.bits())));
-        (void)heard(listener);
+        (void)read_from(listener);
     }
     EXPECT_GT(listener.refusals().count, 0U);
-    (void)heard(listener);
-    axis.write(said(1, 7));
-    EXPECT_THAT(heard(listener), ElementsAre(said(1, 7))) << "what is said then is heard again";
+    (void)read_from(listener);
+    axis.write(state_of(1, 7));
+    EXPECT_THAT(read_from(listener), ElementsAre(state_of(1, 7))) << "later states are read again";
 }
 
-TEST_F(StateBoard, SaysThatItWasRemovedOrOverwrittenUntilItIsOpenedAnew) {
+TEST_F(StateBoard, ReportsThatItWasRemovedOrOverwrittenUntilItIsOpenedAgain) {
     {
         const StateBoardWriter axis = writer(1);
         const StateBoardReader listener = reader();
         EXPECT_TRUE(axis.is_current() && listener.is_current());
         overwrite(kPartBytes, "garbage!");
-        EXPECT_FALSE(axis.is_current()) << "it alone may write its part anew";
+        EXPECT_FALSE(axis.is_current()) << "only it may initialize its part again";
         EXPECT_TRUE(listener.is_current());
         EXPECT_TRUE(StateBoardReader::open(path, {})->is_current());
     }
@@ -221,7 +222,7 @@ TEST_F(StateBoard, IsForThisUserAlone) {
     const StateBoardReader listener = reader();
     EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
     fs::create_symlink(path, path.parent_path() / "other");
-    EXPECT_FALSE(StateBoardReader::open(path.parent_path() / "other", {})) << "another may have put it there";
+    EXPECT_FALSE(StateBoardReader::open(path.parent_path() / "other", {})) << "another user may have put it there";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A coordinator that was stopped says late what it had decided: after another has taken over and begun a job of its
-// own.
+// A coordinator that was stopped publishes its decisions late: after another has taken over and begun its own
+// job.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@ namespace {
 using test::AlteredLog;
 using testing::HasSubstr;
 
-class LateWord : public testing::Test {
+class LateRecord : public testing::Test {
 protected:
     static constexpr std::int64_t kHeir = 77;
 
@@ -53,13 +53,13 @@ protected:
     std::int64_t last = 0;
 };
 
-TEST_F(LateWord, AnEpochIsHeldToItsJobThoughAnotherHasBegunSince) {
+TEST_F(LateRecord, AnEpochIsHeldToItsJobThoughAnotherHasBegunSince) {
     std::rotate(word(last - 1, "epoch"), word(last - 1, "epoch") + 1, word(last, "begun") + 1);
     const Findings found = verified();
     EXPECT_FALSE(found.difference) << to_text(found);
 }
 
-TEST_F(LateWord, AnEpochThatNobodyRanIsNoted) {
+TEST_F(LateRecord, AnEpochThatNoAxisRanIsNoted) {
     AlteredLog::Event late = *word(last - 1, "epoch");
     auto message = decode_lcm<job_t>(late.data).value();
     message.epoch += 1000;
@@ -70,7 +70,7 @@ TEST_F(LateWord, AnEpochThatNobodyRanIsNoted) {
     EXPECT_THAT(to_text(found), HasSubstr("its coordinator records more of it after another began"));
 }
 
-TEST_F(LateWord, AnEpochOfTheSameCoordinatorIsNotLateButWrong) {
+TEST_F(LateRecord, AnEpochOfTheSameCoordinatorIsNotLateButWrong) {
     log.change<job_t>("_JOB", [&](job_t& job) { return job.job < last && (job.coordinator = kHeir); });
     AlteredLog::Event late = *word(last - 1, "epoch");
     log.events().insert(word(last, "ended"), late);
