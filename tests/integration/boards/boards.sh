@@ -1,13 +1,13 @@
-# Boards for a test: hosts in namespaces, each with a network, host name, uptime, process table and files of its own,
-# joined by a bridge, and reached from outside. Source it, call own_world "$@" first, then: board NAME NUMBER UPTIME_S,
-# on NAME COMMAND..., unplug NAME. $work/ssh NAME COMMAND... does what ssh would.
+# Boards for a test: hosts in namespaces, each with its own network, host name, uptime, process table and files,
+# joined by a bridge, and reached from outside. Source it, call own_namespaces "$@" first, then: board NAME NUMBER UPTIME_S,
+# on NAME COMMAND..., unplug NAME. $work/ssh NAME COMMAND... works like ssh.
 
-# Starts the script anew in namespaces that end with it, and take all boards along.
-own_world() {
-    if [ -z "${OWN_WORLD:-}" ]; then
+# Starts the script again in namespaces that end with it, and all boards with them.
+own_namespaces() {
+    if [ -z "${IN_NAMESPACES:-}" ]; then
         unshare --net --mount --pid --fork --uts true 2>/dev/null ||
             { echo "no network, mounts and processes of its own are permitted here"; exit 77; }
-        OWN_WORLD=yes exec unshare --net --mount --pid --fork --kill-child --mount-proc -- "$0" "$@"
+        IN_NAMESPACES=yes exec unshare --net --mount --pid --fork --kill-child --mount-proc -- "$0" "$@"
     fi
     work=$(mktemp -d)
     mount -t tmpfs tmpfs "$work"
@@ -16,7 +16,7 @@ own_world() {
     chmod +x "$work/ssh"
     cp -a /etc "$work/etc" && mkdir -p "$work/etc/lockstep" && mount --bind "$work/etc" /etc
     ip link set lo up
-    ip link add eth0 type bridge mcast_snooping 0  # by the name that the boards' end has: the machine's file has one
+    ip link add eth0 type bridge mcast_snooping 0  # the same name as on the boards: the machine's file has one
     ip addr add 10.9.0.1/24 dev eth0
     ip link set eth0 up
     clocks=yes
@@ -48,7 +48,7 @@ board() {  # NAME NUMBER UPTIME_S, beyond the host's own
 
 on() { "$work/ssh" "$@"; }  # NAME COMMAND...
 
-# As by a power cut: nothing on it ends as it would like to.
+# Like a power cut: none of its processes can shut down.
 unplug() {  # NAME
     local first
     first=$(<"$work/$1.init")

@@ -1,4 +1,4 @@
-"""What is done to the machine. Each kind of fault is a function: it does it, waits until it is over, and says what."""
+"""The faults. Each kind is a function: it injects the fault, waits for its end, and returns a description."""
 import dataclasses
 import os
 import signal
@@ -12,7 +12,7 @@ class Injected:
     kind: str
     text: str
     at_us: int                # of machine time, which is the host's monotonic clock
-    hit: frozenset            # the processes that it concerns: these may end elsewhere than the others
+    hit: frozenset            # the affected processes: these may end at other places
     killed: str = ""
 
 
@@ -24,7 +24,7 @@ def now_us():
 
 
 class Chaos:
-    """Does faults to a machine, drawn from a seed. The kinds are a deck: each is drawn once before any comes again."""
+    """Injects faults into a machine, drawn from a seed. Each kind is drawn once before any is repeated."""
 
     def __init__(self, machine, network, rng):
         self.machine, self.network, self.rng = machine, network, rng
@@ -109,16 +109,16 @@ class Chaos:
     # ---- Commands
 
     def turn_overrides(self):
-        """No fault, and no reason to stop: in most rounds feed and rapid are turned while the job runs."""
+        """No fault, and no reason to stop: in most rounds feed and rapid are changed while the job runs."""
         if self.rng.random() < 0.7:
             self.machine.call("override", "--feed", str(self.rng.randint(20, 200)), "--rapid",
                               str(self.rng.randint(20, 100)))
 
     def _command(self, word, hit=frozenset()):
         injected = Injected(word, f"lockstep {word}", now_us(), hit)
-        code, _, said = self.machine.call(word)
+        code, _, output = self.machine.call(word)
         if code != 0:
-            injected.text += f" (refused: {said.splitlines()[0]})" if said else " (refused)"
+            injected.text += f" (refused: {output.splitlines()[0]})" if output else " (refused)"
         return injected
 
     def hold(self):

@@ -1,4 +1,4 @@
-"""The machine under test, as a user has it: by the lockstep command alone."""
+"""The machine under test, used only through the lockstep command."""
 import json
 import os
 import random
@@ -8,11 +8,11 @@ AXES = ("X", "Y", "Z")
 TRAVEL_MM = 60
 LCM_URL = "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304"
 NEVER_ENDED = -1
-CALL_PATIENCE_S = 90  # nothing is measured by it: a command that hangs must not hang the test
+CALL_PATIENCE_S = 90  # not a measurement: a command that hangs must not hang the test
 
 
 def machine_text(name):
-    """Three axes alike that home within seconds. The processes may stall for 200 ms, as those of a busy host do."""
+    """Three equal axes that home within seconds. The processes may stall for 200 ms, as on a busy host."""
     axis = """axis {{ name: "{name}" steps_per_mm: 80 start_velocity_mm_s: 20 max_velocity_mm_s: 120
   max_accel_mm_s2: 1500 max_decel_mm_s2: 1200 position_min_mm: 0 position_max_mm: {travel}
   homing {{ toward_min: true search_velocity_mm_s: 20 latch_velocity_mm_s: 10 pulloff_mm: 1 switch_position_mm: -1
@@ -54,13 +54,13 @@ class Machine:
                                          "LOCKSTEP_MACHINE": str(folder / "machine.textproto")}
 
     def begin(self, *words):
-        """A command that runs beside the test."""
+        """A command that runs in parallel to the test."""
         return subprocess.Popen([self.lockstep, *words, "--json"], env=self.environment, text=True,
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     @staticmethod
     def end(command):
-        """How it ended: exit code, its report or nothing, what it said to a person."""
+        """Its result: exit code, its report or nothing, its text output."""
         try:
             out, err = command.communicate(timeout=CALL_PATIENCE_S)
         except subprocess.TimeoutExpired:
@@ -71,15 +71,15 @@ class Machine:
     def call(self, *words):
         return self.end(self.begin(*words))
 
-    def make_whole(self, heard, whole):
-        """lcm-logger drops what comes while it stands still itself, and has heard what a process that was killed had not
-        written yet: one log of what it heard and the processes' own."""
+    def make_whole(self, received, whole):
+        """lcm-logger drops messages while it stands still itself, and has messages that a killed process had not
+        written yet: merges its log and the processes' own."""
         record = self.folder / "state" / self.name / "record"
-        subprocess.run([self.lockstep, "log", "merge", str(whole), str(heard), str(record)], env=self.environment,
-                       capture_output=True)  # what none has is for the verdict to weigh
+        subprocess.run([self.lockstep, "log", "merge", str(whole), str(received), str(record)], env=self.environment,
+                       capture_output=True)  # the evaluation handles messages that no log has
 
     def verify(self, log):
-        """In words, and whether the log is exact."""
+        """As text, and whether the log is exact."""
         ran = subprocess.run([self.lockstep, "verify", str(log)], env=self.environment, capture_output=True, text=True)
         return (ran.stdout + ran.stderr).strip(), ran.returncode == 0
 
@@ -93,7 +93,7 @@ class Machine:
         return self.begin("run", str(path))
 
     def processes(self):
-        """Those running, by name: coordinator, axis-X ... with their numbers."""
+        """The running processes, by name: coordinator, axis-X ... with their ids."""
         lines = (self.folder / "state" / self.name / "processes").read_text().split("\n")
         records = [line.split() for line in lines if line]
         return {name: int(pid) for name, pid, _ in records if int(pid) > 0}

@@ -1,9 +1,9 @@
-"""A network of its own: a namespace for each of the machine's processes, all joined by a bridge called eth0.
+"""A network in namespaces: one for each of the machine's processes, all joined by a bridge called eth0.
 
-A process is put into its namespace by a program of the real one's name that stands beside the lockstep command; so
-`lockstep up` starts, watches and restarts processes on hosts of their own without knowing it. Links are cut and
-packets lost by the firewall of the namespace they belong to. The record (LCM) is let through: what is to be proved
-must be known.
+A process is put into its namespace by a program of the same name beside the lockstep command; so
+`lockstep up` starts, supervises and restarts processes on separate hosts unmodified. Links are cut and
+packets lost by the firewall of their namespace. The record (LCM) is not affected: it is needed for the
+evaluation.
 """
 import pathlib
 import shutil
@@ -11,8 +11,8 @@ import subprocess
 import time
 
 LCM_PORT = 7667
-BRIDGE = "eth0"  # by the same name everywhere, since the machine's file names one interface
-MTU = 65535      # no datagram in pieces: the firewall knows the first piece's port alone
+BRIDGE = "eth0"  # the same name everywhere, since the machine's file names one interface
+MTU = 65535      # no fragmented datagrams: the firewall sees the port only in the first fragment
 
 
 def run(*words):
@@ -49,7 +49,7 @@ class Network:
         run(*self._enter(host), *words)
 
     def install(self, programs, directory):
-        """The lockstep command with its programs, each of which runs in its own namespace. The command's path."""
+        """Installs the lockstep command with its programs, each in its own namespace. Returns the command's path."""
         directory.mkdir()
         shutil.copy2(programs / "lockstep", directory)
         self._write_program(directory / "lockstep-coordinator", programs, [("*", "coordinator")])
@@ -65,7 +65,7 @@ class Network:
         path.chmod(0o755)
 
     def drop(self, host, directions, probability=1.0):
-        """Loses what a process says (OUTPUT) or hears (INPUT), each packet with a probability, until `heal`."""
+        """Drops packets that a process sends (OUTPUT) or receives (INPUT), with a probability, until `heal`."""
         chance = ["-m", "statistic", "--mode", "random", "--probability", str(probability)] if probability < 1 else []
         for chain in directions:
             self._on(host, "iptables", "-A", chain, "-o" if chain == "OUTPUT" else "-i", BRIDGE, "-p", "udp",

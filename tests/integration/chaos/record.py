@@ -1,4 +1,4 @@
-"""The record of the run, as far as it is needed here: what each axis ran, and where it said it was."""
+"""The parts of the record that the test needs: the runs of each axis, and its reported positions."""
 import dataclasses
 import pathlib
 import sys
@@ -21,14 +21,14 @@ class Run:
 
 @dataclasses.dataclass
 class State:
-    """What an axis said of itself."""
+    """A published state of an axis."""
     axis: str
     tick_us: int
     at_rest: bool
 
 
 class Record:
-    """`types`: the folder of LCM's Python types, as they were built."""
+    """`types`: the folder of LCM's generated Python types."""
 
     def __init__(self, path, types):
         sys.path += [str(EXAMPLES), str(types)]
@@ -50,18 +50,18 @@ class Record:
         return min(tails + [at for at in ceased if at is not None], default=None)
 
     def rest_us(self, since, axes):
-        """When the last of these axes first said it is at rest, from that time on. None: one never did."""
+        """When the last of these axes first reported rest, from that time on. None: one never did."""
         rests = [min((s.tick_us for s in self.states if s.axis == axis and s.tick_us >= since and s.at_rest),
                      default=None) for axis in axes]
         return None if None in rests else max(rests)
 
     def longest_silence_us(self, axis, since, until):
-        """Between an axis's states, of which it makes one a slot."""
+        """The times between an axis's states, of which it publishes one a slot."""
         ticks = [state.tick_us for state in self.states if state.axis == axis and since <= state.tick_us < until]
         return max((after - before for before, after in zip(ticks, ticks[1:])), default=until - since)
 
     def ends(self):
-        """Of each epoch: where each axis came to in it, (frame, in its tail, cut short), and when it began the last."""
+        """For each epoch: how far each axis came, (frame, in its tail, cut short), and when it began the last."""
         last = {}
         for run in self.runs:
             if run.epoch:

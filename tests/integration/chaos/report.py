@@ -1,4 +1,4 @@
-"""A run in words and in JSON."""
+"""A run as text and as JSON."""
 import statistics
 
 
@@ -8,7 +8,7 @@ def median(values):
 
 
 def figures(found):
-    """By kind of fault: how often, and medians of the times to the first reaction and to rest."""
+    """By kind of fault: the count, and medians of the times to the first reaction and to rest."""
     kinds = sorted({timed.chapter.injected.kind for timed in found.timed})
     for kind in kinds:
         of_kind = [timed for timed in found.timed if timed.chapter.injected.kind == kind]

@@ -1,4 +1,4 @@
-"""The course of a run: what was done to the machine, how it answered, and how it was brought back."""
+"""The course of a run: the faults, the machine's reactions, and its recovery."""
 import dataclasses
 import time
 
@@ -9,19 +9,19 @@ from machine import NEVER_ENDED
 @dataclasses.dataclass
 class Chapter:
     injected: Injected
-    phase: str = ""           # how the machine was found afterwards
+    phase: str = ""           # of the machine afterwards
     fault: str = ""           # the name of its fault; empty: none
-    job: str = ""             # how the job ended that was running
+    job: str = ""             # the end of the running job
     remedies: list = dataclasses.field(default_factory=list)
-    watched_us: int = 0       # until then the machine was left to itself
+    watched_us: int = 0       # until then nothing was injected
     over_us: int = 0
-    is_told: bool = False
+    is_printed: bool = False
 
 
 class Story:
-    SETTLE_S = 30    # for the machine to come to an end of what it does: a failure beyond
+    SETTLE_S = 30    # for the machine to finish its action: a failure beyond
     TRIES = 6
-    RUNS_ON_S = 1.5  # a machine that has not minded a fault is seen moving for so long, then stopped
+    RUNS_ON_S = 1.5  # a machine that a fault has not stopped is observed for so long, then stopped
 
     def __init__(self, machine, now_us, quiet):
         self.machine, self.now_us, self.quiet = machine, now_us, quiet
@@ -30,9 +30,9 @@ class Story:
         self.is_over = False  # the machine cannot be used any more
 
     def expect_done(self, what, ended):
-        code, _, said = ended
+        code, _, output = ended
         if code != 0:
-            self.fail(f"lockstep {what}: exit code {code}: {said}")
+            self.fail(f"lockstep {what}: exit code {code}: {output}")
         return code == 0
 
     def fail(self, text):
@@ -40,7 +40,7 @@ class Story:
         self.is_over = True
 
     def round(self, chaos):
-        """A job, a fault, and the way back."""
+        """A job, a fault, and the recovery."""
         self.bring_back()
         if self.is_over:
             return
@@ -51,10 +51,10 @@ class Story:
         chapter = Chapter(chaos.strike())
         self.chapters.append(chapter)
         self._watch(chapter, job)
-        code, told, said = self.machine.end(job)
+        code, report, output = self.machine.end(job)
         if code == NEVER_ENDED:
-            self.fail(f"{chapter.injected.text}: lockstep run: {said}")
-        chapter.job = told.get("outcome") or (said.splitlines()[0] if said else "no report")
+            self.fail(f"{chapter.injected.text}: lockstep run: {output}")
+        chapter.job = report.get("outcome") or (output.splitlines()[0] if output else "no report")
         chapter.over_us = self.now_us()
 
     def _watch(self, chapter, job):
@@ -70,7 +70,7 @@ class Story:
             self.machine.call("stop")
 
     def _wait_for(self, is_there):
-        """The first status that is as asked for."""
+        """The first status that satisfies the condition."""
         deadline = time.monotonic() + self.SETTLE_S
         while time.monotonic() < deadline:
             status = self.machine.status()
@@ -81,7 +81,7 @@ class Story:
         return {}
 
     def bring_back(self):
-        """To where a job can begin, as a user does: what the machine says decides what is done."""
+        """Brings the machine to where a job can begin, as a user does: its state determines the commands."""
         for _ in range(self.TRIES):
             word = self._what_next(self._wait_for(self._is_settled))
             if self.is_over or not word:
@@ -89,7 +89,7 @@ class Story:
             self._remedy(word)
         else:
             self.fail(f"the machine cannot be brought back: {self.machine.status()}")
-        if self.chapters and not self.chapters[-1].is_told and not self.quiet:
+        if self.chapters and not self.chapters[-1].is_printed and not self.quiet:
             self._tell(self.chapters[-1])
 
     @staticmethod
@@ -99,20 +99,20 @@ class Story:
 
     @staticmethod
     def _what_next(status):
-        """Nothing where a job can begin."""
+        """Nothing if a job can begin."""
         phase = status.get("phase")
         if phase != "Idle":
             return "reset" if phase == "Fault" else "stop"
         return "" if all(axis.get("homed") for axis in status["axes"]) else "home"
 
     def _remedy(self, word):
-        """It may fail where the host stalls meanwhile; then it is done again."""
+        """It may fail if the host stalls meanwhile; then it is repeated."""
         code, _, _ = self.machine.call(word)
         if self.chapters:
             self.chapters[-1].remedies.append(word if code == 0 else word + " (failed)")
 
     def run_to_the_end(self):
-        """A job that nothing befalls."""
+        """A job without a fault."""
         for _ in range(self.TRIES):
             self.bring_back()
             if self.is_over or self.machine.end(self.machine.begin_job(lines=10))[0] == 0:
@@ -120,7 +120,7 @@ class Story:
         self.fail("the machine does not come to the end of a job that nothing befell")
 
     def _tell(self, chapter):
-        chapter.is_told = True
+        chapter.is_printed = True
         at = (chapter.injected.at_us - self.begin_us) / 1e6
         print(f"{at:7.2f} s  {chapter.injected.text:<52} {chapter.phase}{' ' * bool(chapter.fault)}{chapter.fault}; "
               f"job {chapter.job}{'; then ' * bool(chapter.remedies)}{', '.join(chapter.remedies)}", flush=True)

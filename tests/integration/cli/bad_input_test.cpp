@@ -1,4 +1,4 @@
-// What a user gets wrong: exit code 2, nothing done, and how to do it right.
+// A user's wrong input: exit code 2, nothing done, and the remedy.
 #include <gmock/gmock.h>
 
 #include "idl/proto/machine.pb.h"
@@ -55,7 +55,7 @@ TEST_F(BadInput, InAMachineFileIsFoundByTheVerbThatOnlyChecksIt) {
     EXPECT_EQ(machine.axis_size(), 2);
 }
 
-TEST_F(BadInput, IsSaidAsJsonWhereThatIsAsked) {
+TEST_F(BadInput, IsReportedAsJsonOnRequest) {
     const auto usage = run_lockstep({"run", "--json"}).json<proto::ErrorReport>();
     EXPECT_THAT(usage.errors(0).message(), HasSubstr("file is required"));
     const std::string bad = write("bad.textproto", "name: \"bad\"\nsped: 3\n");

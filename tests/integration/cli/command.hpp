@@ -17,7 +17,7 @@ struct Ran {
     std::string out;
     std::string err;
 
-    /// Standard output as a report; a failed expectation where it is none.
+    /// Standard output as a report; a failed expectation if it is none.
     template <typename Report>
     Report json() const {
         Report report;
@@ -26,7 +26,7 @@ struct Ran {
     }
 };
 
-/// A process that runs beside the test; ended with the object.
+/// A process that runs in parallel to the test; it ends with the object.
 class Command {
 public:
     /// program: a path. Its standard input is empty, and neither output is a terminal.
@@ -42,7 +42,7 @@ public:
 
 private:
     pid_t pid_ = 0;
-    std::string files_;  // where its output goes: this .out and .err
+    std::string files_;  // the stem of its output files .out and .err
 };
 
 Ran run_lockstep(const Words& words);

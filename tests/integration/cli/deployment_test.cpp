@@ -1,4 +1,4 @@
-// Where the parts of a machine run, and what they run on: devices that are mapped, parts that belong on other hosts.
+// Where the parts of a machine run, and their devices: devices that are mapped, parts that belong on other hosts.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 class Deployment : public OwnMachine {
 protected:
-    /// The machine's file with one thing changed.
+    /// The machine's file with one change.
     template <typename Change>
     void change(Change change) const {
         MachineConfig machine = load_machine_file(file()).value();
@@ -38,7 +38,7 @@ TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
 }
 
 /// It may be powered up later: the axis waits for it.
-TEST_F(Deployment, WhatIsNoDeviceOfThisMapIsRefusedByWhatItsRegistersSay) {
+TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
     const std::string registers = write("x.registers", std::string(registers::kWindowBytes, '\0'));
     const std::string log = write("axis.log", "");
     Command axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--fpga", "uio:" + registers, "--log", log});
@@ -50,14 +50,14 @@ TEST_F(Deployment, WhatIsNoDeviceOfThisMapIsRefusedByWhatItsRegistersSay) {
     EXPECT_EQ(axis.wait().code, 0);
 }
 
-TEST_F(Deployment, OnlyWhatBelongsOnThisHostIsStarted) {
+TEST_F(Deployment, StartsOnlyThePartsOfThisHost) {
     change([](MachineConfig& machine) { machine.coordinator_host = "elsewhere"; });
     const Command up(LOCKSTEP_COMMAND, {"up", "--foreground"});
     ASSERT_TRUE(eventually([&] { return state().running().size() == 3; }));  // and the supervisor
     EXPECT_NE(process("axis-X"), 0);
 }
 
-TEST_F(Deployment, WhereNothingBelongsOnThisHostItIsSaid) {
+TEST_F(Deployment, ReportsThatNothingBelongsOnThisHost) {
     change([](MachineConfig& machine) {
         machine.coordinator_host = "elsewhere";
         for (AxisConfig& axis : machine.axes) { axis.host = "elsewhere"; }
@@ -67,7 +67,7 @@ TEST_F(Deployment, WhereNothingBelongsOnThisHostItIsSaid) {
     EXPECT_THAT(up.err, HasSubstr("places nothing on this host, " + host_name()));
 }
 
-/// The finding about this; none: nothing was said of it.
+/// The finding about this; empty: there is none.
 proto::DoctorFinding about(const proto::DoctorReport& report, const std::string& what) {
     for (const auto& finding : report.findings()) {
         if (finding.what() == what) { return finding; }
@@ -84,11 +84,11 @@ TEST_F(Deployment, TheDoctorFindsNothingWrongWithAMachineThatIsUp) {
     }
 }
 
-TEST_F(Deployment, TheDoctorNamesWhatIsBrokenAndWhatMendsIt) {
+TEST_F(Deployment, TheDoctorNamesProblemsAndTheirRemedies) {
     bring_up();
     MachineConfig machine = load_machine_file(file()).value();
     machine.axes[0].device = "uio:/dev/uio77";  // no such device
-    machine.timing.clock_error_limit_us = 1;    // another configuration than that which runs
+    machine.timing.clock_error_limit_us = 1;    // another configuration than the running one
     machine.timing.time_source = TimeSource::Ptp;
     const std::string broken = write("broken.textproto", machine_text(machine));
     const Ran ran = run_lockstep({"doctor", "--machine", broken, "--seconds", "0.1", "--json"});

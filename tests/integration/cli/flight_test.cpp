@@ -1,5 +1,5 @@
-// Real processes are stopped, killed and hang: each writes what it noted, and `lockstep analyze --incident` names the
-// one that began it.
+// Real processes are stopped, killed and hang: each writes its notes, and `lockstep analyze --incident` names the
+// one that caused the incident.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -59,7 +59,7 @@ TEST_F(Flight, AnAxisThatWasStoppedIsNamed) {
     begin_job();
     const pid_t axis = process("axis-Y");
     kill(axis, SIGSTOP);
-    std::this_thread::sleep_for(800ms);  // 200 are allowed for
+    std::this_thread::sleep_for(800ms);  // 200 are allowed
     kill(axis, SIGCONT);
     ASSERT_TRUE(all_write());
     const auto report = incident();
@@ -91,7 +91,7 @@ TEST_F(Flight, AnEmergencyStopIsNamed) {
     EXPECT_EQ(incident().cause(), "emergency-stop");
 }
 
-TEST_F(Flight, IsReadWhenAskedForAlsoOfAProcessThatHangs) {
+TEST_F(Flight, IsReadOnRequestEvenFromAProcessThatHangs) {
     bring_up_and_home();
     const pid_t axis = process("axis-Y");
     kill(axis, SIGSTOP);
@@ -114,7 +114,7 @@ TEST_F(Flight, BySignalEachProcessWritesItsOwn) {
     EXPECT_THAT(report.notes(0), HasSubstr("no file of: coordinator, axis Y"));
 }
 
-TEST_F(Flight, WhatIsNoIncidentIsRefusedWithItsPlaceAndRemedy) {
+TEST_F(Flight, AFileThatIsNoIncidentIsRefusedWithItsPlaceAndRemedy) {
     const auto refused = [](const Words& words) {
         const Ran ran = run_lockstep(words);
         EXPECT_EQ(ran.code, 2) << ran.out;

@@ -1,4 +1,4 @@
-// Homing that a person ends, or that nobody could end any more: at rest, reported, and it works again.
+// Homing ended by a person, or left without its coordinator: at rest, reported, and it works again.
 #include <gmock/gmock.h>
 #include <signal.h>
 

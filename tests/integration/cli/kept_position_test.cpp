@@ -26,7 +26,7 @@ protected:
         ASSERT_EQ(home.code, 0) << home.out << home.err;
     }
     proto::AxisStatus y() const { return status().axes(1); }
-    /// What is on disk of Y is where Y is.
+    /// The position of Y on disk is Y's.
     bool y_is_kept() const {
         return eventually([&] {
             proto::KeptPosition kept;
@@ -36,7 +36,7 @@ protected:
         });
     }
     std::filesystem::path file_of_y() const { return position_directory(status().machine()) / "Y.textproto"; }
-    /// Until another process has taken its place and says so.
+    /// Until another process has replaced it and reports it.
     void kill_y() const {
         const pid_t before = process("axis-Y");
         kill(before, SIGKILL);
@@ -47,7 +47,7 @@ protected:
     }
 };
 
-TEST_F(KeptPositions, AKilledAxisComesBackHomedWhereItWasAtRest) {
+TEST_F(KeptPositions, AKilledAxisAtRestRestartsHomed) {
     ASSERT_TRUE(y_is_kept());
     kill_y();
     EXPECT_TRUE(y().homed()) << tail_of(state().log_file("axis-Y"), 20);
@@ -58,7 +58,7 @@ TEST_F(KeptPositions, AKilledAxisComesBackHomedWhereItWasAtRest) {
     expect_verified();
 }
 
-TEST_F(KeptPositions, AnAxisThatIsKilledInMotionComesBackUnhomedAndSaysWhy) {
+TEST_F(KeptPositions, AnAxisKilledInMotionRestartsUnhomedAndReportsWhy) {
     ASSERT_TRUE(y_is_kept());
     const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
@@ -74,8 +74,8 @@ TEST_F(KeptPositions, AnAxisThatIsKilledInMotionComesBackUnhomedAndSaysWhy) {
     expect_verified();
 }
 
-/// The log ends before another process moves the axis: with what that one found in the device.
-TEST_F(KeptPositions, WhatTheDeviceOfAKilledAxisWentOnToDoIsAsPlanned) {
+/// The log ends before another process moves the axis: with the steps that it found in the device.
+TEST_F(KeptPositions, TheDeviceOfAKilledAxisContinuesAsPlanned) {
     const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
@@ -84,8 +84,8 @@ TEST_F(KeptPositions, WhatTheDeviceOfAKilledAxisWentOnToDoIsAsPlanned) {
     expect_verified();
 }
 
-/// Axes come to rest by themselves, and nobody says how the job ended.
-TEST_F(KeptPositions, WhatIsRunOfAJobWhoseCoordinatorIsKilledIsAsPlanned) {
+/// Axes come to rest by themselves, and the end of the job is not recorded.
+TEST_F(KeptPositions, AJobWhoseCoordinatorIsKilledRunsAsPlanned) {
     const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
@@ -94,7 +94,7 @@ TEST_F(KeptPositions, WhatIsRunOfAJobWhoseCoordinatorIsKilledIsAsPlanned) {
     expect_verified();
 }
 
-TEST_F(KeptPositions, APositionKeptOfADeviceThatIsGoneIsRefused) {
+TEST_F(KeptPositions, RefusesAKeptPositionOfAReplacedDevice) {
     ASSERT_TRUE(y_is_kept());
     ASSERT_EQ(run_lockstep({"down"}).code, 0);
     bring_up({"--fpga", "shm"});

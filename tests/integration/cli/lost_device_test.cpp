@@ -1,4 +1,4 @@
-// Devices of real processes that die, or whose registers are taken away or overwritten: nothing hangs or crashes, the
+// Devices of real processes that die, or whose registers are removed or overwritten: nothing hangs or crashes, the
 // fault names axis and remedy, and the remedy works.
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -42,7 +42,7 @@ protected:
         EXPECT_EQ(status().fault().axis(), "Y");
         EXPECT_THAT(text_of_log("axis-Y"), HasSubstr("waits for its device shm:lockstep-" + status().machine() + "-Y"));
     }
-    /// As the fault says: reset, home.
+    /// The fault's remedy: reset, home.
     void expect_usable() const {
         const Ran reset = run_lockstep({"reset"});
         EXPECT_EQ(reset.code, 0) << reset.out << reset.err;
@@ -73,7 +73,7 @@ TEST_F(LostDevice, OneThatIsKilledAtRestIsAFaultAndTheRemedyWorks) {
     expect_usable();
 }
 
-TEST_F(LostDevice, RegistersThatAreCutShortCrashNobody) {
+TEST_F(LostDevice, RegistersThatAreCutShortCrashNoProcess) {
     bring_up_with_devices();
     Command run(LOCKSTEP_COMMAND, job());
     ASSERT_TRUE(y_moves());
@@ -88,7 +88,7 @@ TEST_F(LostDevice, RegistersThatAreCutShortCrashNobody) {
     expect_usable();
 }
 
-TEST_F(LostDevice, RegistersThatAreOverwrittenCrashNobody) {
+TEST_F(LostDevice, RegistersThatAreOverwrittenCrashNoProcess) {
     bring_up_with_devices();
     Command run(LOCKSTEP_COMMAND, job());
     ASSERT_TRUE(y_moves());
@@ -102,8 +102,8 @@ TEST_F(LostDevice, RegistersThatAreOverwrittenCrashNobody) {
     expect_usable();
 }
 
-/// It waits for the machine to stop, but not for ever.
-TEST_F(LostDevice, AClientEndsBySignalWhoeverHangs) {
+/// It waits for the machine to stop, but not forever.
+TEST_F(LostDevice, AClientEndsBySignalWhateverProcessHangs) {
     bring_up_with_devices();
     for (const char* hangs : {"fpga-Y", "axis-Y", "coordinator"}) {
         Command run(LOCKSTEP_COMMAND, job());
@@ -129,7 +129,7 @@ protected:
     std::string device_;
 };
 
-TEST_F(LateDevice, AnAxisThatStartsBeforeItsDeviceSaysSoAndJoinsWhenItComes) {
+TEST_F(LateDevice, AnAxisThatStartsBeforeItsDeviceReportsItAndJoinsLater) {
     Command up(LOCKSTEP_COMMAND, {"up"});
     ASSERT_TRUE(eventually(
         [&] { return text_of_log("axis-Y").find("waits for its device shm:" + device_) != std::string::npos; }));

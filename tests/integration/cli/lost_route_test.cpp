@@ -1,4 +1,4 @@
-// lo goes down and comes up again, without its multicast route: the record is published again all the same.
+// lo goes down and comes up again, without its multicast route: the record is published again anyway.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 class LostRoute : public OwnMachine {
 protected:
-    /// Any message of the record comes within the bound.
+    /// Any message of the record is received within the bound.
     bool is_published() const {
         lcm::LCM lcm(lcm_url());
         bool has_come = false;
@@ -30,7 +30,7 @@ protected:
     }
 };
 
-TEST_F(LostRoute, IsAddedAgainAndTheRecordGoesOn) {
+TEST_F(LostRoute, IsAddedAgainAndTheRecordContinues) {
     if (geteuid() != 0) { GTEST_SKIP() << "a network of its own needs root"; }
     bring_up();
     ASSERT_TRUE(is_published());

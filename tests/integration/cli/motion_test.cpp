@@ -1,4 +1,4 @@
-// What a user does with a machine, and what he is told.
+// A user's operations on a machine, and its reports.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -45,10 +45,10 @@ TEST_F(OwnMachine, IsUpThenHomedThenMovedThenDown) {
     EXPECT_EQ(down.code, 0);
     EXPECT_THAT(down.out, HasSubstr("is down"));
     EXPECT_TRUE(state().running().empty());
-    EXPECT_EQ(run_lockstep({"down"}).code, 0);  // nothing to do is done
+    EXPECT_EQ(run_lockstep({"down"}).code, 0);  // a second down has nothing to do and succeeds
 }
 
-TEST_F(Motion, OfAProgramEndsWhereItSays) {
+TEST_F(Motion, OfAProgramEndsAtTheReportedPlace) {
     const std::string square = write("square.gcode", kSquare);
     const Ran dry = run_lockstep({"run", square, "--dry-run", "--json"});
     EXPECT_EQ(dry.json<proto::RunReport>().outcome(), "dry-run");
@@ -75,7 +75,7 @@ TEST_F(Motion, IsHeldResumedAndStopped) {
     EXPECT_TRUE(status().axes(0).at_rest());
 }
 
-TEST_F(Motion, GoesAsFastAsItsFeedIsTurned) {
+TEST_F(Motion, FollowsTheFeedOverride) {
     EXPECT_EQ(run_lockstep({"run", write("long.gcode", kLong), "--detach"}).code, 0);
     ASSERT_TRUE(becomes("Running"));
     const double before_s = status().remaining_s();
@@ -89,7 +89,7 @@ TEST_F(Motion, GoesAsFastAsItsFeedIsTurned) {
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
 }
 
-TEST_F(Motion, OfTwentyThousandLinesBearsSixOverridesInARow) {
+TEST_F(Motion, OfTwentyThousandLinesAcceptsSixOverridesInARow) {
     std::string text = "G21 G90 F1200\nG0 X20 Y0\n";
     for (int line = 0; line < 20'000; ++line) {
         text += "G1 X" + std::to_string(20 + 0.1 * (line % 1000)) + " Y" + std::to_string(line % 2 == 0 ? 0.1 : -0.1) +
@@ -107,7 +107,7 @@ TEST_F(Motion, OfTwentyThousandLinesBearsSixOverridesInARow) {
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
 }
 
-TEST_F(Motion, ThatAnotherStopsIsNotDone) {
+TEST_F(Motion, ThatAnotherClientStopsIsNotDone) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
@@ -147,7 +147,7 @@ TEST_F(Motion, OfAnAxisOnItsOwnIsStoppedWhenItsTerminalIsClosed) {  // it cannot
     EXPECT_TRUE(status().axes(0).at_rest());
 }
 
-TEST_F(Motion, GoesOnUnattendedWhereThatWasAsked) {
+TEST_F(Motion, ContinuesUnattendedOnRequest) {
     const Ran begun = run_lockstep({"move", "X=40", "--feed", "600", "--detach"});
     EXPECT_EQ(begun.code, 0);
     EXPECT_THAT(begun.out, HasSubstr("move: begun as job 2"));
@@ -158,14 +158,14 @@ TEST_F(Motion, GoesOnUnattendedWhereThatWasAsked) {
     EXPECT_TRUE(eventually([&] { return status().phase() == "Idle" && status().axes(0).position_mm() == 1; }));
 }
 
-TEST_F(Motion, ThatIsTakenDownSaysWhereItCameToRest) {
+TEST_F(Motion, ThatIsTakenDownReportsItsRest) {
     Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"down"}).code, 0);
     EXPECT_THAT(run.wait().out, ContainsRegex("stopped after .*; at X [-0-9.]+  Y [-0-9.]+"));
 }
 
-TEST_F(Motion, OfAxesOnTheirOwnEndsWhereItSays) {
+TEST_F(Motion, OfAxesOnTheirOwnEndsAtTheReportedPlaces) {
     const Ran moved = run_lockstep({"move", "--own", "X=20", "Y=-45", "--json"});
     EXPECT_EQ(moved.code, 0) << moved.out << moved.err;
     const auto report = moved.json<proto::RunReport>();
@@ -194,7 +194,7 @@ TEST_F(Motion, OfAxesOnTheirOwnIsStopped) {
     EXPECT_EQ(run_lockstep({"move", "X=1"}).code, 0);
 }
 
-TEST_F(Motion, PausesAndSaysHowToGoOn) {
+TEST_F(Motion, PausesAndReportsHowToContinue) {
     Command run(LOCKSTEP_COMMAND, {"run", write("paused.gcode", kPaused)});
     ASSERT_TRUE(eventually([&] { return run.out().find("lockstep resume") != std::string::npos; }));
     EXPECT_EQ(status().phase(), "Paused");
@@ -202,7 +202,7 @@ TEST_F(Motion, PausesAndSaysHowToGoOn) {
     EXPECT_EQ(run.wait().code, 0);
 }
 
-TEST_F(Motion, GoesOnFromALineAfterAStop) {
+TEST_F(Motion, ContinuesFromALineAfterAStop) {
     const std::string file = write("square.gcode", kSquare);
     Command whole(LOCKSTEP_COMMAND, {"run", file});
     ASSERT_TRUE(becomes("Running"));
@@ -231,7 +231,7 @@ protected:
     void configure(MachineConfig& machine) override { machine.axes[1].safe_height_mm = -40; }
 };
 
-TEST_F(MotionAboveWork, GoesOnFromALineByTheSafeHeightOfTheConfiguration) {
+TEST_F(MotionAboveWork, ContinuesFromALineByTheSafeHeightOfTheConfiguration) {
     const std::string file = write("square.gcode", kSquare);
     ASSERT_EQ(run_lockstep({"move", "X=5", "Y=-5"}).code, 0);
     const Ran dry = run_lockstep({"run", file, "--from-line", "4", "--dry-run"});

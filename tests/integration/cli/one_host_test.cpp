@@ -1,5 +1,5 @@
-// A machine whose states go through the memory of its host: exact, as safe as by the network, and deaf to who does not
-// share it.
+// A machine whose states go through its host's memory: exact, as safe as over the network, and without states from
+// processes that do not share it.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ TEST_F(OneHost, MovesExactlyAndLeavesNothingBehind) {
     EXPECT_FALSE(std::filesystem::exists(board));
 }
 
-TEST_F(OneHost, AnAxisThatIsKilledStopsTheOtherAndComesBack) {
+TEST_F(OneHost, AKilledAxisStopsTheOtherAndRestarts) {
     bring_up_and_home();
     Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
     ASSERT_TRUE(eventually([&] { return status().axes(0).position_mm() > 30; }));
@@ -63,7 +63,7 @@ TEST_F(OneHost, AKilledOwnerIsReplaced) {
     EXPECT_EQ(run_lockstep({"move", "X=10", "Y=0"}).code, 0);
 }
 
-/// A page that is not there ends a process by a signal.
+/// A missing page ends a process by a signal.
 TEST_F(OneHost, ProcessesWhoseMemoryIsCutOffAreStartedAgainAndTheMachineWorks) {
     bring_up();
     std::filesystem::resize_file(board, 0);
@@ -82,7 +82,7 @@ TEST_F(OneHost, ASecondProcessOfAnAxisIsRefused) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
-TEST_F(OneHost, WhoDoesNotShareItsMemoryIsWaitedForThere) {
+TEST_F(OneHost, WaitsForAxisMissingFromSharedMemory) {
     if (geteuid() != 0) { GTEST_SKIP() << "memory of its own for one process takes root"; }
     const Command coordinator(LOCKSTEP_COORDINATOR, {"--machine", file(), "--no-lcm", "--log", write("c.log", "")});
     const std::string axis = std::string(LOCKSTEP_AXIS) + " --machine " + file() + " --no-lcm --axis ";

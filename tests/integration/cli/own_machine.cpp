@@ -48,7 +48,7 @@ void OwnMachine::SetUp() {
     machine.timing.slot_us = 20'000;  // a busy host may stall its processes for 200 ms
     machine.network = network;
     machine.axes = {quick_axis("X", 0, 200), quick_axis("Y", -50, 50)};
-    machine.axes[0].method = StepMethod::Spielauer;  // X homes and moves on its own by it
+    machine.axes[0].method = StepMethod::Spielauer;  // the method of X's homing and own moves
     configure(machine);
     file_ = write("machine.textproto", machine_text(machine));
     setenv("LOCKSTEP_STATE", (folder_ / "state").c_str(), 1);
@@ -112,8 +112,8 @@ void OwnMachine::record() {
     logger_.emplace("/usr/bin/lcm-logger", Words{"--force", "--quiet", "--lcm-url=" + lcm_url_, log_});
 }
 
-/// lcm-logger drops what comes while it stands still itself: the processes' own logs have it. A process that was killed
-/// has not written its last: lcm-logger has heard it.
+/// lcm-logger drops messages while it stands still itself: the processes' own logs have them. A killed process has not
+/// written its last messages: lcm-logger has received them.
 void OwnMachine::expect_verified() {
     const std::string whole = (folder_ / "whole.lcm").string();
     const auto verify_all = [&] {

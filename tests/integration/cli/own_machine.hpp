@@ -1,5 +1,5 @@
-// A machine that a test has to itself: network, name, state directory. Whatever becomes of the test, also when it is
-// killed, what it started is taken down.
+// A machine for one test: network, name, state directory. However the test ends, even if it is
+// killed, everything that it started is taken down.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,20 +24,20 @@ class OwnMachine : public testing::Test {
 protected:
     void SetUp() override;
     void TearDown() override;
-    /// What a fixture wants otherwise, before the file is written.
+    /// A fixture's changes, before the file is written.
     virtual void configure(MachineConfig&) {}
 
-    /// Writes a file beside the machine's; its path.
+    /// Writes a file beside the machine's; returns its path.
     std::string write(const std::string& name, const std::string& text) const;
 
     void bring_up(const Words& more = {}) const;
     void bring_up_and_home() const;
     /// Records from now on.
     void record();
-    /// What was recorded is, step by step, as planned.
+    /// The recorded steps are as planned.
     void expect_verified();
     proto::StatusReport status() const;
-    /// Until the machine is in this phase; false if it is not within the bound.
+    /// Waits until the machine is in this phase; false if it is not within the bound.
     bool becomes(const std::string& phase) const;
     pid_t process(const std::string& name) const;
 

@@ -1,4 +1,4 @@
-// A machine's processes: who is refused, what is started again, what is never left behind.
+// A machine's processes: which are refused, restarted, and never left behind.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/ptrace.h>
@@ -35,7 +35,7 @@ TEST_F(Processes, AreStartedOnce) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
-TEST_F(Processes, ThatOthersStartedAreNotTakenForOnesOwn) {
+TEST_F(Processes, ThatOthersStartedAreIgnored) {
     const Command coordinator(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"});
     ASSERT_TRUE(becomes("Waiting"));
     const Ran up = run_lockstep({"up"});
@@ -53,7 +53,7 @@ TEST_F(Processes, ThatDieAreStartedAgainAndTheirAxisIsUnhomed) {
     EXPECT_TRUE(status().axes(0).homed());
 }
 
-/// Stands still in a process's first thread, which runs the loop; the others go on.
+/// Stops a process's first thread, which runs the loop; the others go on.
 class StoppedLoop {
 public:
     explicit StoppedLoop(pid_t process) : process_(process) {
@@ -88,7 +88,7 @@ TEST_F(Processes, AreTakenDownAlsoWithoutTheirSupervisor) {
     bring_up();
     const auto processes = state().running();
     for (const ProcessRecord& each : processes) {
-        if (each.name != kSupervisor) { kill(each.pid, SIGSTOP); }  // they cannot follow their supervisor by themselves
+        if (each.name != kSupervisor) { kill(each.pid, SIGSTOP); }  // they cannot react to their supervisor
     }
     kill(process(kSupervisor), SIGKILL);
     const Ran down = run_lockstep({"down"});
@@ -97,7 +97,7 @@ TEST_F(Processes, AreTakenDownAlsoWithoutTheirSupervisor) {
     bring_up();
 }
 
-TEST_F(Processes, AreTakenDownThoughTheirRecordIsDamagedOrGone) {
+TEST_F(Processes, AreTakenDownEvenIfTheirRecordIsDamagedOrMissing) {
     const std::filesystem::path record = state().path() / "processes";
     for (const bool is_gone : {false, true}) {
         bring_up();
@@ -115,7 +115,7 @@ TEST_F(Processes, AreTakenDownThoughTheirRecordIsDamagedOrGone) {
     }
 }
 
-TEST_F(Processes, ThatCannotKeepTheRecordAreSaidNotTo) {
+TEST_F(Processes, ThatCannotKeepTheRecordAreReported) {
     std::filesystem::create_directories(state().path());
     std::ofstream(state().path() / "record") << "no directory";
     const Ran up = run_lockstep({"up"});
@@ -125,7 +125,7 @@ TEST_F(Processes, ThatCannotKeepTheRecordAreSaidNotTo) {
                       HasSubstr("install -d"), HasSubstr("record { directory }")));
 }
 
-/// Nobody reads the FIFO in the place of the file that Y writes its position to.
+/// The file that Y writes its position to is replaced by a FIFO without a reader.
 TEST_F(Processes, EndThoughTheirDiskHangs) {
     bring_up();
     const std::filesystem::path fresh = position_directory(status().machine()) / "Y.textproto.new";
@@ -138,7 +138,7 @@ TEST_F(Processes, EndThoughTheirDiskHangs) {
     std::filesystem::remove(fresh);
 }
 
-TEST_F(Processes, RunTheirDevicesApartWhereAsked) {
+TEST_F(Processes, RunTheirDevicesSeparatelyOnRequest) {
     ASSERT_EQ(run_lockstep({"up", "--fpga", "shm"}).code, 0);
     EXPECT_NE(process("fpga-X"), 0);
     EXPECT_EQ(run_lockstep({"home"}).code, 0);

@@ -1,11 +1,11 @@
-// A client that resets a machine at rest again and again, so that its processes log it.
+// A client that resets a machine at rest repeatedly, so that its processes log it.
 #pragma once
 
 #include "core/machine.hpp"
 
 namespace lockstep {
 
-/// False: the machine's processes are not there.
+/// False: the machine's processes are absent.
 bool reset_often(const MachineConfig& machine, int times);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// The disk of the logs hangs: the machine works on as exactly as before, and the lost lines are reported.
+// The disk of the logs hangs: the machine works as exactly as before, and the lost lines are reported.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A file for a log that takes a page and then hangs until somebody reads it.
+/// A file for a log that takes a page and then hangs until it is read.
 class HungFile {
 public:
     explicit HungFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -32,7 +32,7 @@ public:
         std::filesystem::remove(path_);
         close(file_);
     }
-    /// All that was written and waits to be.
+    /// All that was written and is waiting.
     std::string read() const {
         std::array<char, 4096> bytes{};
         std::string text;

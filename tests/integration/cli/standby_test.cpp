@@ -1,4 +1,4 @@
-// Two coordinators as real processes: the owner is killed, or stopped and woken, in the middle of a job.
+// Two coordinators as real processes: the owner is killed, or stopped and continued, in the middle of a job.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -57,11 +57,11 @@ TEST_F(TwoCoordinators, AKilledOwnerIsReplacedAtRestAndTheMachineMovesOnWithoutH
     expect_at_rest();
     const Ran moved = run_lockstep({"move", "X=10", "Y=0"});
     EXPECT_EQ(moved.code, 0) << moved.out << moved.err;
-    EXPECT_TRUE(eventually([&] { return status().standby(); })) << "who was killed is started again, and stands by";
+    EXPECT_TRUE(eventually([&] { return status().standby(); })) << "the killed one is restarted, and stands by";
     expect_verified();
 }
 
-TEST_F(TwoCoordinators, AnOwnerThatWasStoppedWakesUpAndStandsDown) {
+TEST_F(TwoCoordinators, AStoppedOwnerGivesUpTheMachineWhenItContinues) {
     Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
     ASSERT_TRUE(becomes("Running"));
     const std::string stopped = owner();
@@ -73,7 +73,7 @@ TEST_F(TwoCoordinators, AnOwnerThatWasStoppedWakesUpAndStandsDown) {
     ASSERT_TRUE(eventually([&] { return text_of_log(stopped).find("gives up the machine") != std::string::npos; }));
     ASSERT_TRUE(becomes("Idle"));
     expect_at_rest();
-    EXPECT_EQ(status().axes(0).position_steps(), 800) << "nothing moved when it woke up";
+    EXPECT_EQ(status().axes(0).position_steps(), 800) << "nothing moved when it continued";
     EXPECT_EQ(run_lockstep({"move", "X=20", "Y=0"}).code, 0);
     expect_verified();
 }
@@ -82,7 +82,7 @@ class ContinuingCoordinators : public TwoCoordinators {
 protected:
     ContinuingCoordinators() : TwoCoordinators({"--standby", "--on-takeover", "continue"}) {}
 
-    /// Whether the other one has gone on with the job of the owner that is killed in it.
+    /// Whether the other one has continued the job of the owner that is killed in it.
     bool is_gone_on_with() {
         EXPECT_TRUE(eventually([&] { return status().standby(); }));
         Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
@@ -103,9 +103,9 @@ protected:
     }
 };
 
-/// A host that stalls just then for longer than the machine allows for leaves a doubt, which ends the job; not every
+/// If the host stalls at that time for longer than the machine allows, the job ends; not every
 /// time.
-TEST_F(ContinuingCoordinators, AKilledOwnersJobIsGoneOnWithToItsEnd) {
+TEST_F(ContinuingCoordinators, AKilledOwnersJobContinuesToItsEnd) {
     bool done = false;
     for (int tries = 0; tries < 3 && !done; ++tries) {
         if (tries > 0) { ASSERT_EQ(run_lockstep({"move", "X=5", "Y=5"}).code, 0); }

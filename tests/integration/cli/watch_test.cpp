@@ -1,4 +1,4 @@
-// lockstep watch in front of a live machine: on a terminal, and where there is none.
+// lockstep watch with a live machine: on a terminal, and without one.
 #include <gmock/gmock.h>
 #include <poll.h>
 #include <pty.h>
@@ -17,7 +17,7 @@ using testing::EndsWith;
 
 using Watch = OwnMachine;
 
-/// A terminal of 80 columns with a command in front of it; ended with the object.
+/// A terminal of 80 columns with a command; it ends with the object.
 class Terminal {
 public:
     explicit Terminal(const char* verb) {
@@ -37,7 +37,7 @@ public:
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
-    /// All it has written so far.
+    /// Its whole output so far.
     const std::string& text() {
         pollfd ready{.fd = master_, .events = POLLIN, .revents = 0};
         char bytes[4096];
@@ -96,7 +96,7 @@ TEST_F(Watch, WithoutATerminalWritesLines) {
     EXPECT_EQ(ran.out.find('\x1b'), std::string::npos);
 }
 
-/// What an axis says of itself after a move: every step compared with the plan, every frame in time.
+/// An axis's figures after a move: every step compared with the plan, every frame in time.
 TEST_F(Watch, LiveFiguresAreInTheStatus) {
     bring_up_and_home();
     Command move(LOCKSTEP_COMMAND, {"move", "X=60", "Y=20", "--feed", "1200"});

@@ -1,4 +1,4 @@
-"""The machine as compose starts it, and as a user finds it."""
+"""The machine as compose starts it, and as a user operates it."""
 import json
 import os
 import re
@@ -8,10 +8,10 @@ import time
 import image
 
 PARTS = ("coordinator", "axis-x", "axis-y", "axis-z")
-# What the logger heard, made whole by the parts' own logs: lcm-logger drops what comes while it stands still itself.
+# The log of the logger, completed by the parts' own logs: lcm-logger drops messages while it stands still itself.
 VERIFY_ALL = "lockstep log merge --force whole.lcm record.lcm.0 /records/*/*/record; lockstep verify whole.lcm"
-PATIENCE_S = 90  # nothing is measured by it: what hangs must not hang the test
-TRIES = 6        # of what a host that stalls for longer than the machine bears may spoil
+PATIENCE_S = 90  # not a measurement: a hanging command must not hang the test
+TRIES = 6        # of actions that fail if the host stalls for longer than the machine allows
 
 
 class Composed:
@@ -30,7 +30,7 @@ class Composed:
     # ---- What a user types
 
     def compose(self, *words):
-        """`docker compose`: exit code, and all that it said."""
+        """`docker compose`: exit code, and its output."""
         command = ["docker-compose", *(word for file in self.files for word in ("-f", file)), *words]
         ran = subprocess.run(command, cwd=self.folder, env=self.environment, text=True, stdin=subprocess.DEVNULL,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE_S)
@@ -41,8 +41,8 @@ class Composed:
         self.environment["MACHINE_FILE"] = str(machine)
 
     def up(self):
-        code, said = self.compose("up", "--detach", "--no-build")
-        return self.expect(code == 0, f"docker compose up: exit code {code}: {said}")
+        code, output = self.compose("up", "--detach", "--no-build")
+        return self.expect(code == 0, f"docker compose up: exit code {code}: {output}")
 
     def down(self):
         self.compose("down", "--volumes", "--timeout", "0")
@@ -58,7 +58,7 @@ class Composed:
                                "/var/log/lockstep", *(word for volume in volumes for word in ("--volume", volume)),
                                image.NAME, *words)
 
-    # ---- What it is told and says, from within the coordinator's container: sooner than by one more
+    # ---- Commands and reports, from within the coordinator's container: faster than in another one
 
     def container(self, part):
         return f"mill_{part}_1"
@@ -72,12 +72,12 @@ class Composed:
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def status(self):
-        code, said = self.podman.ask("exec", self.container("coordinator"), "lockstep", "status", "--json")
-        begin = said.find("{")
-        return json.loads(said[begin:said.rfind("}") + 1]) if code == 0 and begin >= 0 else {}
+        code, output = self.podman.ask("exec", self.container("coordinator"), "lockstep", "status", "--json")
+        begin = output.find("{")
+        return json.loads(output[begin:output.rfind("}") + 1]) if code == 0 and begin >= 0 else {}
 
     def wait_for(self, what, holds):
-        """The first status that is so."""
+        """The first status that satisfies the condition."""
         deadline = time.monotonic() + PATIENCE_S
         status = {}
         while time.monotonic() < deadline:
@@ -89,36 +89,36 @@ class Composed:
         return {}
 
     def home(self):
-        """From whatever state to Idle and homed, as a user does: what the machine says decides what is done."""
+        """From any state to Idle and homed, as a user does: the machine's state determines the commands."""
         for _ in range(TRIES):
             status = self.wait_for("all axes are there and nothing moves", is_settled)
             if not status or (status["phase"] == "Idle" and all(axis.get("homed") for axis in status["axes"])):
                 return bool(status)
             word = {"Idle": "home", "Fault": "reset"}.get(status["phase"], "stop")
-            _, said = self.inside("coordinator", "lockstep", word)
-        return self.expect(False, f"the machine cannot be homed: {said}")
+            _, output = self.inside("coordinator", "lockstep", word)
+        return self.expect(False, f"the machine cannot be homed: {output}")
 
     def move(self, *words, by=None):
-        """A move, again where the host spoiled it."""
+        """A move, repeated if the host spoiled it."""
         for _ in range(TRIES):
             if not self.home():
                 return False
-            code, said = by(*words) if by else self.inside("coordinator", "lockstep", *words)
+            code, output = by(*words) if by else self.inside("coordinator", "lockstep", *words)
             if code == 0:
                 return True
-        return self.expect(False, f"lockstep {' '.join(words)}: exit code {code}: {said}")
+        return self.expect(False, f"lockstep {' '.join(words)}: exit code {code}: {output}")
 
     def verify(self, script=VERIFY_ALL, by=None):
-        """What lockstep says of the record, as soon as it is whole. The count of its steps."""
+        """Verifies the record once it is complete. Returns the count of its steps."""
         client = by or self.client
         deadline = time.monotonic() + 20
         while True:
-            code, said = client("sh", "-c", script)
+            code, output = client("sh", "-c", script)
             if code == 0 or time.monotonic() > deadline:
                 break
             time.sleep(0.5)
-        found = re.search(r"^exact: (\d+) steps", said, re.MULTILINE)
-        self.expect(code == 0 and found, f"lockstep verify: exit code {code}: {said}")
+        found = re.search(r"^exact: (\d+) steps", output, re.MULTILINE)
+        self.expect(code == 0 and found, f"lockstep verify: exit code {code}: {output}")
         return int(found.group(1)) if found else 0
 
     def inspect(self, part):

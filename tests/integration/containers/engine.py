@@ -1,4 +1,4 @@
-"""Podman with storage, networks and configuration of its own, and its service that docker-compose talks to."""
+"""Podman with its own storage, networks and configuration, and its service for docker-compose."""
 import contextlib
 import os
 import pathlib
@@ -23,7 +23,7 @@ runc = ["{runc}"]
 STORE = "{{.Store.GraphDriverName}} {{.Store.GraphRoot}} {{.Store.RunRoot}}"
 
 
-# Whatever becomes of what runs in it, no process and no mount is left behind.
+# However its processes end, no process and no mount is left behind.
 WORLD = ["setpriv", "--pdeathsig", "KILL", "unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
 WORLD_WITH_NETWORK = [*WORLD, "--net"]
 
@@ -34,20 +34,20 @@ class Podman:
         configuration = work / "containers.conf"
         configuration.write_text(CONFIGURATION.format(work=work, runc=shutil.which("runc") or "/usr/sbin/runc"))
         self.environment = os.environ | {"CONTAINERS_CONF": str(configuration)}
-        # Beside the storage, which is kept: what runs is forgotten with the world that it ran in.
+        # Beside the storage, which is kept: the state of running containers ends with their namespaces.
         self.command = ["podman", "--root", str(work / "storage"), "--runroot", str(work / "run")]
 
     def run(self, *words, extra=None, **how):
-        """`extra`: of the environment."""
+        """`extra`: additional environment variables."""
         return subprocess.run([*self.command, *words], env=self.environment | (extra or {}), text=True, **how)
 
     def ask(self, *words):
-        """Exit code, and all that it said."""
+        """Exit code, and its output."""
         ran = self.run(*words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         return ran.returncode, ran.stdout.strip()
 
     def as_the_hosts(self):
-        """The environment of a program that asks podman itself: to it this storage is the host's."""
+        """The environment of a program that calls podman itself: for it this storage is the host's."""
         driver, images, running = self.ask("info", "--format", STORE)[1].split()
         file = pathlib.Path(running) / "storage.conf"
         file.write_text(f'[storage]\ndriver = "{driver}"\ngraphroot = "{images}"\nrunroot = "{running}"\n')
@@ -55,14 +55,14 @@ class Podman:
 
 
 def hide_the_host():
-    """Podman keeps locks and namespaces in fixed places: here they are this world's own."""
+    """Podman keeps locks and namespaces in fixed places: here these are private to the namespaces."""
     subprocess.run(["mount", "--make-rprivate", "/"], check=True)
     for place in ("/run", "/dev/shm"):
         subprocess.run(["mount", "-t", "tmpfs", "tmpfs", place], check=True)
 
 
 class Service:
-    """What a Docker engine is to docker-compose, while it lasts."""
+    """A service that replaces the Docker engine for docker-compose, while it exists."""
 
     PATIENCE_S = 30
 
@@ -93,7 +93,7 @@ class Service:
 
 
 def leave_no_group():
-    """The kernel refuses to remove a control group that something is in."""
+    """The kernel refuses to remove a control group that is not empty."""
     for control in ("", "*/"):
         for parent in pathlib.Path("/sys/fs/cgroup").glob(f"{control}libpod_parent"):
             for group in sorted([parent, *parent.glob("**/")], reverse=True):

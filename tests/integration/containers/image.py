@@ -1,6 +1,6 @@
-"""The image: a Debian to begin with, made from its mirror, and what deploy/Dockerfile makes of it.
+"""The image: a Debian base, made from its mirror, and the result of deploy/Dockerfile on it.
 
-No registry of images is asked: `debian:bookworm-slim` is bootstrapped here, as slim as the one of that name.
+No image registry is used: `debian:bookworm-slim` is bootstrapped here, as slim as the official one.
 """
 import json
 import os
@@ -14,7 +14,7 @@ import engine
 
 BASE = "docker.io/library/debian:bookworm-slim"
 NAME = "docker.io/library/lockstep:latest"
-# What the slim image leaves out.
+# Directories that the slim image leaves out.
 LEFT_OUT = ("./usr/share/doc/*", "./usr/share/man/*", "./usr/share/locale/*", "./usr/share/info/*",
             "./var/cache/apt/*.bin", "./var/cache/apt/archives/*.deb", "./var/lib/apt/lists/*")
 
@@ -24,18 +24,18 @@ def ask(*words, **how):
 
 
 def last_line(text):
-    return (text.strip().splitlines() or ["it does not say why"])[-1]
+    return (text.strip().splitlines() or ["no reason given"])[-1]
 
 
 def sources():
-    """What this host's apt reads of Debian 12, as (mirror, suite): with it the compiler's cache fits to the image too."""
-    said = ask("apt-get", "indextargets", "--format", "$(SITE) $(RELEASE)", "Created-By: Packages", "Component: main").stdout
-    found = dict.fromkeys(tuple(line.split()) for line in said.splitlines())
+    """The Debian 12 source of this host's apt, as (mirror, suite): with it the compiler cache fits the image too."""
+    output = ask("apt-get", "indextargets", "--format", "$(SITE) $(RELEASE)", "Created-By: Packages", "Component: main").stdout
+    found = dict.fromkeys(tuple(line.split()) for line in output.splitlines())
     return [(site, suite) for site, suite in found if suite.startswith("bookworm")]
 
 
 def mirror():
-    """Empty where this host's apt reads none."""
+    """Empty if this host's apt has none."""
     return next((site for site, suite in sources() if suite == "bookworm"), "")
 
 
@@ -44,19 +44,19 @@ def apt_settings():
 
 
 def proxy():
-    """The one that this host's apt goes through, as other programs are told it."""
+    """The proxy of this host's apt, in the variables of other programs."""
     found = shlex.split(ask("apt-config", "shell", "PROXY", "Acquire::http::Proxy").stdout.strip().partition("=")[2])
     return {"http_proxy": found[0]} if found else {}
 
 
 def why_no_base(podman, work):
-    """Makes the Debian that the image begins with. Why there is none; nothing where there is one."""
+    """Makes the Debian base of the image. Returns the error; nothing on success."""
     if podman.ask("image", "exists", BASE)[0] != 0:
         reason = why_not_bootstrapped(podman, work)
         if reason:
             return reason
-    code, said = podman.ask("run", "--rm", "--network", "none", BASE, "true")
-    return f"no container can be run: {last_line(said)}" if code else ""
+    code, output = podman.ask("run", "--rm", "--network", "none", BASE, "true")
+    return f"no container can be run: {last_line(output)}" if code else ""
 
 
 def why_not_bootstrapped(podman, work):
@@ -65,7 +65,7 @@ def why_not_bootstrapped(podman, work):
     if ask("wget", "-q", "-T", "20", "-t", "2", "-O", "/dev/null", release, env=environment).returncode != 0:
         return f"no network to the Debian mirror: {release} cannot be read"
     with tempfile.TemporaryDirectory(dir=work) as root:
-        # In a world of its own: what it mounts in there is gone with it, and never in the way of who removes the directory.
+        # In its own namespaces: its mounts end with it, and cannot block the removal of the directory.
         made = ask(*engine.WORLD, "debootstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", root,
                    mirror(), env=environment)
         if made.returncode != 0:
@@ -75,7 +75,7 @@ def why_not_bootstrapped(podman, work):
 
 
 def import_base(podman, root):
-    # As in the image of that name: what is unpacked into an image need not outlive a power cut.
+    # As in the official image: files in an image need not survive a power cut.
     (root / "etc/dpkg/dpkg.cfg.d/no-sync").write_text("force-unsafe-io\n")
     (root / "etc/apt/sources.list").write_text("".join(f"deb {site} {suite} main\n" for site, suite in sources()))
     (root / "etc/apt/apt.conf.d/as-the-host").write_text("\n".join(apt_settings()) + "\n")
@@ -85,7 +85,7 @@ def import_base(podman, root):
 
 
 def build(podman, root, work):
-    """As a user does, but with this host's caches. The exit code."""
+    """Builds as a user does, but with this host's caches. Returns the exit code."""
     ran = podman.run("build", "--network", "host", "--pull=never", *compiler_cache(work), *npm_cache(),
                      "--tag", NAME, "--file", str(root / "deploy" / "Dockerfile"), str(root), extra=proxy(),
                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -96,20 +96,20 @@ def build(podman, root, work):
 
 
 def compiler_cache(work):
-    """What this host has compiled already: the same compiler makes the same of it in the image."""
-    say = lambda key: ask("ccache", "--get-config", key).stdout.strip()
-    directory = pathlib.Path(say("cache_dir") or "/none")
+    """This host's compiler cache: the same compiler produces the same output in the image."""
+    setting = lambda key: ask("ccache", "--get-config", key).stdout.strip()
+    directory = pathlib.Path(setting("cache_dir") or "/none")
     if not directory.is_dir():
         return []
-    settings = "".join(f"{key} = {say(key)}\n" for key in ("hash_dir", "sloppiness", "max_size"))
+    settings = "".join(f"{key} = {setting(key)}\n" for key in ("hash_dir", "sloppiness", "max_size"))
     (work / "ccache.conf").write_text("cache_dir = /ccache\n" + settings)
     language = [f"{name}={os.environ[name]}" for name in ("LANG", "LC_ALL") if name in os.environ]
-    told = [word for said in ["CCACHE_CONFIGPATH=/ccache.conf", *language] for word in ("--build-arg", said)]
-    return ["--volume", f"{directory}:/ccache", "--volume", f"{work / 'ccache.conf'}:/ccache.conf:ro", *told]
+    arguments = [word for argument in ["CCACHE_CONFIGPATH=/ccache.conf", *language] for word in ("--build-arg", argument)]
+    return ["--volume", f"{directory}:/ccache", "--volume", f"{work / 'ccache.conf'}:/ccache.conf:ro", *arguments]
 
 
 def npm_cache():
-    """What this host has fetched already is not fetched again."""
+    """Uses this host's package cache."""
     cache = pathlib.Path(ask("npm", "config", "get", "cache").stdout.strip() or "/none")
     return ["--volume", f"{cache}:/root/.npm"] if cache.is_dir() else []
 

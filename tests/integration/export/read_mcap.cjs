@@ -1,4 +1,4 @@
-// Reads an MCAP file by the format's own reader and says as JSON what it holds. What the format's registry asks of JSON
+// Reads an MCAP file with the format's own reader and prints its content as JSON. The registry's rules for JSON
 // is held to: encodings named so, a schema that is an object's, and each message as its schema has it.
 const fs = require("fs");
 const { McapStreamReader } = require("@mcap/core");
@@ -17,14 +17,14 @@ for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
     demand(record.encoding === "jsonschema" && schema.type === "object", `${record.name}: no schema of JSON objects`);
     schemas.set(record.id, schema);
   } else if (record.type === "Channel") {
-    demand(record.messageEncoding === "json", `${record.topic}: its messages are not said to be JSON`);
+    demand(record.messageEncoding === "json", `${record.topic}: its messages are not declared as JSON`);
     topics[record.id] = { topic: record.topic, schema: schemas.get(record.schemaId), messages: 0 };
   } else if (record.type === "Message") {
     const topic = topics[record.channelId];
     const message = JSON.parse(new TextDecoder().decode(record.data));
     for (const [name, value] of Object.entries(message)) {
       const type = topic.schema.properties[name]?.type;
-      demand(type in isOfType && isOfType[type](value), `${topic.topic}: ${name} is ${value}, its schema says ${type}`);
+      demand(type in isOfType && isOfType[type](value), `${topic.topic}: ${name} is ${value}, its schema has ${type}`);
     }
     topic.messages += 1;
     topic.last = message;

@@ -25,7 +25,7 @@ axis {
 }
 )";
 
-/// A program until it ends; SIGTERM at the latest when this goes.
+/// A program until its end; SIGTERM at the latest in the destructor.
 class Process {
 public:
     explicit Process(std::vector<std::string> words) {
@@ -37,7 +37,7 @@ public:
     ~Process() {
         if (pid_ > 0) { (void)end(); }
     }
-    /// Its exit code once it has ended by itself.
+    /// Its exit code after it has ended by itself.
     int wait() {
         int status = 0;
         ::waitpid(pid_, &status, 0);
@@ -53,7 +53,7 @@ private:
     pid_t pid_ = 0;
 };
 
-/// Looks again until it is so, for as long as a slow machine may take.
+/// Repeats a check until it holds, for as long as a slow host may need.
 bool eventually(const std::function<bool()>& holds) {
     for (int look = 0; look < 2000 && !holds(); ++look) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }
     return holds();
@@ -76,7 +76,7 @@ protected:
     std::string machine_ = ::testing::TempDir() + name_ + ".textproto";
 };
 
-TEST_F(FpgaProcess, MakesEveryStepOfAFrameOnItsTickAndGoesWithItsName) {
+TEST_F(FpgaProcess, MakesEveryStepOfAFrameOnItsTickAndRemovesItsName) {
     Process fpga(command());
     ASSERT_TRUE(eventually([&] { return attach().has_value(); })) << attach().error();
     DeviceDriver driver = attach().value();

@@ -1,4 +1,4 @@
-// The command as a person or a script runs it: what it prints and how it exits.
+// The command as used by a person or a script: its output and exit codes.
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -69,9 +69,9 @@ TEST_F(Command, PlanSimulateAnalyzeVerify) {
     EXPECT_GT(analysed.axes(0).steps(), planned.axes(0).steps());  // homing comes on top
     const auto verified = run("verify " + log + " --json");
     EXPECT_EQ(verified.exit, 0);
-    const auto verdict = report_of<proto::VerifyReport>(verified);
-    EXPECT_TRUE(verdict.exact());
-    EXPECT_EQ(verdict.steps_compared(), analysed.axes(0).steps() + analysed.axes(1).steps() + analysed.axes(2).steps());
+    const auto result = report_of<proto::VerifyReport>(verified);
+    EXPECT_TRUE(result.exact());
+    EXPECT_EQ(result.steps_compared(), analysed.axes(0).steps() + analysed.axes(1).steps() + analysed.axes(2).steps());
 }
 
 TEST_F(Command, PicturesAndTables) {
@@ -101,16 +101,16 @@ TEST_F(Command, AReplayMakesTheStepsOfTheLogAndALogThatVerifies) {
     const auto made = report_of<proto::ReplayReport>(replayed);
     EXPECT_TRUE(made.exact());
     EXPECT_EQ(made.log(), again);
-    const auto verdict = report_of<proto::VerifyReport>(run("verify " + again + " --json"));
-    EXPECT_TRUE(verdict.exact());
-    EXPECT_EQ(verdict.steps_compared(), made.steps_replayed());
+    const auto result = report_of<proto::VerifyReport>(run("verify " + again + " --json"));
+    EXPECT_TRUE(result.exact());
+    EXPECT_EQ(result.steps_compared(), made.steps_replayed());
     EXPECT_EQ(run("replay deploy/examples/plate.gcode 2>&1").exit, 2);
-    EXPECT_EQ(run("replay " + log + " --log " + log + " 2>&1").exit, 2) << "what was recorded stays";
+    EXPECT_EQ(run("replay " + log + " --log " + log + " 2>&1").exit, 2) << "the recorded log stays";
     EXPECT_EQ(run("export " + log + " --force --out " + log + " 2>&1").exit, 2);
     EXPECT_EQ(run("replay " + log + " --log deploy/examples/plate.gcode 2>&1").exit, 2) << "that is no log";
 }
 
-TEST_F(Command, BadInputIsSaidByPlaceAndExits2) {
+TEST_F(Command, BadInputIsReportedWithItsPlaceAndExits2) {
     const std::string bad = file("bad.gcode", "G21 G90\nG1 X10 F100\nG1 X900\n");
     const std::string machine = " --machine deploy/examples/three-axis.textproto";
     const auto planned = run("plan " + bad + machine + " 2>&1");
@@ -123,7 +123,7 @@ TEST_F(Command, BadInputIsSaidByPlaceAndExits2) {
     EXPECT_FALSE(std::filesystem::exists(log));
 }
 
-TEST_F(Command, WhatIsNoLogExits2) {
+TEST_F(Command, AFileThatIsNotALogExits2) {
     EXPECT_EQ(run("verify deploy/examples/plate.gcode 2>&1").exit, 2);
     EXPECT_EQ(run("analyze deploy/examples/plate.gcode 2>&1").exit, 2);
     EXPECT_EQ(run("verify /nowhere.lcm 2>&1").exit, 2);

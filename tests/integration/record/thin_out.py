@@ -1,4 +1,4 @@
-"""Copies an LCM log but for every N-th of its messages of steps: thin_out.py FROM TO N."""
+"""Copies an LCM log without every N-th of its messages of steps: thin_out.py FROM TO N."""
 import struct
 import sys
 

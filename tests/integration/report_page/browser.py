@@ -1,9 +1,9 @@
-"""A page in a real browser: what a person would see of it."""
+"""A page in a real browser, as a person would see it."""
 import pathlib
 import re
 import subprocess
 
-# Appended to a copy of the page: says what a person would see. A canvas that was drawn on is not blank.
+# Appended to a copy of the page: reports what a person would see. A canvas that was drawn on is not blank.
 PROBE = """<script>
 const blank = (canvas) => !canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some(Boolean);
 const seen = [...document.querySelectorAll("canvas")].map((c) => `${c.clientWidth}x${c.clientHeight}${blank(c) ? " blank" : ""}`);
@@ -12,7 +12,7 @@ document.body.dataset.seen = [document.documentElement.dataset.drawn, document.b
 
 
 def look(html, folder, width, *flags):
-    """The sizes of a page's charts, after it has drawn itself without a complaint and fits the window."""
+    """The sizes of a page's charts, after it has drawn itself without errors and fits the window."""
     page = pathlib.Path(folder) / "probed.html"
     page.write_text(html.replace("</body>", PROBE + "</body>"))
     shown = subprocess.run(

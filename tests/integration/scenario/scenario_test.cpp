@@ -53,7 +53,7 @@ int processes_of_machine() {
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
         std::ifstream file(entry.path() / "cmdline");
         std::string words;
-        std::getline(file, words);  // empty where the process ends meanwhile
+        std::getline(file, words);  // empty if the process ends meanwhile
         count += words.find(kMachineName) != words.npos ? 1 : 0;
     }
     return count;

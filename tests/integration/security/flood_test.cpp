@@ -1,4 +1,4 @@
-// A machine without security recovers by itself after packets of its members were sent again, altered.
+// A machine without security recovers by itself after altered packets of its members were sent again.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -19,7 +19,7 @@ using std::chrono::steady_clock;
 
 class Flooded : public OwnMachine {
 protected:
-    /// From the machine's start until it has moved: how its members find each other, and what they say.
+    /// From the machine's start until it has moved: discovery and the members' messages.
     void SetUp() override {
         OwnMachine::SetUp();
         bring_up_and_home();
@@ -39,7 +39,7 @@ protected:
         }
     }
 
-    /// A person clears the fault, if the silence brought one about.
+    /// A person clears the fault, if the silence caused one.
     bool is_ready() const {
         if (run_lockstep({"reset"}).code != 0) { return false; }
         const Ran ran = run_lockstep({"status", "--json"});
@@ -48,7 +48,7 @@ protected:
         return report.phase() == "Idle" && report.axes(0).present() && report.axes(1).present();
     }
 
-    /// Ready, and the axes go where they are sent.
+    /// Ready, and the axes move on command.
     void expect_recovers() const {
         const auto stopped = steady_clock::now();
         ASSERT_TRUE(eventually([&] { return is_ready(); }));
@@ -77,10 +77,10 @@ TEST_F(Flooded, TheMachineIsReadyAgainWithinTenSecondsAfterThePacketsStop) {
                   report.axes(1).health().participant_reopened(),
               0U);
     const std::string logs = text_of_log("coordinator") + text_of_log("axis-X") + text_of_log("axis-Y");
-    EXPECT_NE(logs.find("opens its DDS participant again: "), logs.npos) << "so there was something to recover from";
+    EXPECT_NE(logs.find("opens its DDS participant again: "), logs.npos) << "so the packets had an effect";
 }
 
-/// Each on a machine of its own: packets of a participant that was opened again since do no harm any more.
+/// Each on a new machine: packets of a participant that was opened again since have no effect any more.
 class FloodedByDamage : public Flooded, public testing::WithParamInterface<unsigned> {};
 
 TEST_P(FloodedByDamage, TheMachineIsReadyAgainWithinTenSecondsAfterThePacketsStop) {

@@ -1,4 +1,4 @@
-// Damages RTPS packets as a faulty network, or somebody on it, could.
+// Damages RTPS packets like a faulty network, or an attacker on it.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@ namespace lockstep {
 
 class PacketDamage {
 public:
-    /// packets: Ethernet frames with IPv4 and UDP, as PacketTap has them; those that are not of DDS are left out.
+    /// packets: Ethernet frames with IPv4 and UDP, from PacketTap; those that are not of DDS are left out.
     PacketDamage(const std::vector<std::string>& packets, unsigned seed);
 
     /// One of them with up to eight bits flipped, cut short, with another submessage length, or with two of its
-    /// submessages in each other's place.
+    /// two of its submessages exchanged.
     std::string next();
 
 private:

@@ -1,4 +1,4 @@
-// Alters RTPS packets of a machine as somebody on its network could, so that they still name its members.
+// Alters RTPS packets of a machine as an attacker on its network could, so that they still name its members.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@ namespace lockstep {
 
 class PacketForger {
 public:
-    /// packets: Ethernet frames with IPv4 and UDP, as PacketTap has them; those that are not of DDS are left out.
+    /// packets: Ethernet frames with IPv4 and UDP, from PacketTap; those that are not of DDS are left out.
     PacketForger(const std::vector<std::string>& packets, unsigned seed);
 
-    /// How many there are to choose from.
+    /// The number of packets to choose from.
     std::size_t size() const { return packets_.size(); }
-    /// One of them: as it was, with sequence numbers far ahead, another sender, or another lease.
+    /// One of them: unchanged, with sequence numbers far ahead, another sender, or another lease.
     std::string next();
 
 private:

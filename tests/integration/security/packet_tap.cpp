@@ -16,7 +16,7 @@
 namespace lockstep {
 namespace {
 
-// Of an IPv4 packet without options, behind its Ethernet header.
+// Of an IPv4 packet without options, after its Ethernet header.
 constexpr std::size_t kProtocol = 14 + 9;
 constexpr std::size_t kReceiver = 14 + 16;
 constexpr std::size_t kReceiverPort = 14 + 20 + 2;
@@ -52,7 +52,7 @@ PacketTap::~PacketTap() {
     }
 }
 
-/// On lo every packet goes by twice: as it leaves, and as it comes.
+/// On lo every packet is seen twice: outgoing, and incoming.
 void PacketTap::listen() {
     std::array<char, 65600> buffer{};
     while (!stopped_ && works()) {
@@ -75,7 +75,7 @@ const std::vector<std::string>& PacketTap::stop() {
     return packets_;
 }
 
-/// As a datagram of its own: what is put onto lo as a frame, with an address of lo as its sender, the kernel drops.
+/// As a new datagram: the kernel drops a frame that is put onto lo with an address of lo as its sender.
 bool PacketTap::send(const std::string& packet) const {
     sockaddr_in to{};
     to.sin_family = AF_INET;

@@ -1,5 +1,5 @@
-// Takes down every UDP packet on lo as it goes by, and can send them all again, as one could on a cable. Needs root,
-// and a network of its own.
+// Captures every UDP packet on lo, and can send them all again, like an attacker on a cable. Needs root,
+// and its own network.
 #pragma once
 
 #include <atomic>
@@ -20,11 +20,11 @@ public:
     bool works() const { return socket_ >= 0; }
     /// Ends listening; the packets so far, each once.
     const std::vector<std::string>& stop();
-    /// The same, once it has ended.
+    /// The same, after it has ended.
     const std::vector<std::string>& packets() const { return packets_; }
-    /// False: it did not go out whole.
+    /// False: it was not sent completely.
     bool send(const std::string& packet) const;
-    /// Sends them again, in their order. How many went out.
+    /// Sends them again, in their order. Returns how many were sent.
     std::size_t send_again() const;
 
 private:

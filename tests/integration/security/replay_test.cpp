@@ -1,4 +1,4 @@
-// What was said once is not obeyed twice: packets are taken down while the machine moves, and sent again.
+// Replayed messages have no effect: packets are captured while the machine moves, and sent again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,30 +34,30 @@ TEST_F(Replayed, PacketsThatAreSentAgainMoveNothing) {
     bring_up_and_home();
     EXPECT_EQ(tap.send_again(), tap.stop().size());
     expect_at(1, 1);
-    EXPECT_EQ(run_lockstep({"move", "X=5"}).code, 0) << "and the machine is not disturbed";
+    EXPECT_EQ(run_lockstep({"move", "X=5"}).code, 0) << "and the machine is not affected";
 }
 
-/// The program's name goes from the command to the coordinator.
-std::size_t packets_that_tell(const std::vector<std::string>& packets, const std::string& secret) {
+/// The program's name is sent from the command to the coordinator.
+std::size_t packets_with(const std::vector<std::string>& packets, const std::string& secret) {
     return static_cast<std::size_t>(std::ranges::count_if(
         packets, [&](const std::string& packet) { return packet.contains("RTPS") && packet.contains(secret); }));
 }
 
-TEST_F(Replayed, WhatIsSaidCannotBeReadOnTheWire) {
+TEST_F(Replayed, MessagesCannotBeReadOnTheWire) {
     PacketTap tap;
     ASSERT_TRUE(tap.works());
-    ASSERT_EQ(run_lockstep({"run", write("telltale.gcode", "G21 G90\nG1 X5 F600\nM2\n")}).code, 0);
-    EXPECT_EQ(packets_that_tell(tap.stop(), "telltale"), 0U);
+    ASSERT_EQ(run_lockstep({"run", write("private_program.gcode", "G21 G90\nG1 X5 F600\nM2\n")}).code, 0);
+    EXPECT_EQ(packets_with(tap.stop(), "private_program"), 0U);
 }
 
 class Unsecured : public OwnMachine {};
 
-TEST_F(Unsecured, WhatIsSaidCanBeReadOnTheWire) {
+TEST_F(Unsecured, MessagesCanBeReadOnTheWire) {
     bring_up_and_home();
     PacketTap tap;
     ASSERT_TRUE(tap.works());
-    ASSERT_EQ(run_lockstep({"run", write("telltale.gcode", "G21 G90\nG1 X5 F600\nM2\n")}).code, 0);
-    EXPECT_GT(packets_that_tell(tap.stop(), "telltale"), 0U) << "so the test above would have seen it";
+    ASSERT_EQ(run_lockstep({"run", write("private_program.gcode", "G21 G90\nG1 X5 F600\nM2\n")}).code, 0);
+    EXPECT_GT(packets_with(tap.stop(), "private_program"), 0U) << "so the test above would have detected it";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Where an RTPS packet (OMG DDSI-RTPS 2.2, 8.3 and 9.4) has its parts, for packets of this host: little endian.
+// The layout of an RTPS packet (OMG DDSI-RTPS 2.2, 8.3 and 9.4), for packets of this host: little endian.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-// Behind the headers of Ethernet, IPv4 and UDP.
+// After the headers of Ethernet, IPv4 and UDP.
 inline constexpr std::size_t kRtps = 14 + 20 + 8;
 inline constexpr std::size_t kGuidPrefix = kRtps + 8;
 inline constexpr std::size_t kSubmessages = kRtps + 20;

@@ -23,24 +23,24 @@ void SecuredMachine::SetUp() {
 
 MachineConfig SecuredMachine::config() const { return load_machine_file(file()).value(); }
 
-std::unique_ptr<Command> SecuredMachine::begin_stranger(const std::string& partition, const std::string& keys,
-                                                        const std::string& member, const Words& how) const {
+std::unique_ptr<Command> SecuredMachine::begin_foreign_peer(const std::string& partition, const std::string& keys,
+                                                            const std::string& member, const Words& how) const {
     const MachineConfig machine = config();
     Words words{std::to_string(machine.network.domain), machine.name, partition, keys, member};
     words.insert(words.end(), how.begin(), how.end());
-    return std::make_unique<Command>(LOCKSTEP_STRANGER, words);
+    return std::make_unique<Command>(LOCKSTEP_FOREIGN_PEER, words);
 }
 
-std::string SecuredMachine::stranger(const std::string& partition, const std::string& keys, const std::string& member,
-                                     const Words& how) const {
-    const Ran ran = begin_stranger(partition, keys, member, how)->wait();
+std::string SecuredMachine::foreign_peer(const std::string& partition, const std::string& keys,
+                                         const std::string& member, const Words& how) const {
+    const Ran ran = begin_foreign_peer(partition, keys, member, how)->wait();
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
     return ran.out;
 }
 
-void SecuredMachine::expect_shut_out(const std::string& said) const {
-    EXPECT_THAT(said, HasSubstr("matched 0\n"));
-    EXPECT_THAT(said, HasSubstr("heard 0\n"));
+void SecuredMachine::expect_excluded(const std::string& output) const {
+    EXPECT_THAT(output, HasSubstr("matched 0\n"));
+    EXPECT_THAT(output, HasSubstr("received 0\n"));
     expect_untouched();
 }
 

@@ -1,4 +1,4 @@
-// A machine whose processes prove who they are, and somebody who does not belong there.
+// A machine whose processes authenticate, and a foreign peer.
 #pragma once
 
 #include <memory>
@@ -16,15 +16,15 @@ protected:
     std::filesystem::path keys() const { return folder() / "keys"; }
     MachineConfig config() const;
 
-    /// What the stranger says came of it. partition, keys, member and how: as stranger.cpp has them.
-    std::string stranger(const std::string& partition, const std::string& keys, const std::string& member,
-                         const Words& how = {}) const;
-    /// The same, beside the test.
-    std::unique_ptr<Command> begin_stranger(const std::string& partition, const std::string& keys,
-                                            const std::string& member, const Words& how = {}) const;
-    /// Nobody took notice of him, and the machine is as it was.
-    void expect_shut_out(const std::string& said) const;
-    /// All axes stand where homing parked them, no job was begun, nothing is wrong.
+    /// Runs the foreign peer and returns its output. partition, keys, member and how: see foreign_peer.cpp.
+    std::string foreign_peer(const std::string& partition, const std::string& keys, const std::string& member,
+                             const Words& how = {}) const;
+    /// The same, in parallel to the test.
+    std::unique_ptr<Command> begin_foreign_peer(const std::string& partition, const std::string& keys,
+                                                const std::string& member, const Words& how = {}) const;
+    /// No process accepted it, and the machine is unchanged.
+    void expect_excluded(const std::string& output) const;
+    /// All axes are at their park positions, no job was begun, no fault.
     void expect_untouched() const;
     std::string log_of(const std::string& process) const { return tail_of(state().log_file(process), 2000); }
     bool is_logged(const std::string& process, const std::string& text) const;

@@ -1,4 +1,4 @@
-// Nothing listens beyond the configured interface.
+// No process listens beyond the configured interface.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ std::string output_of(const char* command) {
 
 using Sockets = OwnMachine;
 
-TEST_F(Sockets, OfDdsAreTiedToTheInterfaceThatTheFileNames) {
+TEST_F(Sockets, OfDdsAreBoundToTheConfiguredInterface) {
     bring_up();
     std::istringstream lines(output_of("ss -Huln"));
     std::size_t tied = 0;

@@ -1,4 +1,4 @@
-// Processes that would misunderstand each other say so, with both versions, and move nothing together.
+// Processes of incompatible versions report it, with both versions, and move nothing together.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -20,11 +20,11 @@ protected:
     }
 };
 
-TEST_F(Versions, OfTheProtocolAreNamedByEveryoneWhoMeetsAnother) {
+TEST_F(Versions, OfTheProtocolAreNamedByEveryProcess) {
     bring_up();
     const MachineConfig machine = load_machine_file(file()).value();
     const std::string newer = std::to_string(kProtocol + 1);
-    const Command other(LOCKSTEP_STRANGER,
+    const Command other(LOCKSTEP_FOREIGN_PEER,
                         {std::to_string(machine.network.domain), machine.name, "protocol", newer, "-"});
     for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
         EXPECT_TRUE(is_logged(process, "uses protocol " + newer + ", this one " + std::to_string(kProtocol)));

@@ -1,5 +1,5 @@
 // Looks at lcm-spy from within, as a Java agent of the very process that a user starts: waits until it has decoded
-// every channel expected, opens one, clicks on its curves, takes a picture, and says what it saw.
+// every channel expected, opens one, clicks on its curves, takes a picture, and reports the results.
 //
 // Argument: FOLDER,CHANNEL,CHANNEL... The first channel's fields are shown and plotted. FOLDER/spy.png is the picture,
 // FOLDER/spy.txt what was seen: a line for each channel, then "plotted POINTS PIXELS". Nothing where it never came.

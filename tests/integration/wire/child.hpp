@@ -1,4 +1,4 @@
-// A process of the test's own.
+// A process of one test.
 #pragma once
 
 #include <signal.h>
@@ -13,7 +13,7 @@ namespace lockstep {
 
 class Child {
 public:
-    /// Runs a program, found by PATH where it is only a name.
+    /// Runs a program, searched in PATH if it is only a name.
     static Child execute(std::vector<std::string> words) {
         std::vector<char*> arguments;
         for (std::string& word : words) { arguments.push_back(word.data()); }

@@ -1,4 +1,4 @@
-// Real DDS on the loopback: what is promised between processes.
+// Real DDS on the loopback: the guarantees between processes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,16 +44,16 @@ Frame frame_of(FrameNumber number, std::size_t axes, std::size_t pieces) {
 
 constexpr auto kIgnore = [](AxisState&&) {};
 
-/// Until what the axis says is heard there.
+/// Waits until the axis's states are received there.
 template <typename States>
-bool is_heard(AxisBus& axis, std::uint32_t number, States& there) {
+bool is_received(AxisBus& axis, std::uint32_t number, States& there) {
     return eventually([&] {
         axis.state.write({.axis = number});
         return there.take(kIgnore) > 0;
     });
 }
 
-/// A process of its own: see peer.cpp.
+/// A separate process: see peer.cpp.
 Child peer(const std::string& role, const NetworkConfig& network) {
     const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("integration_wire_peer");
     return Child::execute({program.string(), role, std::to_string(network.domain), std::to_string(network.processes)});
@@ -89,7 +89,7 @@ TEST(Dds, TheLargestFrameArrives) {
     EXPECT_EQ(received[0], largest);
 }
 
-TEST(Dds, MachinesInOneDomainDoNotHearEachOther) {
+TEST(Dds, MachinesInOneDomainDoNotReceiveEachOther) {
     const NetworkConfig network = own_network();
     auto coordinator = open_or_throw<CoordinatorBus>(network, "mill");
     auto axis = open_or_throw<AxisBus>(network, "mill");
@@ -103,19 +103,19 @@ TEST(Dds, MachinesInOneDomainDoNotHearEachOther) {
     EXPECT_EQ(foreign.machine.take([](MachineState&&) {}), 0u);
 }
 
-TEST(Dds, AnAxisDoesNotHearItself) {
+TEST(Dds, AnAxisDoesNotReceiveItself) {
     const NetworkConfig network = own_network();
     auto first = open_or_throw<AxisBus>(network, "mill", 0);
     auto second = open_or_throw<AxisBus>(network, "mill", 1);
     ASSERT_TRUE(eventually([&] { return first.states.matched() == 1 && second.states.matched() == 1; }));
-    std::map<std::uint32_t, int> heard_by_first;
+    std::map<std::uint32_t, int> received_by_first;
     ASSERT_TRUE(eventually([&] {
         first.state.write({.axis = 0});
         second.state.write({.axis = 1});
-        first.states.take([&](AxisState&& state) { ++heard_by_first[state.axis]; });
-        return heard_by_first[1] > 3;
+        first.states.take([&](AxisState&& state) { ++received_by_first[state.axis]; });
+        return received_by_first[1] > 3;
     }));
-    EXPECT_EQ(heard_by_first[0], 0);
+    EXPECT_EQ(received_by_first[0], 0);
 }
 
 TEST(Dds, AMachineOnOneHostShowsItsStatesSeldomAndItsNewsAtOnce) {
@@ -124,14 +124,14 @@ TEST(Dds, AMachineOnOneHostShowsItsStatesSeldomAndItsNewsAtOnce) {
     auto viewer = open_or_throw<ViewerBus>(network);
     auto axis = open_or_throw<AxisBus>(network, "mill", 1);
     auto coordinator = open_or_throw<CoordinatorBus>(network);
-    ASSERT_TRUE(is_heard(axis, 1, viewer.states));
+    ASSERT_TRUE(is_received(axis, 1, viewer.states));
     (void)coordinator.states.take(kIgnore);
-    constexpr Slot kSaid = 200;
+    constexpr Slot kWritten = 200;
     const auto begun = std::chrono::steady_clock::now();
-    for (Slot stamp = 1; stamp <= kSaid; ++stamp) { axis.state.write({.axis = 1, .stamp = stamp}); }
-    axis.state.write({.axis = 1, .stamp = kSaid + 1, .homed = true});
+    for (Slot stamp = 1; stamp <= kWritten; ++stamp) { axis.state.write({.axis = 1, .stamp = stamp}); }
+    axis.state.write({.axis = 1, .stamp = kWritten + 1, .homed = true});
     const auto lasted = std::chrono::steady_clock::now() - begun;
-    EXPECT_EQ(coordinator.states.take(kIgnore), kSaid + 1) << "all of them by memory";
+    EXPECT_EQ(coordinator.states.take(kIgnore), kWritten + 1) << "all of them through memory";
     std::vector<AxisState> shown;
     ASSERT_TRUE(eventually([&] {
         viewer.states.take([&](AxisState&& state) { shown.push_back(state); });
@@ -140,7 +140,7 @@ TEST(Dds, AMachineOnOneHostShowsItsStatesSeldomAndItsNewsAtOnce) {
     EXPECT_LE(shown.size(), 2U + static_cast<std::size_t>(lasted / 100ms));
 }
 
-TEST(Dds, WhatIsSaidOfAnAxisIsBelievedFromItAlone) {
+TEST(Dds, AcceptsMessagesAboutAnAxisOnlyFromIt) {
     const NetworkConfig network = own_network();
     auto coordinator = open_or_throw<CoordinatorBus>(network);
     auto axis = open_or_throw<AxisBus>(network, "mill", 1);
@@ -170,10 +170,10 @@ TEST(Dds, ALateJoinerGetsNoOldCommand) {
     auto late = open_or_throw<CoordinatorBus>(network);
     ASSERT_TRUE(eventually([&] { return client.commands.matched() == 2 && late.commands.matched() == 1; }));
     ASSERT_TRUE(client.commands.write({.sequence = 2}));
-    std::vector<std::uint64_t> heard;
+    std::vector<std::uint64_t> received;
     ASSERT_TRUE(eventually(
-        [&] { return late.commands.take([&](Command&& command) { heard.push_back(command.sequence); }) > 0; }));
-    EXPECT_EQ(heard, std::vector<std::uint64_t>{2});
+        [&] { return late.commands.take([&](Command&& command) { received.push_back(command.sequence); }) > 0; }));
+    EXPECT_EQ(received, std::vector<std::uint64_t>{2});
 }
 
 TEST(Dds, AClientSleepsUntilItsReplyComes) {
@@ -188,14 +188,14 @@ TEST(Dds, AClientSleepsUntilItsReplyComes) {
     EXPECT_EQ(text, "done");
 }
 
-TEST(Dds, ACoordinatorAndAnAxisOfAnotherProcessTalkBothWays) {
+TEST(Dds, ACoordinatorAndAnAxisOfAnotherProcessExchangeMessages) {
     const NetworkConfig network = own_network();
     Child axis = peer("axis", network);
     auto coordinator = open_or_throw<CoordinatorBus>(network);
     ASSERT_TRUE(eventually([&] { return coordinator.frames.matched() == 1 && coordinator.states.matched() == 1; }));
     FrameNumber held = 0;
     for (FrameNumber number = 1; number <= 200; ++number) {
-        ASSERT_TRUE(eventually([&] {  // as the coordinator does: what is not held is sent again
+        ASSERT_TRUE(eventually([&] {  // like the coordinator: frames that are not held are sent again
             coordinator.frames.write(frame_of(number, 3, 10));
             coordinator.states.take([&](AxisState&& state) { held = std::max(held, state.held); });
             return held + 20 >= number;
@@ -211,7 +211,7 @@ TEST(Dds, ACoordinatorAndAnAxisOfAnotherProcessTalkBothWays) {
     EXPECT_EQ(axis.wait(), 0);
 }
 
-/// Processes that DDS knows of in its domain, itself among them.
+/// The processes that DDS knows in its domain, itself included.
 int known_to(const Participant& participant) {
     const Entity reader(dds_create_reader(participant.handle(), DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
     std::array<void*, 16> samples{};
@@ -222,7 +222,7 @@ int known_to(const Participant& participant) {
                                           [](const auto& info) { return info.instance_state == DDS_IST_ALIVE; }));
 }
 
-TEST(Dds, WhoEndsIsGoneLongBeforeItsLeaseIsOver) {
+TEST(Dds, AnEndedProcessIsGoneLongBeforeItsLeaseEnds) {
     NetworkConfig network = own_network();
     network.processes = 65;  // a lease of ten seconds
     Child axis = peer("axis", network);
@@ -235,10 +235,10 @@ TEST(Dds, WhoEndsIsGoneLongBeforeItsLeaseIsOver) {
     ASSERT_EQ(axis.wait(), 0);
     const auto ended = std::chrono::steady_clock::now();
     ASSERT_TRUE(eventually([&] { return known_to(coordinator.participant) == 1; }));
-    EXPECT_LT(std::chrono::steady_clock::now() - ended, std::chrono::seconds{5}) << "it said that it leaves";
+    EXPECT_LT(std::chrono::steady_clock::now() - ended, std::chrono::seconds{5}) << "it announced that it leaves";
 }
 
-TEST(Dds, AReaderThatStandsStillDoesNotStopTheWriter) {
+TEST(Dds, AStalledReaderDoesNotStopTheWriter) {
     const NetworkConfig network = own_network();
     Child axis = peer("axis", network);
     auto coordinator = open_or_throw<CoordinatorBus>(network);
@@ -254,23 +254,23 @@ TEST(Dds, AReaderThatStandsStillDoesNotStopTheWriter) {
     EXPECT_EQ(axis.wait(), 0);
 }
 
-TEST(Dds, WhoStandsStillAsLongAsAMachineMayAllowFindsEveryState) {
+TEST(Dds, AReaderWithTheLongestAllowedStallGetsEveryState) {
     const NetworkConfig network = own_network();
     auto axis = open_or_throw<AxisBus>(network, "mill", 0);
     auto coordinator = open_or_throw<CoordinatorBus>(network);
-    ASSERT_TRUE(is_heard(axis, 0, coordinator.states));
+    ASSERT_TRUE(is_received(axis, 0, coordinator.states));
     std::this_thread::sleep_for(100ms);
     (void)coordinator.states.take(kIgnore);
     for (Slot stamp = 1; stamp <= kMaxStallSlots; ++stamp) { axis.state.write({.axis = 0, .stamp = stamp}); }
-    std::vector<Slot> heard;
+    std::vector<Slot> received;
     ASSERT_TRUE(eventually([&] {
-        std::this_thread::sleep_for(500ms);  // he takes none before all have come
-        coordinator.states.take([&](AxisState&& state) { heard.push_back(state.stamp); });
-        return heard.size() >= kMaxStallSlots;
-    })) << heard.size();
+        std::this_thread::sleep_for(500ms);  // it takes none before all have arrived
+        coordinator.states.take([&](AxisState&& state) { received.push_back(state.stamp); });
+        return received.size() >= kMaxStallSlots;
+    })) << received.size();
     std::vector<Slot> all(kMaxStallSlots);
     std::iota(all.begin(), all.end(), Slot{1});
-    EXPECT_EQ(heard, all);
+    EXPECT_EQ(received, all);
 }
 
 TEST(Dds, EveryPartOfAProgramArrivesThoughPacketsAreLost) {
@@ -300,7 +300,7 @@ TEST(Dds, EveryPartOfAProgramArrivesThoughPacketsAreLost) {
     EXPECT_EQ(coordinator.wait(), 0);
 }
 
-TEST(Dds, AnInterfaceThatIsNotThereIsNamedWithTheRemedy) {
+TEST(Dds, AMissingInterfaceIsNamedWithTheRemedy) {
     NetworkConfig network = own_network();
     network.interface = "none0";
     const auto bus = open_bus<AxisBus>(network, "mill");

@@ -1,4 +1,4 @@
-// Waiting for what must happen, with a deadline so far off that only a failure reaches it.
+// Waits for what must happen, with a deadline so far off that only a failure reaches it.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What is published is in the log: by LCM's own logger, on real multicast, read by our reader.
+// Published messages are in the log: of LCM's own logger, on real multicast, read by our reader.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -26,7 +26,7 @@ protected:
 
     void SetUp() override {
         ASSERT_TRUE(publisher_) << publisher_.error();
-        ASSERT_TRUE(eventually([&] {  // it listens once something is in its file
+        ASSERT_TRUE(eventually([&] {  // it receives once its file is not empty
             publisher_->publish("PROBE", axis_position_t{});
             return fs::exists(file_) && fs::file_size(file_) > 0;
         }));
@@ -49,7 +49,7 @@ TEST_F(Logger, EveryStepPublishedIsInTheLog) {
         if (tick % 10'000 == 0) { std::this_thread::sleep_for(10ms); }
     }
     batcher.flush();
-    std::this_thread::sleep_for(500ms);  // the logger takes what is in its socket, then is asked to end
+    std::this_thread::sleep_for(500ms);  // the logger takes the messages in its socket, then is ended
     logger_.signal(SIGINT);
     EXPECT_EQ(logger_.wait(), 0);
 
@@ -69,7 +69,7 @@ TEST_F(Logger, EveryStepPublishedIsInTheLog) {
     EXPECT_EQ(log->damaged_bytes(), 0u);
 }
 
-TEST(Publisher, RefusesToSendWhereTheRouteDoesNotLead) {
+TEST(Publisher, RefusesToSendAgainstTheRoute) {
     NetworkConfig network = own_network();
     EXPECT_TRUE(check_multicast(network));
     network.interface = "eth7";

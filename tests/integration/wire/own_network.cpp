@@ -17,7 +17,7 @@ public:
         const bool is_own = unshare(CLONE_NEWNET) == 0 && std::system("ip link set lo up") == 0;
         const auto added = ensure_loopback_multicast();
         ASSERT_TRUE(added) << added.error();
-        remove_route_ = *added && !is_own;  // an own network goes with the process
+        remove_route_ = *added && !is_own;  // an own network ends with the process
     }
     void TearDown() override {
         if (remove_route_) { (void)remove_loopback_multicast(); }

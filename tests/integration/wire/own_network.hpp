@@ -1,12 +1,12 @@
-// A network that a test has to itself: a namespace with nothing but lo, where that is permitted (root); else the
-// host's lo, with domains and ports that tell this process from others. In neither does anything leave the host.
+// A network for one test: a namespace with only lo, if that is permitted (root); else the
+// host's lo, with domains and ports that no other process uses. In neither does anything leave the host.
 #pragma once
 
 #include "core/machine.hpp"
 
 namespace lockstep {
 
-/// Call it before the first thread starts. Every call gives another DDS domain and LCM port.
+/// Call it before the first thread starts. Every call returns another DDS domain and LCM port.
 NetworkConfig own_network();
 
 }  // namespace lockstep

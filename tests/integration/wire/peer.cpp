@@ -1,5 +1,5 @@
-// The other process of a test: integration_wire_peer ROLE DOMAIN [PROCESSES]. Exits with 0 when it got all it waits
-// for.
+// The other process of a test: integration_wire_peer ROLE DOMAIN [PROCESSES]. Exits with 0 when it received all it
+// waits for.
 #include <map>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// An axis that says that it holds every frame it receives, until the last.
+/// An axis that reports that it holds every frame it receives, until the last.
 bool hold_frames(AxisBus& bus) {
     AxisState state;
     bool ended = false;
@@ -25,7 +25,7 @@ bool hold_frames(AxisBus& bus) {
     });
 }
 
-/// Answers every chunk until all of one program have come.
+/// Answers every chunk until all of one program were received.
 bool answer_chunks(CoordinatorBus& bus) {
     std::map<std::uint32_t, std::size_t> chunks;
     const bool in_time = eventually([&] {
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     lockstep::NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(argv[2]))};
     if (argc > 3) { network.processes = std::stoul(argv[3]); }
     const std::string role = argv[1];
-    if (role == "speaker") { return lockstep::play(lockstep::publish_states, network); }
+    if (role == "publisher") { return lockstep::play(lockstep::publish_states, network); }
     return role == "axis" ? lockstep::play(lockstep::hold_frames, network)
                           : lockstep::play(lockstep::answer_chunks, network);
 }

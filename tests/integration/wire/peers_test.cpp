@@ -1,4 +1,4 @@
-// Peers that are not there: what is sent to them waits in the kernel, on the socket that carries motion.
+// Absent peers: packets to them wait in the kernel, on the socket that carries motion.
 #include <gtest/gtest.h>
 #include <linux/sockios.h>
 #include <sys/ioctl.h>
@@ -16,15 +16,15 @@
 namespace lockstep {
 namespace {
 
-/// An interface behind which nobody answers; ARP asks there in vain.
+/// An interface without any other host; ARP fails there.
 bool make_lonely_interface() {
     return std::system(
-               "ip link add lonely type veth peer name nobody && ip link set nobody up && "
+               "ip link add lonely type veth peer name absent && ip link set absent up && "
                "ip link set lonely up && ip addr add 10.9.7.1/24 dev lonely") == 0;
 }
 
 struct SendBuffer {
-    int waiting = 0;  // bytes, of the socket that has least room
+    int waiting = 0;  // bytes, of the socket with the least room
     int room = 0;
 };
 
@@ -41,7 +41,7 @@ SendBuffer fullest(const Descriptors& sockets) {
     return found;
 }
 
-TEST(Peers, ThatAreNotThereLeaveMotionItsRoom) {
+TEST(Peers, ThatAreAbsentLeaveRoomForMotion) {
     NetworkConfig network = own_network();
     if (!make_lonely_interface()) { GTEST_SKIP() << "no network of its own is permitted here"; }
     network.interface = "lonely";
@@ -51,14 +51,14 @@ TEST(Peers, ThatAreNotThereLeaveMotionItsRoom) {
     const Descriptors sockets = udp_sockets();
     int most_waiting = 0;
     int least_room = fullest(sockets).room;
-    // Until ARP has given up, and what waited is gone.
+    // Until ARP has given up, and the waiting packets are gone.
     EXPECT_TRUE(eventually([&] {
         const SendBuffer now = fullest(sockets);
         most_waiting = std::max(most_waiting, now.waiting);
         least_room = std::min(least_room, now.room);
         return now.waiting < most_waiting / 2;
     }));
-    EXPECT_GT(most_waiting, 0) << "nobody was asked";
+    EXPECT_GT(most_waiting, 0) << "no packet was waiting";
     EXPECT_GE(least_room, kMotionSendBuffer) << "of " << peer_send_buffer(network.peers.size()) << " bytes";
 }
 

@@ -1,4 +1,4 @@
-// A process's link to its peers can be opened anew again and again, and leaves nothing behind.
+// A process's link to its peers can be opened again any number of times, and leaves nothing behind.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -36,7 +36,7 @@ std::ptrdiff_t entries(const char* directory) {
     return std::distance(std::filesystem::directory_iterator(directory), std::filesystem::directory_iterator());
 }
 
-/// Memory of the process that is no file's, in KB.
+/// The process's anonymous memory, in KB.
 long anonymous_memory_kb() {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);) {
@@ -60,10 +60,10 @@ bool comes_back(Reopenable<Link>& link) {
     });
 }
 
-TEST(Reopened, ALinkOpenedAnewManyTimesReceivesEachTimeAndLeavesNothingBehind) {
+TEST(Reopened, ALinkOpenedManyTimesReceivesEachTimeAndLeavesNothingBehind) {
     const NetworkConfig network = own_network();
     const auto program = std::filesystem::read_symlink("/proc/self/exe").replace_filename("integration_wire_peer");
-    const Child peer = Child::execute({program.string(), "speaker", std::to_string(network.domain)});
+    const Child peer = Child::execute({program.string(), "publisher", std::to_string(network.domain)});
     const auto open = opener(network);
     auto first = open();
     ASSERT_TRUE(first) << first.error();
@@ -72,15 +72,15 @@ TEST(Reopened, ALinkOpenedAnewManyTimesReceivesEachTimeAndLeavesNothingBehind) {
     const Use before;
     for (int i = 0; i < 100; ++i) { ASSERT_TRUE(comes_back(link)) << i; }
     const Use after;
-    std::cout << "opened anew 100 times: memory " << before.memory_kb << " to " << after.memory_kb
-              << " KB, descriptors " << before.descriptors << " to " << after.descriptors << ", threads "
-              << before.threads << " to " << after.threads << '\n';
+    std::cout << "opened 100 times: memory " << before.memory_kb << " to " << after.memory_kb << " KB, descriptors "
+              << before.descriptors << " to " << after.descriptors << ", threads " << before.threads << " to "
+              << after.threads << '\n';
     EXPECT_EQ(after.descriptors, before.descriptors);
     EXPECT_EQ(after.threads, before.threads);
     EXPECT_LT(after.memory_kb, before.memory_kb + 2000);
 }
 
-TEST(Reopened, ALinkThatCannotBeOpenedIsTriedAgainUntilItCan) {
+TEST(Reopened, ALinkThatCannotBeOpenedIsTriedAgainUntilItOpens) {
     const NetworkConfig network = own_network();
     const auto open = opener(network);
     std::atomic<int> failures = 0;

@@ -1,5 +1,5 @@
-// With security, members exchange keys again after participants have left: what DDS keeps for these is dropped then.
-// The exchange itself needs no security, and is seen by a writer that every process may read.
+// With security, members exchange keys again after participants have left: DDS then drops the keys of these.
+// The exchange itself needs no security, and is observed by a writer that every process may read.
 #include "services/wire/dds/sent_keys.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Participant open_or_throw(const NetworkConfig& network) {
     return std::move(*participant);
 }
 
-/// Readers that a writer has had, whether or not they are still there, and those that are.
+/// The readers that a writer has had, including departed ones, and the present ones.
 dds_publication_matched_status_t readers_of(const Entity& writer) {
     dds_publication_matched_status_t status{};
     dds_get_publication_matched_status(writer.handle(), &status);

@@ -1,4 +1,4 @@
-"""Judges what every_step left in a directory: judge.py DIRECTORY."""
+"""Evaluates the files that every_step left in a directory: evaluate.py DIRECTORY."""
 import json
 import sys
 from pathlib import Path
@@ -23,16 +23,16 @@ for file in work.glob("*.made"):
     axis, steps = file.read_text().split()
     made[axis] = int(steps)
 
-heard = total("heard", "step_messages")
-lost = total("heard", "missing_step_messages")
+received = total("received", "step_messages")
+lost = total("received", "missing_step_messages")
 whole = report("whole")
 megabytes = (work / "whole.lcm").stat().st_size / 1e6
 print(f"{len(made)} axes made {sum(made.values())} steps, {megabytes:.0f} MB of record")
-print(f"lcm-logger heard {heard} messages of steps and lost {lost} between them")
+print(f"lcm-logger received {received} messages of steps and lost {lost} between them")
 print(f"with the axes' own logs: {total('whole', 'step_messages')} messages, "
       f"{total('whole', 'missing_step_messages')} missing")
 
-assert code("heard") == (0 if lost == 0 else 1), "the exit code says whether something is missing"
+assert code("received") == (0 if lost == 0 else 1), "the exit code shows whether something is missing"
 assert code("thin_alone") == 1 and total("thin_alone", "missing_step_messages") > 0
 assert code("whole") == 0 and whole["complete"], whole
 assert {axis["axis"]: int(axis["steps"]) for axis in whole["axes"]} == made

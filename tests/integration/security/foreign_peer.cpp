@@ -1,9 +1,9 @@
-// Somebody who wants to move the machine, on its network and with what he has got hold of:
-//   integration_security_stranger DOMAIN MACHINE PARTITION KEYS MEMBER [READERS]
-// PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: whose keys of them.
-// READERS: somebody who belongs there, and is to be heard by so many; he begins to count his tries when he is.
-//   integration_security_stranger DOMAIN MACHINE protocol NUMBER -     a process of the machine, of another version
-// Tries for a while to speak on every topic that moves something, and to listen; says what came of it, a line each.
+// A foreign peer that tries to move the machine, on its network and with the given keys:
+//   integration_security_foreign_peer DOMAIN MACHINE PARTITION KEYS MEMBER [READERS]
+// PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: whose keys.
+// READERS: for a proper member, the number of readers that it must match; its tries count from then on.
+//   integration_security_foreign_peer DOMAIN MACHINE protocol NUMBER -     a process of the machine, of another version
+// Tries for a while to write every topic that moves something, and to read; prints the results, a line each.
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -21,22 +21,22 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kTries = 150;
-constexpr int kPatience = 1000;  // tries more, of who is to be matched: on a busy host that takes its time
+constexpr int kPatience = 1000;  // further tries of a peer that must be matched: a busy host needs time
 constexpr auto kBetween = 20ms;
 
-/// A word on one topic, again and again.
+/// Writes one message repeatedly.
 template <typename T>
-class Mouth {
+class RepeatedMessage {
 public:
-    Mouth(Participant& participant, T word) : writer_(participant), word_(std::move(word)) {}
-    std::uint32_t speak() {
-        (void)writer_.write(word_);
+    RepeatedMessage(Participant& participant, T message) : writer_(participant), message_(std::move(message)) {}
+    std::uint32_t write() {
+        (void)writer_.write(message_);
         return writer_.matched();
     }
 
 private:
     Writer<T> writer_;
-    T word_;
+    T message_;
 };
 
 Command home() { return {.client = 7, .sequence = 1, .kind = CommandKind::Home}; }
@@ -52,37 +52,37 @@ AxisCommand own_move() {
     return {.term = {~std::uint64_t{0} >> 2, 1}, .sequence = 1, .kind = AxisCommandKind::MoveOwn, .target_steps = 8000};
 }
 
-/// Of axis 0, in a fault that it does not have.
+/// A state of axis 0, with a fault that it does not have.
 AxisState false_state() { return {.identity = 1, .axis = 0, .stamp = 1, .phase = AxisPhase::Fault, .fault = 103}; }
 
 struct Outcome {
-    std::uint32_t matched = 0;  // readers, at most, of all that was said
-    std::size_t heard = 0;      // states
+    std::uint32_t matched = 0;  // the maximum of matched readers
+    std::size_t received = 0;   // states
 };
 
 Outcome try_all(Participant& participant, std::uint32_t readers) {
-    Mouth<Command> commands(participant, home());
-    Mouth<Frame> frames(participant, sudden_frame());
-    Mouth<AxisCommand> orders(participant, own_move());
-    Mouth<AxisState> states(participant, false_state());
+    RepeatedMessage<Command> commands(participant, home());
+    RepeatedMessage<Frame> frames(participant, sudden_frame());
+    RepeatedMessage<AxisCommand> orders(participant, own_move());
+    RepeatedMessage<AxisState> states(participant, false_state());
     Reader<AxisState> axes(participant);
     Reader<MachineState> machine(participant);
     Outcome outcome;
-    int left = participant.failure() ? kTries / 4 : kTries;  // of who was refused at once little is to be seen
+    int left = participant.failure() ? kTries / 4 : kTries;  // a peer that is refused at once needs few tries
     int patience = readers > 0 ? kPatience : 0;
     while (left > 0) {
-        const bool is_in = outcome.matched >= readers && outcome.heard > 0;
+        const bool is_in = outcome.matched >= readers && outcome.received > 0;
         --(is_in || patience == 0 ? left : patience);
         outcome.matched =
-            std::max(outcome.matched, commands.speak() + frames.speak() + orders.speak() + states.speak());
-        outcome.heard += axes.take([](AxisState&&) {}) + machine.take([](MachineState&&) {});
+            std::max(outcome.matched, commands.write() + frames.write() + orders.write() + states.write());
+        outcome.received += axes.take([](AxisState&&) {}) + machine.take([](MachineState&&) {});
         std::this_thread::sleep_for(kBetween);
     }
     return outcome;
 }
 
-/// Takes part under another number, until it is killed.
-int speak_another_protocol(const std::vector<std::string>& words) {
+/// Joins with another protocol number, until it is killed.
+int run_another_protocol(const std::vector<std::string>& words) {
     const dds_domainid_t domain = static_cast<dds_domainid_t>(std::stoul(words[0]));
     const auto profile = dds_profile({.domain = domain});
     if (!profile || dds_create_domain(domain, profile->c_str()) < 0) { return 1; }
@@ -92,7 +92,7 @@ int speak_another_protocol(const std::vector<std::string>& words) {
     for (;;) { std::this_thread::sleep_for(1s); }
 }
 
-int intrude(const std::vector<std::string>& words) {
+int try_to_interfere(const std::vector<std::string>& words) {
     forward_dds_log([](const std::string& text) { std::cout << "dds: " << text << std::endl; });
     const NetworkConfig network{.domain = static_cast<std::uint32_t>(std::stoul(words[0]))};
     Membership membership;
@@ -106,7 +106,7 @@ int intrude(const std::vector<std::string>& words) {
     const std::uint32_t readers = words.size() == 6 ? static_cast<std::uint32_t>(std::stoul(words[5])) : 0;
     const Outcome outcome = try_all(*participant, readers);
     if (participant->failure()) { std::cout << "refused: " << *participant->failure() << std::endl; }
-    std::cout << "matched " << outcome.matched << "\nheard " << outcome.heard << std::endl;
+    std::cout << "matched " << outcome.matched << "\nreceived " << outcome.received << std::endl;
     return 0;
 }
 
@@ -116,5 +116,5 @@ int intrude(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     if (words.size() < 5 || words.size() > 6) { return 2; }
-    return words[2] == "protocol" ? lockstep::speak_another_protocol(words) : lockstep::intrude(words);
+    return words[2] == "protocol" ? lockstep::run_another_protocol(words) : lockstep::try_to_interfere(words);
 }

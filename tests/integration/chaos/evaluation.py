@@ -1,4 +1,4 @@
-"""What must hold of a run, whatever was done to the machine."""
+"""What must hold for a run with any faults."""
 import dataclasses
 import re
 
@@ -6,7 +6,7 @@ from machine import AXES
 from record import Record
 from story import Chapter
 
-# An axis or coordinator that is late, silent or restarted may bring these about; anything else is a fault of its own.
+# A late, silent or restarted axis or coordinator may cause these; anything else is a separate fault.
 FAULTS_OF_LATENESS = {"", "axis-lost", "frames-differ", "frame-late", "emergency-stopped"}
 STALL_US = 160_000  # the machine allows for 200 ms
 ALARMS = re.compile(r"ERROR: \w+Sanitizer|runtime error:|terminate called|Assertion|check failed|Segmentation", re.I)
@@ -20,14 +20,14 @@ class Timed:
 
 
 @dataclasses.dataclass
-class Judgement:
+class Evaluation:
     verify: str = ""
     timed: list = dataclasses.field(default_factory=list)
     failures: list = dataclasses.field(default_factory=list)
 
 
-def judge(machine, story, log, types):
-    found = Judgement(failures=list(story.failures))
+def evaluate(machine, story, log, types):
+    found = Evaluation(failures=list(story.failures))
     record = Record(log, types)
     found.timed = [timed(chapter, record) for chapter in story.chapters]
     found.verify, is_exact = machine.verify(log)
@@ -50,7 +50,7 @@ def timed(chapter, record):
 
 
 def partings(story, record):
-    """Axes that nothing has hit end an epoch with the same frame. The host may have stalled one: that hits it too."""
+    """Axes without a fault end an epoch with the same frame. A stall of the host counts as a fault."""
     for epoch, ends in record.ends().items():
         last_us = max(run.start_us for run in ends.values())
         hit = set().union(*(chapter.injected.hit for chapter in story.chapters
@@ -58,12 +58,12 @@ def partings(story, record):
         spared = {axis: run for axis, run in ends.items() if f"axis-{axis}" not in hit
                   and record.longest_silence_us(axis, last_us - 1_000_000, last_us + 1_000_000) < STALL_US}
         if len({(run.frame, run.tail) for run in spared.values()}) > 1:
-            told = ", ".join(f"{axis} frame {run.frame}{' tail' * run.tail}" for axis, run in sorted(ends.items()))
-            yield f"epoch {epoch}: axes that no fault had hit are a frame apart: {told}"
+            listed = ", ".join(f"{axis} frame {run.frame}{' tail' * run.tail}" for axis, run in sorted(ends.items()))
+            yield f"epoch {epoch}: axes without a fault are a frame apart: {listed}"
 
 
 def deaths(machine, story):
-    """Every end of a process was one of those asked for."""
+    """Every end of a process was an injected one."""
     asked = [chapter.injected.killed for chapter in story.chapters if chapter.injected.killed]
     for name, how in re.findall(r"(\S+) ((?:ended with code|was ended by signal) \d+)", machine.log("supervisor")):
         if how == "was ended by signal 9" and name in asked:
@@ -75,4 +75,4 @@ def deaths(machine, story):
 def alarms(machine):
     for process in ("supervisor", "coordinator", *(f"axis-{axis}" for axis in AXES)):
         for alarm in ALARMS.findall(machine.log(process)):
-            yield f"{process} says: {alarm}"
+            yield f"{process} reports: {alarm}"

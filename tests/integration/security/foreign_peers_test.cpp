@@ -1,4 +1,4 @@
-// Who does not belong gets no answer, moves nothing, and is seen: real processes that try.
+// Peers that do not belong to the machine get no answer, move nothing, and are reported: real processes that try.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -17,15 +17,15 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-class Strangers : public SecuredMachine {
+class ForeignPeers : public SecuredMachine {
 protected:
-    /// Keys for the same names, from an authority of the stranger's own.
+    /// Keys for the same names, from the foreign peer's own authority.
     fs::path forged_keys() const {
         const fs::path forged = folder() / "forged";
         EXPECT_TRUE(make_keys(config(), forged, std::chrono::days(30), false));
         return forged;
     }
-    /// A member's true certificate and key, with permissions that the stranger signed himself.
+    /// A member's true certificate and key, with permissions that the peer signed itself.
     fs::path keys_with_own_permissions(const std::string& member, const std::string& as) const {
         const fs::path mixed = folder() / "mixed";
         EXPECT_TRUE(make_keys(config(), mixed, std::chrono::days(30), false));
@@ -45,51 +45,52 @@ protected:
     }
 };
 
-TEST_F(Strangers, AMemberIsHeardSoTheOthersAreNotShutOutByChance) {
-    const std::string said = stranger("-", keys(), "client", {"1"});
-    EXPECT_THAT(said, Not(HasSubstr("matched 0\n")));
-    EXPECT_THAT(said, Not(HasSubstr("heard 0\n")));
-    EXPECT_TRUE(eventually([&] { return status().job() == 2; })) << "its command to home was obeyed";
+TEST_F(ForeignPeers, AMemberIsAcceptedSoTheTestWouldDetectAcceptance) {
+    const std::string output = foreign_peer("-", keys(), "client", {"1"});
+    EXPECT_THAT(output, Not(HasSubstr("matched 0\n")));
+    EXPECT_THAT(output, Not(HasSubstr("received 0\n")));
+    EXPECT_TRUE(eventually([&] { return status().job() == 2; })) << "its command to home was executed";
 }
 
-TEST_F(Strangers, WhoCannotProveToBelongIsShutOutAndSeen) {
-    const auto without = begin_stranger("-", "-", "-");
-    const auto forger = begin_stranger("-", forged_keys(), "coordinator");
-    const auto self_signed = begin_stranger("-", keys_with_own_permissions("viewer", "client"), "viewer");
-    for (const auto& each : {without.get(), forger.get(), self_signed.get()}) { expect_shut_out(each->wait().out); }
+TEST_F(ForeignPeers, AreExcludedAndReported) {
+    const auto without = begin_foreign_peer("-", "-", "-");
+    const auto forger = begin_foreign_peer("-", forged_keys(), "coordinator");
+    const auto self_signed = begin_foreign_peer("-", keys_with_own_permissions("viewer", "client"), "viewer");
+    for (const auto& each : {without.get(), forger.get(), self_signed.get()}) { expect_excluded(each->wait().out); }
     for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
         EXPECT_TRUE(is_logged(process, "has no certificate and is excluded")) << process;
         EXPECT_TRUE(is_logged(process, "did not authenticate and is excluded")) << process;
     }
 }
 
-TEST_F(Strangers, AViewerMayNotCommand) {
-    const std::string said = stranger("-", keys(), "viewer");
-    EXPECT_THAT(said, HasSubstr("refused: cannot open the DDS topic lockstep/command"));
-    EXPECT_THAT(said, HasSubstr("matched 0\n"));
+TEST_F(ForeignPeers, AViewerMayNotCommand) {
+    const std::string output = foreign_peer("-", keys(), "viewer");
+    EXPECT_THAT(output, HasSubstr("refused: cannot open the DDS topic lockstep/command"));
+    EXPECT_THAT(output, HasSubstr("matched 0\n"));
     expect_untouched();
 }
 
-TEST_F(Strangers, PermissionsThatWereChangedAreRefusedAtOnce) {
+TEST_F(ForeignPeers, ChangedPermissionsAreRefusedAtOnce) {
     const fs::path changed = folder() / "changed";
     fs::copy(keys(), changed, fs::copy_options::recursive);
     std::ifstream in(changed / "viewer.p7s");
     std::string text{std::istreambuf_iterator<char>(in), {}};
     text.replace(text.find("<subscribe>"), 11, "<publish>  ");
     std::ofstream(changed / "viewer.p7s") << text;
-    EXPECT_THAT(stranger("-", changed, "viewer"), HasSubstr("refused: DDS Security does not let this process into"));
+    EXPECT_THAT(foreign_peer("-", changed, "viewer"),
+                HasSubstr("refused: DDS Security does not let this process into"));
     expect_untouched();
 }
 
-TEST_F(Strangers, AnAxisMayNotSpeakForAnother) {
-    EXPECT_THAT(stranger("0", keys(), "axis-Y"), HasSubstr("refused: cannot open the DDS topic"));
-    EXPECT_THAT(stranger("1", keys(), "axis-Y", {"3"}), HasSubstr("matched 3\n")) << "it may speak, for itself";
+TEST_F(ForeignPeers, AnAxisMayNotPublishForAnother) {
+    EXPECT_THAT(foreign_peer("0", keys(), "axis-Y"), HasSubstr("refused: cannot open the DDS topic"));
+    EXPECT_THAT(foreign_peer("1", keys(), "axis-Y", {"3"}), HasSubstr("matched 3\n")) << "it may publish, for itself";
     EXPECT_TRUE(is_logged("coordinator", "is about axis 0, but its writer is not that axis"));
     EXPECT_TRUE(is_logged("axis-X", "is about axis 0, but its writer is not that axis"));
     expect_untouched();
 }
 
-TEST_F(Strangers, TheGoodMachineMovesExactlyAsWithoutSecurity) {
+TEST_F(ForeignPeers, TheGoodMachineMovesExactlyAsWithoutSecurity) {
     const Ran moved = run_lockstep({"move", "X=30", "Y=10"});
     EXPECT_EQ(moved.code, 0) << moved.out << moved.err;
     EXPECT_TRUE(eventually([&] { return status().axes(0).position_steps() == 2400; }));
