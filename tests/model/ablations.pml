@@ -21,8 +21,8 @@
 #define M S
 #endif
 
-#ifdef WITHOUT_ONE_INSTANT_OF_JUDGEMENT /* who has been silent since the check is judged again before the start */
-#define JUDGES_SILENCE_LATER
+#ifdef WITHOUT_ONE_INSTANT_OF_EVALUATION /* silence since the check is evaluated again before the start */
+#define EVALUATES_SILENCE_AGAIN
 #endif
 
 #ifdef WITHOUT_EARLY_STOPS /* the coordinator vetoes until the first axis decides */

@@ -1,14 +1,14 @@
-/* What may go wrong: one class a run, in any slot or never. All axes are alike, so the victim is axis 0, and the link
- * that breaks the one between 0 and 1. A class says whose words are hit, who stalls, and what is promised all the same:
- * Q, everything is run, or P, all run the same. */
+/* The faults: one class per run, in any slot or never. All axes are alike, so the victim is axis 0, and the broken link
+ * is between 0 and 1. A class defines whose messages are affected, which process stalls, and what is still promised:
+ * Q, every frame runs, or P, all axes run the same frames. */
 
 #define NEVER 255
 #define LONG_AGO 3
 byte since = NEVER; /* slots since the fault began, LONG_AGO at most */
-byte stalled = 0;   /* for how many slots by now */
+byte stalled = 0;   /* the number of slots until now */
 bit mid_step = 0;   /* the stall began in this slot, after the decisions and before their effects */
 bit kept = 0;       /* effects wait for the stall's end */
-Words late;         /* what the stalled one was about to say */
+Message late;       /* what the stalled process was about to send */
 
 /* ---- clocks: one axis may count one slot more or less than all others ---- */
 
@@ -45,7 +45,7 @@ inline set_clocks() { skip }
 
 /* ---- classes ---- */
 
-/* The slot in which the oldest evidence for a frame has reached whom it reaches fast, and no one else. */
+/* The slot in which the oldest evidence for a frame has reached the receivers with a short delay, and no others. */
 #define IS_MID_ROUND ((slot - RULE_FIRST_EVIDENCE(START(1), V, M) - RULE_HOP) % FRAME == 0)
 
 #if defined(NO_FAULT)
@@ -53,13 +53,13 @@ inline set_clocks() { skip }
 #define MAY_BEGIN 0
 
 #elif defined(COORDINATOR_CRASH)
-#define SPEAKER_FAILS
+#define SENDER_FAILS
 #define HIT_FROM_COORDINATOR(i) 1
 #define COORDINATOR_RUNS (since == NEVER || since == 0)
 
-#elif defined(AXIS_CRASH) /* its device lives on */
+#elif defined(AXIS_CRASH) /* its device continues */
 #define PROMISE P_BUT_FOR_THE_VICTIM
-#define SPEAKER_FAILS
+#define SENDER_FAILS
 #define HIT(j, i) ((j) == 0)
 #define HIT_TO_COORDINATOR(j) ((j) == 0)
 #define AXIS_RUNS(i) ((i) != 0 || since == NEVER || since == 0)
@@ -89,12 +89,12 @@ inline set_clocks() { skip }
 #define HIT(j, i) ((j) == 0 && (i) == 1)
 
 #elif defined(AXIS_LOSS) /* one message, for any of its receivers */
-#define SPEAKER_FAILS
+#define SENDER_FAILS
 #define HIT(j, i) ((j) == 0)
 #define HIT_TO_COORDINATOR(j) ((j) == 0)
 
 #elif defined(COORDINATOR_LOSS)
-#define SPEAKER_FAILS
+#define SENDER_FAILS
 #define HIT_FROM_COORDINATOR(i) 1
 
 #elif defined(CUT_OFF) /* at one instant, both ways */
@@ -139,7 +139,7 @@ inline set_clocks() { skip }
 #define AXIS_RUNS(i) ((i) != 0 || !stalled || mid_step)
 #endif
 #ifdef COORDINATOR_STALLS /* within its multicast, too */
-#define SPEAKER_FAILS
+#define SENDER_FAILS
 #define HIT_FROM_COORDINATOR(i) 1
 #define COORDINATOR_RUNS (!stalled || mid_step)
 #endif
@@ -160,7 +160,7 @@ inline set_clocks() { skip }
 #define MAY_BEGIN 1
 #endif
 
-/* ---- paths: the words of `age` slots ago arrive (PASSES), may arrive (MAYBE), or else are lost ---- */
+/* ---- paths: the message of `age` slots ago arrives (PASSES), may arrive (MAYBE), or is lost ---- */
 
 #ifndef HIT
 #define HIT(j, i) 0
@@ -171,10 +171,10 @@ inline set_clocks() { skip }
 #ifndef HIT_TO_COORDINATOR
 #define HIT_TO_COORDINATOR(j) 0
 #endif
-#ifdef SPEAKER_FAILS /* each receiver by itself may hear the words of that slot */
+#ifdef SENDER_FAILS /* each receiver separately may get the message of that slot */
 #define MAY_ARRIVE(hit, age) ((hit) && since == (age))
 #define ARRIVES(hit, age) (!(hit) || since != (age))
-#else /* the path fails: each receiver by itself may hear what was under way */
+#else /* the path fails: each receiver separately may get the messages in transit */
 #ifndef IN_FLIGHT
 #define IN_FLIGHT(age) (since < (age))
 #endif
@@ -188,7 +188,7 @@ inline set_clocks() { skip }
 #define TO_COORDINATOR_PASSES(j, age) ARRIVES(HIT_TO_COORDINATOR(j), age)
 #define TO_COORDINATOR_MAYBE(j, age) MAY_ARRIVE(HIT_TO_COORDINATOR(j), age)
 
-/* ---- when ---- */
+/* ---- times ---- */
 
 inline begin_fault() {
     since = 0;
@@ -221,10 +221,10 @@ inline meet_fault() {
     fi
 }
 
-/* ---- stalls: what was decided takes effect late ---- */
+/* ---- stalls: decisions take effect late ---- */
 
-inline say_late(words) {
-    words.frames = words.frames | late.frames;
+inline send_late(message) {
+    message.frames = message.frames | late.frames;
     late.frames = 0;
     late.veto = 0;
     kept = 0
@@ -237,40 +237,40 @@ inline act() {
         late.frames = axis[i].now.frames;
         late.veto = axis[i].now.veto;
         kept = 1;
-        fall_silent()
+        send_nothing()
     :: else ->
-        tell_device();
-        if :: i == 0 && kept -> say_late(axis[i].now) :: else fi
+        update_device();
+        if :: i == 0 && kept -> send_late(axis[i].now) :: else fi
     fi
 }
 
-/* The stall may go on right after the effects. */
+/* The stall may continue right after the effects. */
 inline stand_still() {
-    fall_silent();
+    send_nothing();
     if
     :: kept ->
         axis[i].armed = axis[i].cleared;
         axis[i].device_veto = late.veto;
         axis[i].now.veto = late.veto;
-        say_late(axis[i].now)
+        send_late(axis[i].now)
     :: true
     fi
 }
 #elif defined(AXIS_CRASH)
-inline act() { /* or dies before */
-    if :: tell_device() :: i == 0 && since == 0 fi
+inline act() { /* or ends before */
+    if :: update_device() :: i == 0 && since == 0 fi
 }
-inline stand_still() { fall_silent() }
+inline stand_still() { send_nothing() }
 #else
-inline act() { tell_device() }
-inline stand_still() { fall_silent() }
+inline act() { update_device() }
+inline stand_still() { send_nothing() }
 #endif
 
 inline resend_late() {
 #ifdef COORDINATOR_STALLS
     if
     :: mid_step -> late.frames = coordinator_now.frames
-    :: !stalled -> say_late(coordinator_now)
+    :: !stalled -> send_late(coordinator_now)
     :: else
     fi
 #else
@@ -278,14 +278,14 @@ inline resend_late() {
 #endif
 }
 
-/* ---- vetoes that are nobody's fault ---- */
+/* ---- vetoes without a fault ---- */
 
 inline lowest_open(may_veto) {
     k = 1;
     do :: k <= FRAMES && !(may_veto) -> k++ :: else -> break od
 }
 
-/* An axis that cannot go on; or, as proposed, one whose device has not begun the frame that it was to arm. */
+/* An axis that cannot continue, or an axis whose device has not begun the frame that it armed. */
 #if defined(OWN_REASONS)
 #define CANNOT_GO_ON (i == 0 && since == 0)
 #elif !defined(WITHOUT_VETO_WHEN_LEFT_BEHIND)

@@ -1,8 +1,8 @@
-/* The setpoint protocol, hold, arm, veto, for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
+/* The setpoint protocol (hold, arm, veto) for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
  *
- * What a process decides it decides by core/protocol/rules.inc, the file the code decides by. A message sent in one
- * slot is used in the next or the one after (up to DELAY), differently by each receiver, as the search likes. One fault
- * class is compiled in (faults.pml). README.md says how model and code correspond. */
+ * The processes decide by core/protocol/rules.inc, the same file as the code. Each receiver uses a message in the slot
+ * after the one in which it was sent, or in the next one (up to DELAY); the search tries both. One fault class is
+ * compiled in (faults.pml). README.md describes how model and code correspond. */
 
 #include "core/protocol/rules.inc"
 
@@ -21,7 +21,7 @@
 
 #include "tests/model/ablations.pml"
 
-/* The shortest times that the configuration allows, unless others are asked for. */
+/* The shortest times that the configuration allows, unless other times are defined. */
 #ifndef M
 #define M RULE_LEAST_FRESHNESS(S)
 #endif
@@ -38,11 +38,10 @@
 #define END (START(FRAMES) + 2) /* every device has decided on every frame, also on a clock one slot behind */
 
 #define NO_VETO (FRAMES + 1)
-#define NOBODY 255
 #define BIT(k) (1 << ((k) - 1)) /* sets of frames */
 
-/* What is said in a slot: an axis's state comes down to which frames it is evidence for, and its veto. */
-typedef Words {
+/* The message of one slot. An axis's state is reduced to the frames that it is evidence for, and its veto. */
+typedef Message {
     byte frames; /* a set: an axis's evidence, the coordinator's frames */
     byte veto
 };
@@ -52,14 +51,14 @@ typedef Axis {
     bit open;  /* it follows the epoch: it has taken frame 1 */
     byte checked;
     byte veto;
-    byte heard[N]; /* evidence: the frames that each other is known to hold, by stamp */
+    byte received[N]; /* evidence: the frames that each other axis is known to hold, by stamp */
     byte cleared;  /* the highest frame whose check succeeded */
-    byte armed, device_veto, ran; /* the device: what it has been told, and the highest frame it has begun */
-    Words now, sent[2]            /* said in this slot, in the last, in the one before that */
+    byte armed, device_veto, ran; /* the device: its commands, and the highest frame that it has begun */
+    Message now, sent[2]          /* sent in this slot, in the last one, and in the one before */
 };
 
 Axis axis[N];
-Words coordinator_now, coordinator_sent[2];
+Message coordinator_now, coordinator_sent[2];
 byte coordinator_veto = NO_VETO;
 byte slot = 0;
 byte i, j, k; /* scratch, zero between slots */
@@ -73,8 +72,8 @@ byte i, j, k; /* scratch, zero between slots */
 #define SENDS(k) \
     (slot >= RULE_FIRST_SEND(START(k), A) && RULE_MAY_SEND(slot, START(k), V, M) && !RULE_IS_VETOED(k, coordinator_veto))
 
-/* The lowest veto heard is repeated. */
-inline coordinator_hears() {
+/* The coordinator repeats the lowest veto that it received. */
+inline coordinator_receives() {
 #ifndef WITHOUT_COORDINATOR_REPEATING
     for (j : 0 .. N - 1) {
         if
@@ -93,8 +92,8 @@ inline coordinator_hears() {
 #endif
 }
 
-inline coordinator_speaks() {
-    coordinator_hears();
+inline coordinator_sends() {
+    coordinator_receives();
     coordinator_now.frames = 0;
     coordinator_now.veto = NO_VETO;
     if
@@ -111,59 +110,59 @@ inline coordinator_speaks() {
 
 /* ---- an axis: SetpointFollower::hear, offer, decide, and the state it publishes ---- */
 
-#define UNHEARD(words, i, j) ((words.frames & ~axis[i].heard[j]) >> axis[i].checked)
-#define NEWS(words, i, j) (UNHEARD(words, i, j) || (axis[i].open && RULE_VETO_WINS(words.veto, axis[i].veto)))
+#define UNKNOWN(message, i, j) ((message.frames & ~axis[i].received[j]) >> axis[i].checked)
+#define NEWS(message, i, j) (UNKNOWN(message, i, j) || (axis[i].open && RULE_VETO_WINS(message.veto, axis[i].veto)))
 
-inline hear(words) { /* i hears what j said */
-    axis[i].heard[j] = axis[i].heard[j] | words.frames;
-    if :: axis[i].open -> LOWEST(axis[i].veto, words.veto) :: else fi
+inline receive(message) { /* i receives the message of j */
+    axis[i].received[j] = axis[i].received[j] | message.frames;
+    if :: axis[i].open -> LOWEST(axis[i].veto, message.veto) :: else fi
 }
 
-/* Hearing the same words twice changes nothing, so those of two slots ago may simply be heard again. */
-inline hear_axis() {
+/* A second reception of the same message changes nothing, so the messages of two slots ago can be received again. */
+inline receive_from_axis() {
     if
-    :: PASSES(j, i, 2) || MAYBE(j, i, 2) -> hear(axis[j].sent[1])
+    :: PASSES(j, i, 2) || MAYBE(j, i, 2) -> receive(axis[j].sent[1])
     :: !PASSES(j, i, 2)
     fi;
     if
-    :: (PASSES(j, i, 1) || MAYBE(j, i, 1)) && NEWS(axis[j].sent[0], i, j) -> hear(axis[j].sent[0])
+    :: (PASSES(j, i, 1) || MAYBE(j, i, 1)) && NEWS(axis[j].sent[0], i, j) -> receive(axis[j].sent[0])
     :: DELAY == 2 || !PASSES(j, i, 1) || !NEWS(axis[j].sent[0], i, j)
     fi
 }
 
-inline take(words) { /* frames are taken in order */
-    if :: axis[i].held < FRAMES && (words.frames & BIT(axis[i].held + 1)) -> axis[i].held++ :: else fi;
-    if :: axis[i].held < FRAMES && (words.frames & BIT(axis[i].held + 1)) -> axis[i].held++ :: else fi
+inline take(message) { /* frames are taken in order */
+    if :: axis[i].held < FRAMES && (message.frames & BIT(axis[i].held + 1)) -> axis[i].held++ :: else fi;
+    if :: axis[i].held < FRAMES && (message.frames & BIT(axis[i].held + 1)) -> axis[i].held++ :: else fi
 }
 
-inline hear_coordinator(words) {
-    if :: axis[i].open -> LOWEST(axis[i].veto, words.veto) :: else fi;
-    take(words)
+inline take_coordinator_message(message) {
+    if :: axis[i].open -> LOWEST(axis[i].veto, message.veto) :: else fi;
+    take(message)
 }
 
-#define COORDINATOR_NEWS(words) \
-    ((words.frames >> axis[i].held) || (axis[i].open && RULE_VETO_WINS(words.veto, axis[i].veto)))
+#define COORDINATOR_NEWS(message) \
+    ((message.frames >> axis[i].held) || (axis[i].open && RULE_VETO_WINS(message.veto, axis[i].veto)))
 
-inline listen_to_coordinator() {
+inline receive_from_coordinator() {
     if
-    :: (FROM_COORDINATOR_PASSES(i, 2) || FROM_COORDINATOR_MAYBE(i, 2)) -> hear_coordinator(coordinator_sent[1])
+    :: (FROM_COORDINATOR_PASSES(i, 2) || FROM_COORDINATOR_MAYBE(i, 2)) -> take_coordinator_message(coordinator_sent[1])
     :: !FROM_COORDINATOR_PASSES(i, 2)
     fi;
     if
     :: (FROM_COORDINATOR_PASSES(i, 1) || FROM_COORDINATOR_MAYBE(i, 1)) && COORDINATOR_NEWS(coordinator_sent[0]) ->
-        hear_coordinator(coordinator_sent[0])
+        take_coordinator_message(coordinator_sent[0])
     :: DELAY == 2 || !FROM_COORDINATOR_PASSES(i, 1) || !COORDINATOR_NEWS(coordinator_sent[0])
     fi
 }
 
-inline listen() {
+inline receive_all() {
     for (j : 0 .. N - 1) {
-        if :: j != i -> hear_axis() :: else fi
+        if :: j != i -> receive_from_axis() :: else fi
     }
-    listen_to_coordinator()
+    receive_from_coordinator()
 }
 
-#define OTHER_HOLDS(j, k) ((j) == i || (axis[i].heard[j] & BIT(k)))
+#define OTHER_HOLDS(j, k) ((j) == i || (axis[i].received[j] & BIT(k)))
 #if N == 2
 #define OTHERS_HOLD(k) (OTHER_HOLDS(0, k) && OTHER_HOLDS(1, k))
 #else
@@ -182,7 +181,7 @@ inline check() {
     fi
 }
 
-/* Every check that is due is made, or left for a later slot while that is in time. */
+/* Every check that is due is made, or delayed to a later slot that is still in time. */
 inline decide() {
     do
     :: axis[i].checked < FRAMES && axis[i].checked <= axis[i].held &&
@@ -198,16 +197,16 @@ inline decide() {
 
 #define EVIDENCE(k) (axis[i].held >= (k) && RULE_IS_EVIDENCE(CLOCK(i), START(k), V, M) -> BIT(k) : 0)
 
-#ifdef JUDGES_SILENCE_LATER
-#define SAYS_STILL_THERE(k) BIT(FRAMES + (k))
+#ifdef EVALUATES_SILENCE_AGAIN
+#define MARKS_STILL_THERE(k) BIT(FRAMES + (k))
 #define STILL_THERE(k) \
-    (CLOCK(i) >= RULE_CHECK_SLOT(START(k), V) && CLOCK(i) < START(k) - 2 -> SAYS_STILL_THERE(k) : 0)
-inline judge_silence() {
+    (CLOCK(i) >= RULE_CHECK_SLOT(START(k), V) && CLOCK(i) < START(k) - 2 -> MARKS_STILL_THERE(k) : 0)
+inline evaluate_silence() {
     for (k : 1 .. FRAMES) {
         if
         :: CLOCK(i) == START(k) - 1 ->
             for (j : 0 .. N - 1) {
-                if :: j != i && !(axis[i].heard[j] & SAYS_STILL_THERE(k)) -> LOWEST(axis[i].veto, k) :: else fi
+                if :: j != i && !(axis[i].received[j] & MARKS_STILL_THERE(k)) -> LOWEST(axis[i].veto, k) :: else fi
             }
         :: else
         fi
@@ -215,10 +214,10 @@ inline judge_silence() {
 }
 #else
 #define STILL_THERE(k) 0
-inline judge_silence() { skip }
+inline evaluate_silence() { skip }
 #endif
 
-inline speak() {
+inline publish() {
     axis[i].now.frames = 0;
     axis[i].now.veto = NO_VETO;
     if
@@ -229,27 +228,27 @@ inline speak() {
     fi
 }
 
-inline forget() { /* evidence for what is decided is of no use */
-    for (j : 0 .. N - 1) { axis[i].heard[j] = (axis[i].heard[j] >> axis[i].checked) << axis[i].checked }
+inline forget() { /* evidence for decided frames is not needed */
+    for (j : 0 .. N - 1) { axis[i].received[j] = (axis[i].received[j] >> axis[i].checked) << axis[i].checked }
 }
 
-inline tell_device() {
+inline update_device() {
     axis[i].armed = axis[i].cleared;
     axis[i].device_veto = axis[i].veto
 }
 
-inline fall_silent() {
+inline send_nothing() {
     axis[i].now.frames = 0;
     axis[i].now.veto = NO_VETO
 }
 
 inline axis_steps() {
-    listen();
+    receive_all();
     if
     :: AXIS_RUNS(i) ->
         axis[i].open = axis[i].held > 0;
-        if :: axis[i].open -> veto_for_own_reasons(); decide(); judge_silence() :: else fi;
-        speak();
+        if :: axis[i].open -> veto_for_own_reasons(); decide(); evaluate_silence() :: else fi;
+        publish();
         act()
     :: else -> stand_still()
     fi;
@@ -289,15 +288,15 @@ inline next_slot() {
     slot++
 }
 
-/* What a counterexample shows of each slot. */
+/* The output of a counterexample for each slot. */
 inline print_slot() {
     printf("slot %d, fault since %d, coordinator: frames %d veto %d\n", slot, since, coordinator_now.frames,
            coordinator_now.veto);
     for (i : 0 .. N - 1) {
-        printf("    axis %d: held %d checked %d armed %d vetoes %d ran %d, heard", i, axis[i].held, axis[i].checked,
+        printf("    axis %d: held %d checked %d armed %d vetoes %d ran %d, received", i, axis[i].held, axis[i].checked,
                axis[i].armed, axis[i].veto, axis[i].ran);
-        for (j : 0 .. N - 1) { printf(" %d", axis[i].heard[j]) }
-        printf(", says: frames %d veto %d\n", axis[i].now.frames, axis[i].now.veto)
+        for (j : 0 .. N - 1) { printf(" %d", axis[i].received[j]) }
+        printf(", sends: frames %d veto %d\n", axis[i].now.frames, axis[i].now.veto)
     }
 }
 
@@ -319,7 +318,7 @@ init {
     :: slot < END ->
         atomic {
             meet_fault();
-            coordinator_speaks();
+            coordinator_sends();
             for (i : 0 .. N - 1) { axis_steps() }
             for (i : 0 .. N - 1) { device_steps() }
             print_slot();

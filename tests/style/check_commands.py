@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every command line in a document is one that the command accepts: its verb and its options are in --help.
+"""Checks that the commands accept every command line in a document: its verb and its options are in --help.
 
 Usage: check_commands.py ROOT BIN    BIN has the programs; those that are not there are not checked, lockstep must be.
 
@@ -47,7 +47,7 @@ def verbs_in(text):
 
 
 def breach(program, words):
-    """What is wrong with a command line; None where nothing is."""
+    """The error in a command line; None if there is none."""
     path = [str(program)]
     text = help_of(*path)
     while words and not words[0].startswith("-") and verbs_in(text):
@@ -63,7 +63,7 @@ def breach(program, words):
 
 
 def missing_programs(root, text):
-    """What the text runs that is not there."""
+    """The commands in the text that do not exist."""
     for script in SCRIPT.findall(text):
         if not (root / script).is_file() or not (root / script).stat().st_mode & 0o100:
             yield f"{script} is not an executable file"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""deploy/make-compose serves any machine; deploy/compose.yaml and compose.peers.yaml are what it makes of the example.
+"""deploy/make-compose serves any machine; deploy/compose.yaml and compose.peers.yaml are its output for the example.
 
 Usage: check_compose.py ROOT
 """
@@ -66,10 +66,10 @@ for count in (1, 2, 6):
     volumes = re.findall(r"(\w+): \{\}", re.search(r"(?m)^volumes: .*", text).group(0))
     expect(volumes == ["coordinator", *hosts, "log"], f"{count} axes: the volumes")
     expect("hostname: planner\n" in text and "axis-x" not in text.split("services:")[1], f"{count} axes: the rest")
-for wrong, says in ((made_of([("X", "a"), ("Y", "a")]), "host of its own"), (made_of([("X", "")]), "name the host"),
+for wrong, message in ((made_of([("X", "a"), ("Y", "a")]), "host of its own"), (made_of([("X", "")]), "name the host"),
                     (made_of([("X", "a")], coordinator=""), "coordinator_host"), (make("/nothing"), "no such file"),
                     (made_of([("X", "a")], "--peers", peers=["10.0.0.1"]), "each of the 2 containers"),
                     (made_of([("X", "a")], "--peers", peers=["here", "there"]), "IPv4 address"),
                     (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.1.2"]), "all in 10.0.0.0/24"),
                     (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.0.200"]), "one half")):
-    expect(wrong.returncode != 0 and says in wrong.stderr and not wrong.stdout, f"refusal: {says}: {wrong.stderr}")
+    expect(wrong.returncode != 0 and message in wrong.stderr and not wrong.stdout, f"refusal: {message}: {wrong.stderr}")

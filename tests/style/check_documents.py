@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What documents say of the tree is there: links, files, folders, functions; README and ARCHITECTURE stay short.
+"""What documents name in the tree exists: links, files, folders, functions; README and ARCHITECTURE stay short.
 
 Usage: check_documents.py ROOT [--fix]
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What goes over the wire or into files does not change unnoticed: idl/fingerprints.txt has what each file says.
+"""What goes over the wire or into files does not change unnoticed: idl/fingerprints.txt has a fingerprint of each file.
 
 Usage: check_idl.py ROOT [--record]
 
-A fingerprint is of the file without comments and white space. Exits 1 where one differs, says which and what to decide
-(idl/README.md has the rules), or where the protocol's number is not the recorded one. --record writes the file anew.
+A fingerprint is of the file without comments and white space. Exits with 1 if one differs, and prints which one and what to decide
+(idl/README.md has the rules), or where the protocol's number is not the recorded one. --record writes the file again.
 """
 import argparse
 import hashlib
@@ -38,7 +38,7 @@ def breaches(recorded, now):
     for name in sorted(recorded.keys() | now.keys()):
         if recorded.get(name) == now.get(name):
             continue
-        what = "is new" if name not in recorded else "is gone" if name not in now else "says something else than recorded"
+        what = "is new" if name not in recorded else "is gone" if name not in now else "differs from the record"
         if name == "protocol":
             yield f"protocol: {now[name]}, recorded {recorded.get(name)}"
         else:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rules of the code that a machine can check: layers (check_layers.py), what core may not touch, sizes, format.
+"""The rules of the code that can be checked automatically: layers (check_layers.py), what core may not use, sizes, format.
 
 Usage: check_style.py ROOT    Prints each breach as file:line: what; exits 1 where there is one.
 """
@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 import check_layers  # noqa: E402
 
 SOURCES = ("core", "sim_fpga", "services", "clients", "tests")
-# Core is fed with messages and time: it does no I/O, starts no threads, reads no clocks.
+# Core receives messages and time: it does no I/O, starts no threads, reads no clocks.
 FORBIDDEN_IN_CORE = re.compile(
     r"#include <(chrono|thread|mutex|iostream|fstream|ctime|condition_variable|filesystem|unistd\.h|sys/.*)>"
     r"|clock_gettime|std::chrono|std::rand\b|random_device|spdlog")
@@ -44,7 +44,7 @@ def format_breaches(root, paths):
                             capture_output=True, text=True, check=False)
     for line in result.stderr.splitlines():
         if ": error:" in line:
-            yield line.replace(str(root) + "/", "") + " (clang-format -i mends it)"
+            yield line.replace(str(root) + "/", "") + " (clang-format -i corrects it)"
 
 
 def main():

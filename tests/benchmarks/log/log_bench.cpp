@@ -1,5 +1,5 @@
-// What reading a log costs, by the step and beside reading its bytes alone: three axes on a plate's diagonals, written
-// by the simulated machine.
+// The cost of reading a log, per step and compared with reading its bytes alone: three axes on diagonals of a plate,
+// recorded by the simulated machine.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -46,7 +46,7 @@ Program there_and_back() {
     return program;
 }
 
-/// Written once, and removed at the end.
+/// A log that is written once, and removed at the end.
 struct BenchLog {
     fs::path path = fs::temp_directory_path() / "lockstep-bench.lcm";
     std::int64_t steps = 0;

@@ -1,4 +1,4 @@
-// What planning costs: a move by itself, a move within a long path, and a frame of all axes with its tail.
+// The cost of planning: a single move, a move within a long path, and a frame of all axes with its tail.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ Axes mill(std::size_t n) {
             std::vector<double>(n, 80)};
 }
 
-/// A polyline of short segments, as arcs are made of.
+/// A polyline of short segments, like an arc.
 std::vector<PathMove> polyline(const Axes& axes, std::size_t count) {
     std::vector<PathMove> moves;
     AxisCounts at;

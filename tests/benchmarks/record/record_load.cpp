@@ -1,5 +1,5 @@
-// The recording part of one axis's process, in real time: steps at a constant rate, from a generator in the place of a
-// device, through the recorder to LCM and to the axis's own log. Says how many steps it gave.
+// The recording part of one axis process, in real time: a generator instead of a device makes steps at a constant
+// rate. They pass through the recorder to LCM and to the axis's own log. Prints the number of steps made.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>

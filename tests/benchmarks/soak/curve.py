@@ -1,4 +1,4 @@
-"""The samples as a picture: the memory of each process against clients, then jobs."""
+"""Draws the samples as a picture: the memory of each process during the clients, then during the jobs."""
 WIDTH, HEIGHT = 900, 420
 LEFT, RIGHT, TOP, BOTTOM = 70, 120, 30, 50
 COLOURS = ("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22", "#17becf")

@@ -1,4 +1,4 @@
-"""The machine under test, by the lockstep command alone."""
+"""The machine under test, controlled by the lockstep command alone."""
 import json
 import os
 import pathlib
@@ -40,7 +40,7 @@ class Machine:
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def call(self, *words):
-        """Whether it was done."""
+        """True: the job was completed."""
         ran = subprocess.run([self.lockstep, *words], env=self.environment, capture_output=True, text=True,
                              timeout=PATIENCE_S, check=False)
         self.last_words = (ran.stdout + ran.stderr).strip()
@@ -64,7 +64,7 @@ class Machine:
         self.call("down")
 
     def processes(self):
-        """Those running, by name."""
+        """The running processes by name."""
         lines = (self.state / "processes").read_text().splitlines()
         running = {name: int(pid) for name, pid, _ in map(str.split, lines) if int(pid) > 0}
         return running | ({"watch": self.watch.pid} if self.watch else {})
@@ -82,7 +82,7 @@ class Machine:
             time.sleep(0.2)
 
     def short_job(self, number):
-        """There and back: of each four a move of all axes, a program, and two moves of one axis by itself."""
+        """Moves back and forth: of every four jobs one moves all axes, one is a program, and two move a single axis."""
         place = 10 + number // 4 % 2
         if number % 4 == 0:
             return self.call("move", *(f"{axis}={place}" for axis in AXES))
@@ -93,11 +93,11 @@ class Machine:
         return self.call("run", str(job))
 
     def recover(self):
-        """After a job that a stalled host cut short."""
+        """Prepares the machine again after a stalled host interrupted a job."""
         self.call("reset")
         self.call("home")
         self.wait_until_idle()
 
     def files_kb(self):
-        """What its processes keep on the disk: logs, record, incidents."""
+        """The files of its processes: logs, record, incidents."""
         return sum(path.stat().st_size for path in pathlib.Path(self.state).rglob("*") if path.is_file()) // 1024

@@ -1,4 +1,4 @@
-"""What the machine's processes have, sampled."""
+"""Samples of the resources of the machine's processes."""
 import csv
 import dataclasses
 import os
@@ -12,7 +12,7 @@ SHARED = pathlib.Path("/dev/shm")
 class Sample:
     seconds: float
     phase: str
-    done: int  # clients or jobs of the phase so far
+    done: int  # number of clients or jobs of the phase until now
     process: str
     rss_anon_kb: int
     private_dirty_kb: int
@@ -58,7 +58,7 @@ class Samples:
         return [row for row in self.rows if row.process == process and row.phase == phase]
 
     def replaced_processes(self):
-        """A process that was started again says nothing of what stays behind in one."""
+        """A process that was restarted proves nothing about growth in one process."""
         now = self.machine.processes()
         return [f"{name} ended meanwhile" for name, pid in self.processes.items() if now.get(name) != pid]
 

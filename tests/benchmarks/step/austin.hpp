@@ -1,5 +1,5 @@
-// What a user would write first: David Austin's recurrence, "Generate stepper-motor speed profiles in real time", as
-// Arduino libraries have it: the next interval from the last one with a division per step, c -= 2c / (4n + 1).
+// The code that a user would write first: David Austin's recurrence, "Generate stepper-motor speed profiles in real
+// time", as in Arduino libraries: the next interval from the previous one with a division, c -= 2c / (4n + 1).
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a step costs where one process moves many axes, frame by frame: with each axis's engine in turn, and with all of
-// them in vectors. ns_per_tick is of one axis.
+// The cost of a step if one process moves many axes, frame by frame: with each axis's engine in turn, and with all
+// axes in vectors. ns_per_tick is for one axis.
 #include <vector>
 
 #include "core/step/engine.hpp"
@@ -10,7 +10,7 @@
 namespace lockstep::bench {
 namespace {
 
-/// Axes that each make `moves` moves of the same number of steps, each axis a little slower than the one before.
+/// Axes that each make `moves` moves of the same number of steps; each axis is slightly slower than the previous one.
 struct Machine {
     std::vector<StepEngine> engines;
     std::vector<std::vector<Piece>> moves;
@@ -42,7 +42,7 @@ struct Machine {
         }
         return moving;
     }
-    /// The ticks from first to last, of all axes together.
+    /// The ticks from first to last, summed over all axes.
     double ticks() const {
         double sum = 0;
         for (const StepEngine& engine : engines) { sum += static_cast<double>(engine.now().value); }

@@ -1,4 +1,4 @@
-// What the step benchmarks count.
+// The counters of the step benchmarks.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -8,7 +8,7 @@
 
 namespace lockstep::bench {
 
-/// Where the times of steps go: a step is computed when its time is in memory.
+/// The destination of step times: a step is computed when its time is in memory.
 class Times {
 public:
     void operator()(std::int64_t time) {
@@ -21,7 +21,7 @@ private:
     std::array<std::int64_t, 4096>::iterator next_ = ring_.begin();
 };
 
-/// Counters ns_per_step and ns_per_tick; `steps` and `ticks` are those of one iteration, of all axes together.
+/// Counters ns_per_step and ns_per_tick; `steps` and `ticks` are the sums over all axes in one iteration.
 inline void report_cost(benchmark::State& state, double steps, double ticks) {
     const auto nanoseconds_per = [](double total) {
         return benchmark::Counter(total * 1e-9,

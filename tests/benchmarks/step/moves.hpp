@@ -1,4 +1,4 @@
-// The moves that step generators are compared on, as trapezoids of whole ticks at 1 MHz.
+// The moves for the comparison of step generators, as trapezoids of whole ticks at 1 MHz.
 //   M1: 1,000,000 steps, 1,000 -> 100,000 steps/s at 25,000 steps/s^2.
 //   M2: 12,000 steps, 500 -> 6,000 steps/s at 4,200 steps/s^2 (Carrica's).
 //   M3: 100,000 moves of 20 steps with M2's limits: triangles.
@@ -13,7 +13,7 @@ namespace lockstep::bench {
 
 inline constexpr double kTicksPerSecond = 1e6;
 
-/// What is asked, in steps and seconds.
+/// The requirements of a move, in steps and seconds.
 struct Limits {
     std::int64_t steps = 0;
     double start_velocity = 0;
@@ -34,15 +34,15 @@ struct Trapezoid {
     double cruise = 0;
 
     double duration() const { return 2 * rise + cruise; }
-    /// When the position first is s.
+    /// The time at which the position first is s.
     double time_of(double s) const;
 };
 
-/// The fastest, unrounded.
+/// The fastest trapezoid, unrounded.
 Trapezoid continuous(const Limits& limits);
-/// The same in whole ticks, phases rounded up and the top speed lowered to make the steps exactly.
+/// The same in whole ticks: phases are rounded up, and the top speed is reduced to make the exact number of steps.
 Trapezoid in_whole_ticks(const Limits& limits);
-/// As the engine executes it; a triangle has two pieces.
+/// The pieces that the engine executes; a triangle has two.
 std::vector<Piece> pieces_of(const Trapezoid& plan);
 
 }  // namespace lockstep::bench

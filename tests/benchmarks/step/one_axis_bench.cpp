@@ -1,4 +1,4 @@
-// What a step of one axis costs in each form, and how far from its ideal time it falls.
+// The cost of a step of one axis in each form, and its distance from the ideal time.
 #include <algorithm>
 #include <cmath>
 #include <vector>

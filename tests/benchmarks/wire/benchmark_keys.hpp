@@ -1,4 +1,4 @@
-// Keys for the benchmark: protected as a machine's, but each side may send frames and receive them, which no role may.
+// Keys for the benchmark: protected like a machine's, but each side may send and receive frames, which no role may.
 #pragma once
 
 #include <filesystem>

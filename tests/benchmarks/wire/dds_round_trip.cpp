@@ -1,9 +1,10 @@
 // Half the time of a frame's way to another process and back, through DDS, translation and checks:
-//   dds_round_trip pong DOMAIN [KEYS]             sends back what it gets, until SIGTERM
+//   dds_round_trip pong DOMAIN [KEYS]             returns each frame, until SIGTERM
 //   dds_round_trip ping DOMAIN AXES COUNT [KEYS]  prints the median of COUNT half round trips in microseconds; AXES: 3,
 //   32 dds_round_trip match DOMAIN COUNT [KEYS]      prints how many milliseconds it takes to find COUNT pongs
 //   dds_round_trip profile                        prints the DDS profile all use, for ddsperf to use the same
-//   dds_round_trip keys DOMAIN KEYS               makes keys, in a new directory, with which each may say what both say
+//   dds_round_trip keys DOMAIN KEYS               makes keys in a new directory; each side may send what both sides
+//   send
 // With KEYS: with DDS Security.
 #include <algorithm>
 #include <cstdio>
@@ -25,7 +26,7 @@ using namespace std::chrono_literals;
 
 constexpr const char* kMachine = "benchmark";
 
-/// Answers on a thread of DDS, as soon as a frame comes.
+/// Answers on a DDS thread, as soon as a frame arrives.
 int pong(const NetworkConfig& network, const Membership& membership) {
     auto participant = Participant::open(network, kMachine, membership);
     if (!participant) { return 1; }
@@ -47,7 +48,7 @@ public:
     Ping(Participant& participant, Frame frame)
         : frame_(std::move(frame)), writer_(participant), reader_(participant, [this] { answered(); }) {}
 
-    /// Half round trips in microseconds. Empty: nobody answered.
+    /// Half round trips in microseconds. Empty: no answer.
     std::vector<double> measure(std::size_t count) {
         while (writer_.matched() == 0 || reader_.matched() == 0) { std::this_thread::sleep_for(10ms); }
         std::this_thread::sleep_for(300ms);  // the other side has matched too
@@ -61,7 +62,7 @@ private:
         sent_ = monotonic_now();
         writer_.write(frame_);
     }
-    /// On a thread of DDS: the next frame leaves from here.
+    /// On a DDS thread: sends the next frame.
     void answered() {
         if (wanted_ == 0 || reader_.take([](Frame&&) {}) == 0) { return; }
         halves_.push_back(std::chrono::duration<double, std::micro>(monotonic_now() - sent_).count() / 2);
@@ -108,7 +109,7 @@ int ping(const NetworkConfig& network, bool many_axes, std::size_t count, const 
 
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    lockstep::forward_dds_log([](const std::string&) {});  // standard error is the script's
+    lockstep::forward_dds_log([](const std::string&) {});  // the script reads standard error
     lockstep::NetworkConfig network;
     if (words == std::vector<std::string>{"profile"}) { return std::puts(lockstep::dds_profile(network)->c_str()) < 0; }
     if (words.size() < 2) { return 2; }

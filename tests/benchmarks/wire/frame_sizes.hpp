@@ -1,4 +1,4 @@
-// The frames that are measured: about 2 KB on the wire, for a machine of 3 axes and for one of 32.
+// The measured frames: about 2 KB on the wire, for a machine of 3 axes and for one of 32.
 #pragma once
 
 #include "core/protocol/messages.hpp"

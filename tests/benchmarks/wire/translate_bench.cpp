@@ -1,4 +1,4 @@
-// What translating and checking a frame costs, without the network.
+// The cost of translating and checking a frame, without the network.
 #include <benchmark/benchmark.h>
 
 #include "services/wire/translate/translate.hpp"

@@ -31,7 +31,7 @@ TEST(CarricaFigure6, TwelveThousandStepsFrom500To6000With800ns) {
     EXPECT_LE(top, 6'000 * (1 + 1e-9));
     EXPECT_GT(top, 6'000 - carrica_speed_gap(6'000, 800e-9));
     EXPECT_NEAR(found.back(), 500, 20);
-    EXPECT_NEAR(train->times_s.back(), Ideal(kFigure6).duration_s(), 0.005);  // each speed is rounded down
+    EXPECT_NEAR(train->times_s.back(), Ideal(kFigure6).duration_s(), 0.005);  // the method rounds each speed down
 }
 
 TEST(CarricaFigure8, NearTheTopSpeedsAreAbout1000StepsPerSecondApartAndTheRippleIsUnder5Percent) {
@@ -54,7 +54,7 @@ TEST(CarricaEquation10, TheGapIsAboutTheSquareOfTheSpeedTimesTheClock) {
     EXPECT_NEAR(carrica_speed_gap(50'000, 400e-9), 1'000, 50);  // 2 %
     EXPECT_NEAR(carrica_speed_gap(1 / 60e-6, 6e-6), 1'515, 1);  // the software form around 15,000 steps/s:
     EXPECT_NEAR(carrica_speed_gap(1 / 66e-6, 6e-6), 1'263, 1);  // from 16,667 to 15,152 to 13,889
-    EXPECT_NEAR(carrica_speed_gap(6'000, 800e-9), 28.6, 0.5);   // Fig. 6: hardly to be seen
+    EXPECT_NEAR(carrica_speed_gap(6'000, 800e-9), 28.6, 0.5);   // Fig. 6: hardly visible
 }
 
 TEST(CarricaSoftware, With6usTheStepsNear15000PerSecondComeInSpeeds1500Apart) {
@@ -77,7 +77,7 @@ TEST(CarricaEquation11, ASpeedWhosePeriodIsAWholeNumberOfClocksGetsExactlyThat) 
     }
 }
 
-TEST(CarricaLimits, WhatItCannotDoIsRefusedByName) {
+TEST(CarricaLimits, RefusesImpossibleMovesWithAReason) {
     EXPECT_NE(carrica({100, 500, 6'000, 4'200, 8'400}, Fit::Exact).error().find("no deceleration of its own"),
               std::string::npos);
     EXPECT_NE(carrica({100, 0, 6'000, 4'200, 4'200}, Fit::Exact).error().find("at rest"), std::string::npos);

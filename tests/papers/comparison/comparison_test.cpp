@@ -1,4 +1,4 @@
-// The five methods side by side: what is measured is what was made.
+// Compares the five methods: checks that the measurements match the steps made.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST(Comparison, TheComparatorIsNeverAheadOfItsReferenceAndLateByItsQuantisation
     EXPECT_LE(carrica.peak_speed, 6'000);
 }
 
-TEST(Comparison, WhatAMethodCannotExpressIsSaid) {
+TEST(Comparison, ReportsWhatAMethodCannotExpress) {
     const std::string text = to_text(standard());
     EXPECT_NE(text.find("spielauer: knows no start speed"), std::string::npos);
     EXPECT_NE(text.find("lai: has whole pulses"), std::string::npos);
@@ -53,7 +53,7 @@ TEST(Comparison, WhatAMethodCannotExpressIsSaid) {
     EXPECT_EQ(text.find("ranade: "), std::string::npos);
 }
 
-TEST(Comparison, AMethodThatRefusesIsARowAndNoCurve) {
+TEST(Comparison, AMethodThatRefusesHasARowButNoCurve) {
     const Comparison comparison = compare({1'000, 0, 100'000, 50'000, 50'000}, methods::methods());
     EXPECT_NE(to_text(comparison).find("refused"), std::string::npos);
     EXPECT_EQ(comparison_figure(comparison).rows.size(), 1U + 4U);
@@ -97,7 +97,7 @@ TEST(MoveText, AMoveIsReadWithOrWithoutItsDeceleration) {
     EXPECT_EQ(move_text(*parse_move("12000,500,6000,4200")), "12000 steps, 500 to 6000 steps/s, 4200 steps/s²");
 }
 
-TEST(MoveText, WhatIsNoMoveIsRefusedWithAnExample) {
+TEST(MoveText, RefusesInvalidTextWithAnExample) {
     for (const char* text : {"", ",", "1,2,3", "1,2,3,4,5,6", "x,0,1,1", "1.5,0,1,1", "1,0,1,1x", "0,0,1,1", "1,5,1,1",
                              "1,0,nan,1", "1,0,inf,1", "1,0,1,-1", "99999999999,0,1,1"}) {
         const auto move = parse_move(text);

@@ -35,7 +35,7 @@ TEST(LaiFigure3, EveryPeriodMakesExactlyItsPulses) {
 
 constexpr std::int64_t kPulsesPerUnit = 100;
 
-/// How far the line from (from, 0) to (5, 5) is left.
+/// The largest deviation from the line from (from, 0) to (5, 5).
 double deviation(std::int64_t from, LaiPulses how) {
     const PeriodPulses end{(5 - from) * kPulsesPerUnit, 5 * kPulsesPerUnit};
     const auto periods = plan_two_axes(end, {}, LaiRounding::FromTheStart, {});
@@ -47,7 +47,7 @@ TEST(LaiFigure15, WithTheDdaEveryLineStaysWithinAPulseAndAHalf) {
     for (std::int64_t from = 0; from <= 5; ++from) { EXPECT_LT(deviation(from, LaiPulses::Spread), 1.5) << from; }
 }
 
-TEST(LaiFigure14, WithoutItEveryLineThatIsNotAlongAnAxisIsLessStraight) {
+TEST(LaiFigure14, WithoutTheDdaEveryLineThatIsNotAlongAnAxisIsLessStraight) {
     for (std::int64_t from = 0; from <= 4; ++from) {
         EXPECT_GT(deviation(from, LaiPulses::AtOnce), deviation(from, LaiPulses::Spread)) << from;
     }
@@ -73,7 +73,7 @@ TEST(LaiMethod, AMoveOfItsOwnKindIsMadeExactly) {
     EXPECT_NEAR(train->times_s[2'000] - train->times_s[1'999], period_s / 4, 1e-9);
 }
 
-TEST(LaiMethod, WhatItCannotDoIsRefusedByName) {
+TEST(LaiMethod, RefusesImpossibleMovesWithAReason) {
     const StepMove move{12'000, 500, 6'000, 4'200, 4'200};
     EXPECT_NE(lai(move, Fit::Exact).error().find("whole pulses"), std::string::npos);
     EXPECT_FALSE(lai({12'000, 0, 60'000, 4'200, 4'200}, Fit::Nearest).has_value());  // 390 pulses do not fit 8 bits

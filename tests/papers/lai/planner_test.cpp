@@ -75,7 +75,7 @@ TEST(LaiFigure7, TheDerivativeLimitRemovesTheSuddenChange) {
     EXPECT_EQ(total(periods), (PeriodPulses{25, 20}));
 }
 
-/// Where the compensations end, for every pair of lengths up to 60 and both roundings.
+/// Checks the end of the compensations for every pair of lengths up to 60 and both roundings.
 TEST(LaiCompensations, EveryLineEndsExactlyAndNoSpeedChangesByMoreThanOne) {
     for (const LaiRounding rounding : {LaiRounding::InEachPeriod, LaiRounding::FromTheStart}) {
         for (std::int64_t x = 0; x <= 60; ++x) {

@@ -9,7 +9,7 @@
 namespace lockstep::methods {
 namespace {
 
-/// The slide: the head's place in pulses, a switch at either end.
+/// The slide: the position of the head in pulses, and a switch at each end.
 struct Slide {
     std::int64_t head = 0;
     std::int64_t left_switch = 0;
@@ -23,7 +23,7 @@ struct Slide {
 
 constexpr int kLongest = 1'000'000;  // clocks a test waits for a state
 
-/// Runs until the state is reached; false where it is not.
+/// Runs until the state is reached; false: it is not reached.
 bool run_until(LamController& controller, Slide& slide, LamState state) {
     for (int i = 0; i < kLongest && controller.state() != state; ++i) {
         slide.follow(controller.clock(slide.inputs()));
@@ -38,7 +38,7 @@ void ask_for(LamController& controller, Slide& slide, std::int64_t destination) 
     slide.follow(controller.clock(inputs));
 }
 
-/// The waits before each pulse of a move from 0 in the order they come, and the state each was waited in.
+/// The waits before each pulse of a move from 0 in their order, with the state of each.
 struct Wait {
     std::int64_t counts;
     LamState state;
@@ -116,7 +116,7 @@ TEST(LamFigure3, ADestinationToTheLeftOfThePresentOneIsReachedToo) {
     }
 }
 
-/// Drives into a switch, and expects pulses to stop at once and the axis to find its origin again.
+/// Drives into a switch. The pulses must stop at once, and the axis must find its origin again.
 void expect_recovery(std::int64_t from, std::int64_t destination, const Slide& at) {
     LamController controller = LamController::standing_at(from);
     Slide slide = at;
@@ -140,10 +140,11 @@ TEST(LamFigure3, TheRightLimitStopsPulsesAtOnceAndAfterADelayTheAxisInitializes)
 }
 
 TEST(LamFigure3, TheLeftLimitStopsPulsesAtOnceAndAfterADelayTheAxisInitializes) {
-    expect_recovery(200, 20, {.left_switch = 100});  // the count was wrong: the switch is nearer than it says
+    expect_recovery(200, 20,
+                    {.left_switch = 100});  // the count was wrong: the switch is nearer than the count indicates
 }
 
-TEST(LamMethod, WhatItCannotDoIsRefusedByNameOrMadeNearly) {
+TEST(LamMethod, RefusesOrApproximatesImpossibleMovesWithAReason) {
     const StepMove move{328, 100, 1'667, 4'200, 4'200};
     EXPECT_NE(lam(move, Fit::Exact).error().find("no acceleration to choose"), std::string::npos);
     const auto train = lam(move, Fit::Nearest);

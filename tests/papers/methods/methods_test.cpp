@@ -1,4 +1,4 @@
-// What all five methods have in common: every step asked for is made, in order, and each says what it changed.
+// The common properties of all five methods: each makes every required step, in order, and reports what it changed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST(EveryMethod, RefusesExactlyWhereItWouldChangeTheMove) {
     }
 }
 
-TEST(EveryMethod, RefusesWhatIsNoMove) {
+TEST(EveryMethod, RefusesAnInvalidMove) {
     const double nan = std::nan("");
     for (const StepMove& move :
          {StepMove{0, 0, 1, 1, 1}, StepMove{-5, 0, 1, 1, 1}, StepMove{1, 2, 1, 1, 1}, StepMove{1, 0, 0, 1, 1},
@@ -65,7 +65,7 @@ TEST(Ranade, FollowsTheIdealWithinThreeTicks) {
     }
 }
 
-TEST(Ideal, PlacesAreReachedWhenTheirSpeedsSay) {
+TEST(Ideal, PositionsAreReachedAtTheTimesOfTheirSpeeds) {
     const Ideal ideal({4'000, 0, 1'000, 1'000, 1'000});
     EXPECT_DOUBLE_EQ(ideal.peak(), 1'000);
     EXPECT_DOUBLE_EQ(ideal.duration_s(), 5);

@@ -34,7 +34,7 @@ TEST(RanadeFigure3, EighteenHundredStepsAreNoTriangleButATrapezoid) {
     EXPECT_LT(acceleration(*profile), 25'000);
 }
 
-TEST(RanadePlanning, TwoThousandStepsAreInfeasibleAndTheCallerHearsOfThe1860ThatAreNot) {
+TEST(RanadePlanning, TwoThousandStepsAreInfeasibleAndTheErrorNamesThe1860ThatAreFeasible) {
     const auto profile = plan(2'000);
     ASSERT_FALSE(profile.has_value());
     EXPECT_NEAR(profile.error().longest.as_steps(), 1'860, 0.01);  // 2 * 0.16 s * 3,000/s + 0.18 s * 5,000/s

@@ -1,11 +1,11 @@
 // P. Ranade, "Linear motor control without the math", Table 1: at 0.2 steps/s, checked once a second, a pulse falls
 // after 5, 10, 15, 20 and 25 seconds. Here a tick is one of the paper's seconds.
 //
-// Two conventions make the paper's table come out of the engine:
-// - The paper steps where a whole step has been covered; the engine where a half is crossed. Starting half a step
-//   behind (phase 0) turns one into the other.
-// - 0.2 is no binary fraction. Rounded up, five ticks cover a hair more than a step and the difference "is >= 1", as in
-//   the table; rounded down, every pulse would come a second late.
+// Two conventions lead from the paper's table to the engine:
+// - The paper steps when a whole step is complete; the engine when it crosses a half. A start half a step
+//   behind (phase 0) converts one into the other.
+// - 0.2 is not a binary fraction. Rounded up, five ticks cover slightly more than a step and the difference "is >= 1",
+//   as in the table; rounded down, every pulse would come a second late.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Pieces made for given ticks make each step at exactly that tick, forward and backward.
+// Pieces made for given ticks make each step at exactly this tick, forward and backward.
 #include "core/axis/own_moves/step_pieces.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<Piece> pieces_for(const std::vector<double>& steps, std::size_t cut_
     return pieces;
 }
 
-/// What the engine makes of the pieces, from rest on a whole step.
+/// The steps that the engine makes from the pieces, starting at rest on a whole step.
 std::vector<Ticks> steps_of(const std::vector<Piece>& pieces, bool backward, Position& end) {
     StepEngine engine(Tick{0}, rest_position(7, backward));
     std::vector<Ticks> steps;

@@ -1,4 +1,4 @@
-// Offsets of seconds, rates 100 ppm apart, delays of their own each way, losses: the bound holds, and is narrow.
+// Offsets of seconds, rates 100 ppm apart, different delays each way, losses: the bound holds and is narrow.
 #include "core/clock/clock_estimator.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(ClockEstimator, TheRateIsFound) {
     }
 }
 
-TEST(ClockEstimator, WithoutExchangesTheBoundGrowsByWhatDriftMayAdd) {
+TEST(ClockEstimator, WithoutExchangesTheBoundGrowsWithThePossibleDrift) {
     TwoClocks clocks(7);
     ClockEstimator estimator(kTick_ns);
     for (int i = 0; i < 200; ++i) { estimator.take(clocks.exchange()); }
@@ -67,7 +67,7 @@ TEST(ClockEstimator, WithoutExchangesTheBoundGrowsByWhatDriftMayAdd) {
     EXPECT_LE(grown, 2 * 720'000);
 }
 
-TEST(ClockEstimator, AClockThatIsSetWidensTheBoundUntilASecondExchangeSaysTheSame) {
+TEST(ClockEstimator, AClockThatIsSetWidensTheBoundUntilASecondExchangeConfirmsIt) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         TwoClocks clocks(seed);
         ClockEstimator estimator(kTick_ns);
@@ -84,7 +84,7 @@ TEST(ClockEstimator, AClockThatIsSetWidensTheBoundUntilASecondExchangeSaysTheSam
     }
 }
 
-TEST(ClockEstimator, AnExchangeThatCannotBeIsLeftOut) {
+TEST(ClockEstimator, IgnoresAnImpossibleExchange) {
     ClockEstimator estimator(kTick_ns);
     estimator.take({.sent = {100}, .received = {500}, .answered = {499}, .arrived = {110}});
     estimator.take({.sent = {100}, .received = {500}, .answered = {501}, .arrived = {90}});

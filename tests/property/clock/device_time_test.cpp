@@ -1,4 +1,4 @@
-// Frames on a device's own clock: in step with machine time within the error said, and never hurried to get there.
+// Frames on a device's own clock: they keep machine time within the reported error, without exceeding speed limits.
 #include "core/axis/device_time.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ Tick device_shows(Tick own) {
     return Tick{12'345} + Ticks{std::llround(static_cast<double>(own.value) * (1 + kDeviceDrift))};
 }
 
-/// 25 mm/s at 400 steps/mm, as fast as that in 83 ms.
+/// 25 mm/s at 400 steps/mm, reached in 83 ms.
 AxisConfig screw() {
     return {.name = "Z",
             .steps_per_mm = 400,
@@ -29,7 +29,7 @@ AxisConfig screw() {
             .max_decel_mm_s2 = 300};
 }
 
-/// Frames that follow each other on one machine, each loaded while the one before it runs.
+/// Frames that follow each other on one machine; each is loaded while the previous one runs.
 class LoadedFrames {
 public:
     explicit LoadedFrames(std::uint64_t seed) : clocks_(seed) {
@@ -44,7 +44,7 @@ public:
         start_ = time_->now() + Ticks{300'000};
     }
 
-    /// A frame of any length; how it came to the device.
+    /// Loads a frame of any length and returns the device's track.
     ExecutedTrack load() {
         look(true);
         while (time_->now() < start_ - Ticks{300'000}) { look(true); }
@@ -58,7 +58,7 @@ public:
         return time_->in_device_time(track);
     }
 
-    /// The long tail of one more frame: how it came to the device.
+    /// Loads the long tail of one more frame and returns the device's track.
     ExecutedTrack come_to_rest() {
         const Ticks body{50'000};
         const Ticks tail{12'000'000};
@@ -72,7 +72,7 @@ public:
     }
 
     double drift() const { return clocks_.drift(); }
-    /// Of the device's clock at a machine time, by the clocks as they are.
+    /// The time of the device's clock at a machine time.
     Tick device_at(Tick machine) const { return device_shows(clocks_.own(static_cast<double>(machine.value))); }
 
 private:
@@ -89,7 +89,7 @@ private:
     Tick start_;
 };
 
-TEST(DeviceTime, AFrameIsWithinTheErrorSaidHoweverTheClocksGo) {
+TEST(DeviceTime, AFrameIsWithinTheReportedErrorForAnyClocks) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         LoadedFrames frames(seed);
         frames.begin();
@@ -101,7 +101,7 @@ TEST(DeviceTime, AFrameIsWithinTheErrorSaidHoweverTheClocksGo) {
     }
 }
 
-TEST(DeviceTime, SoIsTheEndOfALongTail) {
+TEST(DeviceTime, TheEndOfALongTailIsWithinTheReportedError) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         LoadedFrames frames(seed);
         frames.begin();
@@ -112,7 +112,7 @@ TEST(DeviceTime, SoIsTheEndOfALongTail) {
     }
 }
 
-TEST(DeviceTime, AShortFrameIsNotHurriedToMakeUpForALongOne) {
+TEST(DeviceTime, AShortFrameIsNotAcceleratedToCorrectALongOne) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         LoadedFrames frames(seed);
         frames.begin();

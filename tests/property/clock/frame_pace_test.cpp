@@ -1,5 +1,5 @@
-// Random moves at an axis's limits, in frames of any length, while what is known of the clocks changes at random: by
-// the device's clock no step breaks a limit, none is lost, and errors go.
+// Random moves at an axis's limits, in frames of any length, while the clock estimate changes at random: by
+// the device's clock no step breaks a limit, no step is lost, and clock errors are corrected.
 #include "core/axis/device/frame_pace.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// Of one axis, whose step is its mm.
+/// A machine of one axis with steps of 1 mm.
 MachineConfig random_machine(Random& random) {
     const double top = random.magnitude(300, 80'000);
     const double start = random.magnitude(std::min(30.0, top / 3), std::min(top, 3000.0));
@@ -53,7 +53,7 @@ Piece ramp(double from, double to, double most) {
         {std::llround(ticks)}, {std::llround((from + change / 2 - change) * 0x1p64)}, {std::llround(change * 0x1p64)}};
 }
 
-/// From the start velocity up to a random speed, on at that speed, and back.
+/// From the start velocity up to a random speed, on at this speed, and back.
 std::vector<Piece> random_move(Random& random, const AxisLimits& limits) {
     const double top =
         random.chance(0.5) ? limits.max_velocity : random.real(limits.start_velocity, limits.max_velocity);
@@ -62,7 +62,7 @@ std::vector<Piece> random_move(Random& random, const AxisLimits& limits) {
     return {up, {{random.ticks(1, 400'000)}, {std::llround(top * 0x1p64)}, {}}, down};
 }
 
-/// The first ticks of pieces, which are taken from them.
+/// Removes the first ticks from the pieces and returns them.
 Body take_frame(std::vector<Piece>& pieces, Ticks ticks, Random& random) {
     Body body;
     while (ticks.value > 0 && !pieces.empty() && !body.full()) {
@@ -79,12 +79,12 @@ Body take_frame(std::vector<Piece>& pieces, Ticks ticks, Random& random) {
     return body;
 }
 
-/// What is known of the clocks: a rate that changes, and steps where an exchange has told more.
+/// The clock estimate: a rate that changes, and jumps where an exchange has given more precise values.
 class Known {
 public:
     explicit Known(Random& random) : random_(random), rate_(random.real(-200e-6, 200e-6)) {}
 
-    /// Where the device's clock will be after so many more ticks of machine time.
+    /// The time of the device's clock after this number of machine ticks.
     Tick goes_on(Ticks machine, bool quiet) {
         if (!quiet && random_.chance(0.3)) { rate_ = std::clamp(rate_ + random_.real(-50e-6, 50e-6), -200e-6, 200e-6); }
         if (!quiet && random_.chance(0.3)) { device_ += random_.real(-300, 300); }
@@ -110,7 +110,7 @@ void make_steps(const Pieces& pieces, StepEngine& engine, std::vector<Tick>& ste
     }
 }
 
-/// From nothing but the ticks of steps; a tick's rounding at either end, and half of one at either end of a frame.
+/// Uses only the ticks of steps; allows a tick of rounding at each end, and half a tick at each end of a frame.
 void expect_within_limits(const std::vector<Tick>& steps, const AxisLimits& limits) {
     constexpr double kRounding = 2;
     constexpr double kDoubles = 1 + 1e-6;
@@ -138,7 +138,7 @@ class RandomMove {
 public:
     explicit RandomMove(std::uint64_t seed) : random_(seed), machine_(random_machine(random_)), known_(random_) {}
 
-    /// Frame by frame; at a random one it is left for the tail.
+    /// Frame by frame; a random frame is followed by the tail.
     void run() {
         const AxisLimits planned = frame_limits_of(machine_, 0);
         const Ticks frame{random_.ticks(2000, 230'000)};
@@ -197,7 +197,7 @@ private:
     Displacement planned_;
 };
 
-TEST(FramePace, WhateverIsCorrectedEveryStepKeepsTheLimitsByTheDevicesClock) {
+TEST(FramePace, EveryStepKeepsTheLimitsByTheDevicesClockDuringCorrections) {
     std::size_t steps = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         RandomMove move(seed);
@@ -210,14 +210,14 @@ TEST(FramePace, WhateverIsCorrectedEveryStepKeepsTheLimitsByTheDevicesClock) {
     EXPECT_GT(steps, 500'000U);
 }
 
-TEST(FramePace, AnErrorGoesWithoutOvershoot) {
+TEST(FramePace, AnErrorIsCorrectedWithoutOvershoot) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Random random(seed);
         const MachineConfig machine = random_machine(random);
         const Ticks frame{random.ticks(2000, 230'000)};
         FramePace pace(frame, limits_of(machine.axes[0], machine.tick_ns));
         Known known(random);
-        pace.begin(known.then({}) + Ticks{random.ticks(20, 400)}, known.rate());  // late by so much
+        pace.begin(known.then({}) + Ticks{random.ticks(20, 400)}, known.rate());  // this much late
         std::int64_t late = 400;
         for (int i = 0; i < 20'000'000 / frame.value; ++i) {
             const Tick asked = known.goes_on(frame, true);

@@ -1,4 +1,4 @@
-// The machine time an axis goes by: within its bound of the coordinator's, never backwards, never set while in use.
+// The machine time of an axis: within its bound of the coordinator's, never backwards, never set while in use.
 #include "core/clock/machine_time.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(MachineTime, IsWithinItsBound) {
     }
 }
 
-TEST(MachineTime, NeverGoesBackwardsThoughTheClockBeneathItIsSet) {
+TEST(MachineTime, NeverGoesBackwardsWhenTheUnderlyingClockIsSet) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         TwoClocks clocks(seed);
         MachineTime time(kTick_ns);

@@ -1,4 +1,4 @@
-// Random motion for a device whose clock differs: every end is met bit for bit, each step within two ticks.
+// Random motion for a device whose clock differs: every end is exact in every bit, each step within two ticks.
 #include "core/axis/device/retime.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using Body = StaticVector<Piece, kMaxBodyPieces + 1>;
 
-/// What a frame has: phases of constant acceleration, some of a single tick.
+/// The content of a frame: phases of constant acceleration, some of a single tick.
 Body random_body(std::mt19937_64& random) {
     const auto real = [&](double least, double most) { return std::uniform_real_distribution(least, most)(random); };
     Body body;
@@ -87,7 +87,7 @@ TEST(Retime, AClockOfTheSameRateChangesNothing) {
     }
 }
 
-/// An estimate has become better by a hundredth of the frame, and the first piece is shorter than that.
+/// An estimate has improved by a hundredth of the frame, and the first piece is shorter than that.
 TEST(Retime, ACorrectionIsSpreadOverTheWholeFrame) {
     Body body;
     for (const std::int64_t ticks : {50, 5000, 50, 4900}) {

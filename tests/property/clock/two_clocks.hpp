@@ -1,4 +1,4 @@
-// A clock that differs from the coordinator's, and a network between them. True time is the coordinator's.
+// A clock that differs from the coordinator's, and the network between them. True time is the coordinator's.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ public:
     static Tick coordinator(double truth) { return {static_cast<std::int64_t>(std::floor(truth))}; }
     void step(double ticks) { offset_ += ticks; }
 
-    /// The next exchange that is not lost; true time goes on to its arrival.
+    /// The next exchange that is not lost; true time advances to its arrival.
     ClockExchange exchange() {
         do { truth_ += real(20'000, 100'000); } while (real(0, 1) < loss_);
         ClockExchange result{.sent = own(truth_)};
@@ -44,7 +44,7 @@ public:
     double real(double least, double most) { return std::uniform_real_distribution(least, most)(random_); }
 
 private:
-    /// Mostly short, at times long.
+    /// A delay that is mostly short, and sometimes long.
     double delay(double spread) {
         const double x = real(0, 1);
         return delay_least_ + spread * x * x * x;

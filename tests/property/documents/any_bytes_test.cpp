@@ -1,4 +1,4 @@
-// No bytes bring a document's reader down; what it takes is valid, and what it refuses it can say.
+// No bytes make the reader of a document fail; an accepted document is valid, and a refused one has an error text.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -36,7 +36,7 @@ void check_machine(const std::string& text) {
 
 RC_GTEST_PROP(DocumentsOfAnyBytes, AMachineIsReadOrRefused, (const std::string& text)) { check_machine(text); }
 
-/// Bytes overwritten, taken away or put in; digits more often than others, so that values go wrong and not only syntax.
+/// Overwrites, removes or inserts bytes; digits more often, so that not only the syntax but also values are wrong.
 RC_GTEST_PROP(DocumentsOfAnyBytes, AChangedMachineIsValidOrRefused, ()) {
     std::string text = example();
     const auto changes = *rc::gen::inRange(1, 5);
@@ -53,7 +53,7 @@ RC_GTEST_PROP(DocumentsOfAnyBytes, AChangedMachineIsValidOrRefused, ()) {
     check_machine(text);
 }
 
-/// One number of the example becomes any number.
+/// Replaces one number of the example by any number.
 RC_GTEST_PROP(DocumentsOfAnyBytes, AMachineOfAnyNumbersIsValidOrRefused, ()) {
     std::string text = example();
     const auto keys = static_cast<std::size_t>(std::ranges::count(text, ':'));

@@ -1,4 +1,4 @@
-// No bytes, however wrong, bring the reader down or get past its limits; and the same bytes read the same.
+// No bytes make the reader fail or exceed its limits; the same bytes give the same result.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,7 +33,7 @@ void check_block(const Block& block) {
     }
 }
 
-/// Either a program within travel, or errors with a place in the text.
+/// The result is either a program within travel, or errors with a place in the text.
 void check(const std::string& text) {
     const auto result = parse_gcode(text, setup());
     if (!result) {
@@ -47,7 +47,7 @@ void check(const std::string& text) {
     for (const Block& block : result->blocks) { check_block(block); }
 }
 
-/// An axis word, or none; small enough that most programs of them stay within travel, however modes add them up.
+/// An axis word, or none. It is so small that most programs stay within travel, whatever modes they use.
 rc::Gen<std::string> word(char letter, int min, int max) {
     return rc::gen::map(rc::gen::inRange(min, max), [letter](int tenths) {
         return tenths % 3 == 0 ? "" : " " + std::string(1, letter) + std::to_string(tenths / 10.0);
@@ -72,7 +72,7 @@ rc::Gen<std::string> program() {
     });
 }
 
-/// Overwrites, takes away or puts in bytes anywhere.
+/// Overwrites, removes or inserts bytes anywhere.
 std::string mutated(std::string text) {
     const auto count = *rc::gen::inRange<std::size_t>(1, 8);
     for (std::size_t i = 0; i < count && !text.empty(); ++i) {
@@ -93,13 +93,13 @@ RC_GTEST_PROP(GcodeOfAnyBytes, ProgramsKeepWithinTravelOrAreRefused, ()) { check
 
 RC_GTEST_PROP(GcodeOfAnyBytes, MutatedProgramsAreReadOrRefused, ()) { check(mutated(*program())); }
 
-/// Bytes that rarely make words by chance do so here.
-RC_GTEST_PROP(GcodeOfAnyBytes, SoupsOfItsOwnCharactersAreReadOrRefused, ()) {
+/// Random bytes rarely form words; these characters do.
+RC_GTEST_PROP(GcodeOfAnyBytes, RandomTextOfItsOwnCharactersIsReadOrRefused, ()) {
     check(*rc::gen::container<std::string>(rc::gen::elementOf(std::string("GMNFPXYC0129.-+/%;() \t\r\n"))));
 }
 
-/// Absolute and relative tell of the same place.
-RC_GTEST_PROP(GcodeOfAnyBytes, RelativeMovesReachWhatAbsoluteOnesDo, ()) {
+/// Absolute and relative moves reach the same position.
+RC_GTEST_PROP(GcodeOfAnyBytes, RelativeAndAbsoluteMovesReachTheSamePositions, ()) {
     const auto places = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 200)));
     std::string absolute = "G0\n";
     std::string relative = "G91 G0\n";

@@ -1,4 +1,4 @@
-// What a path promises when feed and rapid are turned while it is run: all that it promised before, in bodies and
+// The promises of a path when the feed and rapid overrides change while it runs: the same as before, in bodies and
 // tails.
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-/// A dial is turned now and then; frames of random length are made as a coordinator makes them.
+/// The overrides change sometimes; frames of random length are made like those of a coordinator.
 struct TurnedRun {
     Random random;
     Machine machine;
@@ -52,7 +52,7 @@ void expect_tail(const TurnedRun& run, PathLimitWatch watch, Ticks from) {
     ASSERT_NO_FATAL_FAILURE(watch.expect_rest());
 }
 
-TEST(Overrides, TurnedAtAnyTimeKeepEveryLimitInBodiesAndTailsAndEndInTheSamePlace) {
+TEST(Overrides, ChangedAtAnyTimeKeepEveryLimitInBodiesAndTailsAndEndAtTheSamePosition) {
     int turned = 0;
     int done = 0;
     for (std::uint64_t seed = 0; seed < 600; ++seed) {
@@ -75,7 +75,7 @@ TEST(Overrides, TurnedAtAnyTimeKeepEveryLimitInBodiesAndTailsAndEndInTheSamePlac
         turned += run.turned;
         done += run.done;
     }
-    EXPECT_GT(done, turned * 3 / 4);  // the rest were turned again, or the path had ended, before there was a way
+    EXPECT_GT(done, turned * 3 / 4);  // the others changed again, or the path ended, before a change was possible
 }
 
 TEST(Overrides, NoneLeaveThePathAsFastAsItWas) {

@@ -1,4 +1,4 @@
-// What every plan promises, on random moves and machines with fixed seeds.
+// The promises of every plan, on random moves and machines with fixed seeds.
 #include <gtest/gtest.h>
 
 #include <cmath>

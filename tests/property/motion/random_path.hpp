@@ -1,4 +1,4 @@
-// Random machines and moves for what every plan promises, and a watch over what its pieces ask of the axes.
+// Random machines and moves for the promises of every plan, and a check of the requirements of its pieces on the axes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ inline std::vector<PathMove> random_moves(Random& random, const Machine& m, std:
 
 inline constexpr PathBounds kBounds{Ticks{400}, 24};
 
-/// Where the axes stand and how fast they are: checks every limit of each as it follows its pieces.
+/// The positions and speeds of the axes: checks every limit of each axis as it follows its pieces.
 class PathLimitWatch {
 public:
     PathLimitWatch(const Machine& machine, const Path& path) : limits_(machine.limits), axes_(machine.limits.size()) {
@@ -74,7 +74,7 @@ public:
         return places;
     }
 
-    /// Follows a path's ticks [begin, end).
+    /// Follows the ticks [begin, end) of a path.
     void follow(const Path& path, Ticks begin, Ticks end) {
         std::vector<Piece> pieces(axes_.size());
         std::vector<Position> cursor = at();

@@ -1,4 +1,5 @@
-// No log, however damaged, brings its reader or a decoder down; every byte of it is of an event or said to be damaged.
+// No log, however damaged, makes its reader or a decoder fail; every byte belongs to an event or is reported as
+// damaged.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -58,7 +59,7 @@ job_t job() {
     return message;
 }
 
-/// Written by the program's own writer, read back byte by byte.
+/// A log written by the program's own writer, read back as bytes.
 Bytes whole_log(const std::filesystem::path& path) {
     {
         auto writer = LogWriter::open(path).value();
@@ -75,7 +76,7 @@ Bytes whole_log(const std::filesystem::path& path) {
     return Bytes(std::istreambuf_iterator<char>(file), {});
 }
 
-/// Bytes overwritten, taken away, put in, doubled or cut off, in a few places.
+/// Overwrites, removes, inserts or doubles bytes, or cuts them off, in a few places.
 Bytes mutated(Bytes bytes, Random& random) {
     const auto place = [&] { return bytes.begin() + static_cast<std::ptrdiff_t>(random() % bytes.size()); };
     for (auto left = 1 + random() % 6; left > 0 && bytes.size() > 64; --left) {
@@ -111,7 +112,7 @@ void decode_as_everything(std::span<const std::uint8_t> data) {
     EXPECT_TRUE(is_decoded_or_refused<axis_health_t>(data));
 }
 
-/// Reads it all; the bytes that were of events.
+/// Reads everything and returns the number of bytes in events.
 std::uint64_t read_events(LogReader& reader) {
     std::uint64_t bytes = 0;
     std::uint64_t end = 0;
@@ -124,7 +125,7 @@ std::uint64_t read_events(LogReader& reader) {
     return bytes;
 }
 
-TEST(AnyLog, IsReadToItsEndAndEveryByteAccountedFor) {
+TEST(AnyLog, IsReadToItsEndAndEveryByteIsCounted) {
     const auto path = std::filesystem::temp_directory_path() / ("lockstep_any_log_" + std::to_string(getpid()));
     const Bytes whole = whole_log(path);
     Random random(20);
@@ -140,7 +141,7 @@ TEST(AnyLog, IsReadToItsEndAndEveryByteAccountedFor) {
     std::filesystem::remove(path);
 }
 
-/// Without a log around them: what a network may bring.
+/// Messages without a log, as a network may deliver them.
 TEST(AnyMessage, IsDecodedOrRefused) {
     Random random(21);
     const auto encoded = [](const auto& message) {

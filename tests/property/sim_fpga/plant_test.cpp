@@ -1,4 +1,4 @@
-// A motor driven within what it can do loses nothing; driven far beyond, it does.
+// A motor driven within its abilities loses no steps; driven far beyond them, it does.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

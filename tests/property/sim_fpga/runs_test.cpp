@@ -1,5 +1,5 @@
-// Whatever the frames: a device makes the steps that the tick-by-tick form makes of the same segments, however its time
-// is cut into calls.
+// For any frames, a device makes the same steps as the tick-by-tick form makes from the same segments, however its time
+// is divided into calls.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -15,7 +15,7 @@ struct Run {
     FrameNumber vetoed = 0;
 };
 
-/// Any speed up to a step per 8 ticks, and an acceleration that keeps it below that doubled.
+/// Any speed up to a step per 8 ticks, with an acceleration that keeps it below twice this speed.
 rc::Gen<Piece> any_piece() {
     return rc::gen::map(
         rc::gen::tuple(rc::gen::inRange(1, 400), rc::gen::inRange(-1000, 1001), rc::gen::inRange(-9, 10)),
@@ -26,7 +26,7 @@ rc::Gen<Piece> any_piece() {
         });
 }
 
-/// Frames that join each other, the last one flagged so half of the time; some armed, perhaps some vetoed.
+/// Consecutive frames; half of the time the last one has the flag; some are armed, some may be vetoed.
 Run any_run() {
     Run run;
     const auto count = *rc::gen::inRange<FrameNumber>(1, 7);
@@ -61,7 +61,7 @@ void execute(const Pieces& pieces, Tick& tick, Position& at, std::vector<StepEdg
     }
 }
 
-/// The bodies of the frames armed and not vetoed, and the last one's tail: by the protocol's words.
+/// The bodies of the armed frames without a veto, and the tail of the last one, by the protocol's definition.
 std::vector<StepEdge> expected_steps(const Run& run) {
     std::vector<StepEdge> steps;
     const FrameNumber ran = std::min({run.armed, run.vetoed - 1, static_cast<FrameNumber>(run.frames.size())});
@@ -103,8 +103,8 @@ RC_GTEST_PROP(Runs, TimeMayBeCutIntoAnyCalls, ()) {
     RC_ASSERT(bench.steps() == expected_steps(run));
 }
 
-/// Host and hardware words of any value end no process and move no axis past what was checked.
-RC_GTEST_PROP(Runs, AnyWordsInTheWindowAreSurvived, ()) {
+/// Host and hardware words of any value end no process, and move no axis beyond the checked position.
+RC_GTEST_PROP(Runs, AnyValuesInTheWindowAreTolerated, ()) {
     DeviceBench bench;
     load(bench, any_run());
     for (int k = 0; k < 40; ++k) {

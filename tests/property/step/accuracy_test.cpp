@@ -1,4 +1,4 @@
-// Steps fall within half a tick of the plan, and within a tick of the continuous trapezoid; their number is exact.
+// Steps are within half a tick of the plan, and within a tick of the continuous trapezoid; their number is exact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace lockstep::bench {
 namespace {
 
-/// The largest distance, in ticks, of a step's time from when `ideal` crosses its half. A step made by tick n stands
-/// for the middle of that tick.
+/// The largest distance, in ticks, of a step's time from the time at which `ideal` crosses its half. A step made by
+/// tick n stands for the middle of this tick.
 double worst_distance(const std::vector<std::int64_t>& ticks, const Trapezoid& ideal) {
     double worst = 0;
     for (std::size_t k = 0; k < ticks.size(); ++k) {

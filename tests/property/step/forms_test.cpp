@@ -51,7 +51,7 @@ TEST(StepForms, TheStepsOfASegmentAddUpToItsChangeOfCount) {
     }
 }
 
-/// Position p becomes -p, less one unit where p is on a half: the same halves, seen from the other side.
+/// Position p becomes -p, less one unit if p is on a half: the same halves in the other direction.
 Segment mirrored(const Segment& segment) {
     Segment mirror = segment;
     mirror.from.raw = -segment.from.raw - 1;
@@ -80,7 +80,7 @@ TEST(StepForms, MirroredMotionMakesMirroredStepsAtTheSameTicks) {
     }
 }
 
-TEST(StepForms, WhereASegmentIsSplitChangesNothing) {
+TEST(StepForms, SplittingASegmentChangesNothing) {
     RandomSegments segments(4);
     Steps whole;
     Steps parts;
@@ -124,8 +124,8 @@ TEST(StepForms, StoppedAtAStepTheEngineStandsWhereThatTickEnds) {
     }
 }
 
-/// Too long to tick through: step k must fall where the exact position first reaches it.
-TEST(StepForms, InStretchesOfMonthsEveryStepIsWhereTheIntegersPutIt) {
+/// Too long to compute each tick: step k must be at the tick at which the exact position first reaches it.
+TEST(StepForms, EveryStepOfAMonthLongSegmentIsAtItsExactTick) {
     RandomSegments segments(6);
     for (int i = 0; i < 200'000; ++i) {
         const Segment segment = segments.next(42);

@@ -1,4 +1,4 @@
-// Many axes at once make the steps that each would make alone.
+// Many axes at once make the same steps as each axis alone.
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
@@ -30,7 +30,7 @@ Steps ticked(const Segment& segment) {
     return steps;
 }
 
-/// Every instruction set that this processor has and the vector form was compiled for.
+/// Every instruction set of this processor for which the vector form was compiled.
 class ManyAxesOn : public ::testing::TestWithParam<std::int64_t> {
 protected:
     void SetUp() override { use(GetParam()); }

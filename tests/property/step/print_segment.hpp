@@ -1,4 +1,4 @@
-// A segment as a failing test shows it.
+// The output of a segment in a failing test.
 #pragma once
 
 #include <ostream>

@@ -1,4 +1,4 @@
-// Segments of every kind an engine may be given, from a seed.
+// Segments of every kind that an engine may receive, from a seed.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class RandomSegments {
 public:
     explicit RandomSegments(std::uint64_t seed) : random_(seed) {}
 
-    /// Durations are 1 ... 2^ticks_bits, short ones as likely as long ones.
+    /// Durations are 1 ... 2^ticks_bits; short ones are as likely as long ones.
     Segment next(int ticks_bits) {
         Segment segment{Tick{below(1'000'000)}, start(), Piece{ticks(ticks_bits), {}, {}}};
         shape(segment.piece);
@@ -33,7 +33,7 @@ public:
     bool one_in(std::int64_t n) { return below(n) == 0; }
 
 private:
-    /// Of either sign, with every number of bits as likely as any other.
+    /// A number of either sign; every number of bits is equally likely.
     std::int64_t any_size(int bits) {
         const auto magnitude = static_cast<std::int64_t>(random_() >> (64 - 1 - below(bits)) >> 1);
         return one_in(2) ? magnitude : -magnitude;
@@ -43,8 +43,8 @@ private:
         constexpr std::uint64_t kCorners[] = {0, 1, kRestPhase - 1, kRestPhase, kRestPhase + 1, ~std::uint64_t{0}};
         return Position::from_count(any_size(40), one_in(4) ? kCorners[below(6)] : random_());
     }
-    /// Of any size; or of one that makes steps within a thousand ticks; or a fraction with a small denominator, rounded
-    /// down, as a person would choose.
+    /// Any size, or a size that makes steps within a thousand ticks, or a fraction with a small denominator, rounded
+    /// down, as an engineer would choose.
     std::int64_t speed() {
         switch (below(4)) {
             case 0: return any_size(64);
