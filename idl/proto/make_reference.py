@@ -3,7 +3,7 @@
 
 Usage: make_reference.py ROOT [--check]
 
---check writes nothing and exits 1 where the reference is not what machine.proto says.
+--check writes nothing and exits with 1 if the reference differs from machine.proto.
 """
 import argparse
 import pathlib
@@ -81,7 +81,7 @@ def main():
     if not given.check:
         file.write_text(made)
     elif not file.exists() or file.read_text() != made:
-        sys.exit(f"{file}: is not what idl/proto/machine.proto says; run: idl/proto/make_reference.py .")
+        sys.exit(f"{file}: differs from idl/proto/machine.proto; run: idl/proto/make_reference.py .")
 
 
 if __name__ == "__main__":

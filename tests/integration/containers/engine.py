@@ -24,8 +24,8 @@ STORE = "{{.Store.GraphDriverName}} {{.Store.GraphRoot}} {{.Store.RunRoot}}"
 
 
 # However its processes end, no process and no mount is left behind.
-WORLD = ["setpriv", "--pdeathsig", "KILL", "unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
-WORLD_WITH_NETWORK = [*WORLD, "--net"]
+NAMESPACES = ["setpriv", "--pdeathsig", "KILL", "unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
+NAMESPACES_WITH_NETWORK = [*NAMESPACES, "--net"]
 
 
 class Podman:

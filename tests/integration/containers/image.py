@@ -66,7 +66,7 @@ def why_not_bootstrapped(podman, work):
         return f"no network to the Debian mirror: {release} cannot be read"
     with tempfile.TemporaryDirectory(dir=work) as root:
         # In its own namespaces: its mounts end with it, and cannot block the removal of the directory.
-        made = ask(*engine.WORLD, "debootstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", root,
+        made = ask(*engine.NAMESPACES, "debootstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", root,
                    mirror(), env=environment)
         if made.returncode != 0:
             return f"no Debian can be bootstrapped: {last_line(made.stdout + made.stderr)}"
