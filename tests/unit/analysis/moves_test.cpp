@@ -64,7 +64,7 @@ TEST_F(Moves, ThatAreNotAsCommandedAreBad) {
     const auto report = there_and_back(1003);
     EXPECT_EQ(report.jobs(0).unasked_steps(), 6) << "three there, and three back";
     EXPECT_EQ(report.verdict(), "bad");
-    EXPECT_NE(report.findings(0).text().find("6 were not commanded"), std::string::npos);
+    EXPECT_NE(report.findings(0).text().find("6 steps were not commanded"), std::string::npos);
 }
 
 TEST_F(Moves, OfAJobWithoutItsEndAreDoubtful) {

@@ -26,8 +26,8 @@ TEST(UnauthenticatedPeers, ReportsPeerThatDoesNotAuthenticateInTimeOnce) {
     UnauthenticatedPeers peers;
     EXPECT_FALSE(peers.note_line(0s, kSecure));
     EXPECT_THAT(peers.due(1s), IsEmpty());
-    EXPECT_THAT(peers.due(2s), ElementsAre("participant bcc8f613:b3:c:1c1 at udp/10.0.0.7:9@1 has not proved to "
-                                           "belong to this machine and is excluded"));
+    EXPECT_THAT(peers.due(2s), ElementsAre("participant bcc8f613:b3:c:1c1 at udp/10.0.0.7:9@1 did not authenticate "
+                                           "and is excluded"));
     EXPECT_THAT(peers.due(3s), IsEmpty());
 }
 
