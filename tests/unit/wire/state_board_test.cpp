@@ -181,7 +181,7 @@ TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
     StateBoardReader listener = reader();
     RandomMessages random(6);
     for (int i = 0; i < 2000; ++i) {
-        for (int i = 0; i < 3; ++i) { axis.write(random.axis_state()); }
+        for (int n = 0; n < 3; ++n) { axis.write(random.axis_state()); }
         const auto at = static_cast<std::size_t>(random.between(8, 3000));  // the count of states as well
         overwrite(kPartBytes + at, std::string(1, static_cast<char>(random.bits())));
         (void)read_from(listener);
