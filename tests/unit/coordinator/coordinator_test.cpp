@@ -72,5 +72,33 @@ TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
     EXPECT_TRUE(reaches(MachinePhase::Idle, 1000));
 }
 
+TEST_F(CoordinatorAlone, ReportsItsStateOncePerSlot) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
+    const Tick next{(axis_.stamp + 1) * 1000};
+    EXPECT_TRUE(coordinator_.step({next, {}, {}, {}}).state.has_value());
+    EXPECT_FALSE(coordinator_.step({next + Ticks{1}, {}, {}, {}}).state.has_value());
+    EXPECT_FALSE(coordinator_.step({next + Ticks{999}, {}, {}, {}}).state.has_value());
+    EXPECT_TRUE(coordinator_.step({next + Ticks{1000}, {}, {}, {}}).state.has_value());
+}
+
+TEST_F(CoordinatorAlone, ReportsWhatIsLeftOfAJobAndWhereItMayRest) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
+    const Program program{.name = "pause",
+                          .axes = {"X"},
+                          .start_mm = {0},
+                          .blocks = {{1, LinearMove{{10}, 10, false}}, {2, Pause{}}, {3, LinearMove{{60}, 10, false}}}};
+    coordinator_.accept_program(1, program);
+    ask(CommandKind::Run, 1);
+    for (int i = 0; i < 100; ++i) { slot(); }
+    ASSERT_EQ(state_.phase, MachinePhase::Running);
+    EXPECT_NEAR(state_.remaining_s, 6, 0.2) << "10 mm before the pause and 50 mm behind it, at 10 mm/s";
+    EXPECT_NEAR(state_.progress, 0.1 / 6, 0.01);
+    EXPECT_EQ(state_.line, 1);
+    EXPECT_EQ(state_.program, 1u);
+    ASSERT_FALSE(state_.rests.empty());
+    EXPECT_EQ(state_.rests.front().frame, axis_.ran);
+    EXPECT_EQ(state_.rests.back().frame, state_.sent);
+}
+
 }  // namespace
 }  // namespace lockstep

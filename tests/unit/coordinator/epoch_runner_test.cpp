@@ -135,5 +135,84 @@ TEST(EpochRunner, PlansALongRestAnewOnceAFrameAndNeverWhenAFrameIsDue) {
     EXPECT_EQ(std::ranges::adjacent_find(behind), behind.end()) << "once behind each frame";
 }
 
+/// Three axes after frame 3 of a move of the first, which was stopped behind it.
+class EndOfEpoch : public testing::Test {
+protected:
+    static constexpr FrameNumber kRan = 3;
+
+    static MachineConfig machine() {
+        MachineConfig machine = one_slow_axis();
+        machine.axes.push_back(machine.axes[0]);
+        machine.axes.push_back(machine.axes[0]);
+        machine.axes[1].name = "Y";
+        machine.axes[2].name = "Z";
+        return machine;
+    }
+    EndOfEpoch() : runner(machine()) {
+        const ProgramPlanner planner(machine());
+        const Program program{
+            .name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
+        const auto legs = planner.plan(program, {0, 0, 0}).value();
+        runner.begin(1, planner.path(legs[0].moves, {}), std::vector<Position>(3), 100);
+        axes.assign(3, says(100, 0, {}, 0, {})[0]);
+        Position rest;
+        for (; runner.sent() < kRan; ++slot) {
+            for (const Frame& frame : runner.send(slot, axes)) {
+                rest = frame.axes[0].from;
+                for (const Piece& piece : frame.axes[0].body) { rest = rest + piece.covered(); }
+                for (const Piece& piece : frame.axes[0].tail) { rest = rest + piece.covered(); }
+            }
+        }
+        runner.stop(slot);
+        slot += 1000;
+        for (AxisView& axis : axes) { axis = says(slot, kRan, kRan + 1, kRan, {})[0]; }
+        axes[0].state->position = rest;
+    }
+
+    EpochRunner runner;
+    std::vector<AxisView> axes;
+    Slot slot = 100;
+};
+
+TEST_F(EndOfEpoch, IsInterruptedWhereAllRestWhereTheirFramesEnd) {
+    const auto end = runner.judge(slot, axes);
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->kind, EpochEnd::Kind::Interrupted);
+    EXPECT_EQ(end->ran, kRan);
+    EXPECT_EQ(end->positions[0], axes[0].state->position);
+}
+
+TEST_F(EndOfEpoch, NamesTheAxisThatRanOtherFrames) {
+    axes[2].state->ran = kRan - 1;
+    const auto end = runner.judge(slot, axes);
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->kind, EpochEnd::Kind::FramesDiffer);
+    EXPECT_EQ(end->axis, 2u);
+}
+
+TEST_F(EndOfEpoch, NamesTheAxisThatIsMisplaced) {
+    axes[1].state->position = Position::steps(1);
+    const auto end = runner.judge(slot, axes);
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->kind, EpochEnd::Kind::Misplaced);
+    EXPECT_EQ(end->axis, 1u);
+}
+
+TEST_F(EndOfEpoch, WaitsForAnAxisThatMoves) {
+    axes[1].state->at_rest = false;
+    EXPECT_FALSE(runner.judge(slot, axes).has_value());
+}
+
+TEST_F(EndOfEpoch, LeavesOutAnAxisThatIsNotPresent) {
+    axes[1].state->at_rest = false;
+    axes[1].heard = slot - 1000;
+    EXPECT_EQ(runner.judge(slot, axes)->kind, EpochEnd::Kind::Interrupted);
+}
+
+TEST_F(EndOfEpoch, OfFramesThatWereNotSentIsADifference) {
+    for (AxisView& axis : axes) { axis.state->ran = kRan + 1; }
+    EXPECT_EQ(runner.judge(slot, axes)->kind, EpochEnd::Kind::FramesDiffer);
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -1,0 +1,171 @@
+// What a new owner makes of the job of the one before it: what is left, or why it does not go on.
+#include "core/coordinator/jobs/takeover.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+/// Two axes on a program of two moves; both ran frame 5 of epoch 9, and rest within the first move.
+class RestOfJob : public testing::Test {
+protected:
+    static constexpr FrameNumber kRan = 5;
+    static constexpr Epoch kEpoch = 9;
+
+    static MachineConfig make_machine() {
+        MachineConfig machine{.name = "two"};
+        machine.timing = {
+            .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+        machine.axes.push_back({.name = "X",
+                                .steps_per_mm = 100,
+                                .start_velocity_mm_s = 10,
+                                .max_velocity_mm_s = 50,
+                                .max_accel_mm_s2 = 500,
+                                .max_decel_mm_s2 = 500,
+                                .position_max_mm = 100});
+        machine.axes.push_back(machine.axes[0]);
+        machine.axes[1].name = "Y";
+        return machine;
+    }
+
+    RestOfJob() {
+        program.blocks = {{1, LinearMove{{30, 20}, 20, false}}, {2, LinearMove{{60, 20}, 20, false}}};
+        rest_at(Displacement::steps(1000));
+    }
+    /// Of the program's move, both axes rest where the path is when its lead axis has gone so far.
+    void rest_at(Displacement along, std::size_t move = 0) {
+        const auto legs = ProgramPlanner(machine).plan(program, {1000, 2000}).value();
+        const PathMove& at = legs[0].moves[move];
+        std::vector<Position> positions{at.axis_at(0, along), at.axis_at(1, along)};
+        last.rests = {{kRan, {at.block, along}, false, digest_of(positions)}};
+        axes.clear();
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            axes.push_back({.state = AxisState{.axis = i,
+                                               .epoch = kEpoch,
+                                               .ran = kRan,
+                                               .homed = true,
+                                               .phase = AxisPhase::Standby,
+                                               .position = positions[i]}});
+        }
+    }
+    AxisState& y() { return *axes[1].state; }
+    std::expected<JobRest, TakeoverDoubt> rest() const { return rest_of_job(last, program, machine, axes); }
+    TakeoverDoubt doubt() const {
+        const auto found = rest();
+        return found ? TakeoverDoubt::NotAsked : found.error();  // NotAsked: none
+    }
+
+    MachineConfig machine = make_machine();
+    Program program{.name = "two", .axes = {"X", "Y"}, .start_mm = {10, 20}, .blocks = {}};
+    MachineState last{.epoch = kEpoch};
+    std::vector<AxisView> axes;
+};
+
+TEST_F(RestOfJob, GoesOnFromTheMiddleOfAMove) {
+    const auto found = rest();
+    ASSERT_TRUE(found.has_value());
+    EXPECT_FALSE(found->leg_done);
+    EXPECT_EQ(found->remaining.size(), 2u);
+    EXPECT_EQ(found->place.along, Displacement::steps(1000));
+    EXPECT_EQ(found->positions.size(), 2u);
+    EXPECT_EQ(found->positions[0].count(), 2000);
+}
+
+TEST_F(RestOfJob, LeavesOutAMoveThatIsDone) {
+    rest_at(Displacement::steps(2000));
+    const auto found = rest();
+    ASSERT_TRUE(found.has_value());
+    ASSERT_EQ(found->remaining.size(), 1u);
+    EXPECT_EQ(found->remaining[0].line, 2);
+    EXPECT_EQ(found->place.along, Displacement{});
+    EXPECT_EQ(found->place.block, found->remaining[0].block);
+}
+
+TEST_F(RestOfJob, IsOnlyTheEndOfTheLegBehindItsLastFrame) {
+    rest_at(Displacement::steps(3000), 1);
+    last.rests[0].last = true;
+    const auto found = rest();
+    ASSERT_TRUE(found.has_value());
+    EXPECT_TRUE(found->leg_done);
+    EXPECT_TRUE(found->remaining.empty());
+    rest_at(Displacement::steps(2000));
+    last.rests[0].last = true;
+    EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan) << "the last frame ends a leg, and another move follows";
+}
+
+TEST_F(RestOfJob, IsInDoubtWithAnAxisThatIsMissingUnhomedInFaultOrInMotion) {
+    y().homed = false;
+    EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
+    y().homed = true;
+    y().fault = 1;
+    EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
+    y().fault = 0;
+    y().at_rest = false;
+    EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
+    y().at_rest = true;
+    EXPECT_EQ(doubt(), TakeoverDoubt::NotAsked);
+    axes[1].state.reset();
+    EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
+}
+
+TEST_F(RestOfJob, IsInDoubtWhenTheAxesRanOtherFramesOrUnheardOnes) {
+    y().ran = kRan - 1;
+    EXPECT_EQ(doubt(), TakeoverDoubt::FramesDiffer);
+    axes[0].state->ran = kRan - 1;
+    EXPECT_EQ(doubt(), TakeoverDoubt::UnheardFrames) << "where that frame ends was not received";
+    rest_at(Displacement::steps(1000));
+    y().epoch = kEpoch + 1;
+    EXPECT_EQ(doubt(), TakeoverDoubt::UnheardFrames);
+    y().epoch = kEpoch - 1;
+    EXPECT_EQ(doubt(), TakeoverDoubt::FramesDiffer) << "of this epoch it ran none";
+}
+
+TEST_F(RestOfJob, IsInDoubtWhereThePlaceIsNotOnTheProgram) {
+    last.rests[0].place.along = Displacement{-1};
+    EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan);
+    last.rests[0].place.along = Displacement::steps(2000) + Displacement{1};
+    EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan);
+    last.rests[0].place = {77, {}};
+    EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan);
+    program.axes[1] = "Z";
+    EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan) << "the program does not fit the machine";
+}
+
+TEST_F(RestOfJob, IsInDoubtWithAnAxisElsewhereThanItsFramesEnd) {
+    const Position right = y().position;
+    y().position = right + Displacement::steps(1);
+    EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced);
+    y().position = right - Displacement::steps(1);
+    EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced);
+    y().position = right + Displacement{1};
+    EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced) << "near, but not the place that the owner reported";
+}
+
+TEST_F(RestOfJob, TakesThePositionOfAnAxisThatTheProgramDoesNotName) {
+    program.axes = {"X"};
+    program.start_mm = {10};
+    program.blocks = {{1, LinearMove{{30}, 20, false}}};
+    rest_at(Displacement::steps(1000));
+    EXPECT_TRUE(rest().has_value());
+    EXPECT_EQ(rest()->legs[0].moves[0].from[1], 2000);
+}
+
+TEST_F(RestOfJob, BeforeItsFirstFrameStartsOnWholeSteps) {
+    rest_at({});
+    last.rests[0].frame = 0;
+    for (AxisView& axis : axes) { axis.state->ran = 0; }
+    last.rests[0].digest += 1;  // of the exact places the owner set out from
+    const auto found = rest();
+    ASSERT_TRUE(found.has_value());
+    EXPECT_TRUE(found->positions.empty());
+    EXPECT_EQ(found->remaining.size(), 2u);
+}
+
+TEST(TakeoverDoubtText, NamesEachDoubt) {
+    EXPECT_NE(text_of(TakeoverDoubt::NotAsked).find("--on-takeover"), std::string_view::npos);
+    EXPECT_NE(text_of(TakeoverDoubt::FramesDiffer).find("same frames"), std::string_view::npos);
+    EXPECT_NE(text_of(TakeoverDoubt::Misplaced).find("not where its frames end"), std::string_view::npos);
+}
+
+}  // namespace
+}  // namespace lockstep
