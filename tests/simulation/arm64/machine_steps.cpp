@@ -1,4 +1,4 @@
-// Prints, for each of some seeds, how many steps a drawn machine makes and what they hash to.
+// Prints for some seeds the number of steps of a drawn machine and their hash.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>

@@ -1,9 +1,9 @@
-"""What the simulations came to, all together: everything, but for what is said to be out of their reach.
+"""Checks that the simulations together reached everything except what UNREACHED lists.
 
 usage: check_coverage.py UNREACHED COVERAGE.json...
 
-UNREACHED has a line "group: name: because" for each thing that no run comes to. Exits 0 where the runs came to all else,
-and to none of these.
+UNREACHED has a line "group: name: reason" for each thing that no run reaches. The program exits with 0 if the runs reached
+everything else, and none of these.
 """
 
 import collections
@@ -38,11 +38,11 @@ def main(unreached_path, *paths):
     after_all = sorted(thing for thing in unreached if counts[thing] > 0)
     unknown = sorted(thing for thing in unreached if thing not in counts)
     for group, name in never:
-        print(f"never: {group}: {name}; let a run come to it, or say in {unreached_path} why none can")
+        print(f"never: {group}: {name}; add a run that reaches it, or state in {unreached_path} why none can")
     for group, name in after_all:
-        print(f"reached after all: {group}: {name}; strike it out in {unreached_path}")
+        print(f"reached after all: {group}: {name}; remove it from {unreached_path}")
     for group, name in unknown:
-        print(f"not counted: {group}: {name}; strike it out in {unreached_path}")
+        print(f"not counted: {group}: {name}; remove it from {unreached_path}")
     reached = sum(times > 0 for times in counts.values())
     print(f"{reached} of {len(counts)} reached, {len(unreached)} out of reach, by {len(paths)} simulations")
     return 1 if never or after_all or unknown else 0

@@ -1,4 +1,4 @@
-// lockstep-simtest: whole machines in virtual time, drawn from seeds, judged step by step.
+// lockstep-simtest: whole machines in virtual time, drawn from seeds; every step is checked.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -9,7 +9,7 @@ namespace {
 
 using namespace lockstep::simtest;
 
-constexpr std::uint64_t kTwiceEvery = 16;  // runs, one of which is played twice
+constexpr std::uint64_t kTwiceEvery = 16;  // one of this number of runs is played twice
 
 constexpr const char* kKinds =
     R"(Kinds of faults:
@@ -48,9 +48,9 @@ Tally run_all(const Options& options) {
     for (std::uint64_t n = 0; n < options.runs; ++n) {
         const std::uint64_t seed = options.seed + n;
         const bool twice = options.runs == 1 || n % kTwiceEvery == 0;
-        const Verdict verdict = run_seed(seed, {options.kinds(), options.machine, twice, options.trace});
-        tally.add(verdict);
-        if (options.verbose || !verdict.violations.empty()) { print_run(seed, verdict, options); }
+        const RunResult result = run_seed(seed, {options.kinds(), options.machine, twice, options.trace});
+        tally.add(result);
+        if (options.verbose || !result.violations.empty()) { print_run(seed, result, options); }
     }
     tally.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return tally;
@@ -60,22 +60,23 @@ Tally run_all(const Options& options) {
 
 int main(int argc, char** argv) {
     Options options;
-    CLI::App app{"Runs random machines, programs, networks and interrupts in virtual time and judges every step."};
+    CLI::App app{"Runs random machines, programs, networks and interrupts in virtual time and checks every step."};
     app.add_option("--seed", options.seed, "the first seed");
-    app.add_option("--runs", options.runs, "how many, with seeds that follow each other");
-    app.add_option("--axes", options.machine.axes, "of every machine; drawn, 1 to 6, if not given")
+    app.add_option("--runs", options.runs, "the number of runs, with consecutive seeds");
+    app.add_option("--axes", options.machine.axes, "axes of every machine; without it 1 to 6, drawn")
         ->check(CLI::Range(1, 32));
     app.add_flag("--long-searches", options.machine.long_searches,
-                 "also machines that search their switches for minutes: about twice the time");
-    app.add_option("--faults", options.faults, "none, all (a half of the kinds in each run), or of the kinds below")
+                 "include machines that search their switches for minutes: about twice the time");
+    app.add_option("--faults", options.faults,
+                   "none, all (half of the kinds in each run), or a list of the kinds below")
         ->delimiter(',')
         ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
                                "corrupt", "stall", "clock", "override", "standby", "limit", "device", "mixed", "all"}));
     app.footer(kKinds);
-    app.add_option("--coverage", options.coverage, "a file for what the runs came to, as JSON");
-    app.add_flag("--json", options.json, "the figures as JSON");
-    app.add_flag("--trace", options.trace, "what happens in a run, a line for each event");
-    app.add_flag("--verbose", options.verbose, "a line for every run");
+    app.add_option("--coverage", options.coverage, "write the coverage of the runs to this file, as JSON");
+    app.add_flag("--json", options.json, "print the figures as JSON");
+    app.add_flag("--trace", options.trace, "print a line for each event of a run");
+    app.add_flag("--verbose", options.verbose, "print a line for every run");
     CLI11_PARSE(app, argc, argv);
     const Tally tally = run_all(options);
     print_tally(tally, options);

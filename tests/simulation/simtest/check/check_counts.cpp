@@ -14,7 +14,7 @@ void check_order(const Recording& recording, Violations& violations) {
         const auto& steps = recording.axes[i].steps;
         for (std::size_t n = 1; n < steps.size(); ++n) {
             if (steps[n].tick <= steps[n - 1].tick) {
-                violations.push_back({"order", i, steps[n].tick.value, n, "not after the step before"});
+                violations.push_back({"order", i, steps[n].tick.value, n, "not later than the previous step"});
                 break;
             }
         }
@@ -28,7 +28,7 @@ void check_sequence(const Recording& recording, const JobRecord& job, std::size_
         const bool more = n < course.move_of_step.size();
         if (more && steps[n].direction == course.direction[course.move_of_step[n]]) { continue; }
         violations.push_back({"exact", i, steps[n].tick.value, job.first_step[i] + n,
-                              more ? "a step the other way than the program goes"
+                              more ? "a step against the direction of the program"
                                    : "a step beyond the program's " + std::to_string(course.steps())});
         return;
     }
@@ -52,7 +52,7 @@ Violations check_counts(const Recording& recording) {
         std::size_t at = 0;
         for (const JobRecord& job : recording.jobs) {
             if (job.first_step[i] != at) {
-                violations.push_back({"exact", i, {}, at, "steps made outside any job"});
+                violations.push_back({"exact", i, {}, at, "steps outside any job"});
                 break;
             }
             at = job.end_step[i];

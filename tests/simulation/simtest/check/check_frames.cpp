@@ -19,7 +19,8 @@ public:
     }
 
 private:
-    /// Numbered from 1 without gaps, each from the end of the one before, only the newest the last.
+    /// Frames are numbered from 1 without gaps. Each begins where the previous one ends; only the newest can be the
+    /// last.
     void check_sent(const std::map<FrameNumber, SentFrame>& frames) {
         FrameNumber next = 1;
         const SentFrame* before = nullptr;
@@ -38,7 +39,7 @@ private:
         for (std::size_t n = 0; n < tracks.size(); ++n) {
             const Track& track = tracks[n];
             if (track.epoch != 0) { check_track(i, track, n == 0 ? nullptr : &tracks[n - 1]); }
-            // One that was cut short is over when the next begins.
+            // A track that was cut short ends when the next one begins.
             Tick end = track.start + track.ticks;
             if (n + 1 < tracks.size() && tracks[n + 1].start < end) {
                 end = tracks[n + 1].start;
@@ -47,13 +48,15 @@ private:
             check_between(i, n, step, track.start);
             std::int64_t net = 0;
             for (; step < steps.size() && steps[step].tick <= end; ++step) { net += steps[step].direction; }
-            if (net != track.net_steps && !track.cut) { object(i, track.start, "other steps made than the track has"); }
+            if (net != track.net_steps && !track.cut) {
+                object(i, track.start, "the steps made are not those of the track");
+            }
         }
         check_between(i, tracks.size(), step, Tick{std::numeric_limits<std::int64_t>::max()});
     }
 
-    /// No step is outside every track, but what a device ran on its own when its process had ended: that is armed
-    /// frames and a tail.
+    /// All steps belong to a track. The exception: after the end of its process, a device runs its armed frames and
+    /// a tail on its own.
     void check_between(std::size_t i, std::size_t tracks, std::size_t& step, Tick until) {
         const AxisRecord& axis = recording_.axes[i];
         const std::size_t first = step;
@@ -73,10 +76,10 @@ private:
         for (FrameNumber k = lost->recorded; k <= lost->armed; ++k) {
             if (steps_to_rest(epoch, i, lost->recorded, k) == net) { return; }
         }
-        object(i, lost->at, "steps after the process's end that no armed frame and its tail make");
+        object(i, lost->at, "steps after the end of the process that do not match an armed frame and its tail");
     }
 
-    /// Bodies from 1 on, as sent and armed; a tail after its body, and nothing of the epoch after it.
+    /// Frame bodies run in order from 1, as sent and armed. A tail follows its body; it is the last track of its epoch.
     void check_track(std::size_t i, const Track& track, const Track* before) {
         const bool same_epoch = before != nullptr && before->epoch == track.epoch;
         const FrameNumber ran = same_epoch ? before->frame : 0;
@@ -88,7 +91,7 @@ private:
             object(i, track.start, "frame " + text(track.frame) + " run after frame " + text(ran));
         }
         if (same_epoch && track.start != before->start + before->ticks) {
-            object(i, track.start, "a gap between frames");
+            object(i, track.start, "there is a gap between frames");
         }
         const auto epoch = recording_.epochs.find(track.epoch);
         if (epoch == recording_.epochs.end() || !epoch->second.frames.contains(track.frame)) {
@@ -96,7 +99,7 @@ private:
         }
         const SentFrame& sent = epoch->second.frames.at(track.frame);
         if (!track.tail && (track.commanded != sent.start || track.commanded_ticks != sent.ticks)) {
-            object(i, track.start, "frame " + text(track.frame) + " run at another time than it was sent for");
+            object(i, track.start, "frame " + text(track.frame) + " ran at another time than it was sent for");
         }
         const bool asked = std::ranges::any_of(recording_.emergencies, [&](const Emergency& e) {
             return track.commanded <= e.rests && track.commanded + track.commanded_ticks >= e.asked;
@@ -105,7 +108,7 @@ private:
         if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
     }
 
-    /// All the same, but whom a fault may have parted from the others; and nobody by more than a frame, ever.
+    /// All axes ran the same frames, except those that a fault may have separated; and never by more than one frame.
     void check_same() {
         for (const auto& [number, runs] : epoch_runs(recording_)) {
             if (!runs.apart) { continue; }
@@ -115,10 +118,12 @@ private:
             }
             for (const std::size_t i : together) {
                 const LastFrame &a = runs.last[together.front()], &b = runs.last[i];
-                if (a.low > b.high || b.low > a.high) { object(i, runs.parted, "other frames run than by the others"); }
+                if (a.low > b.high || b.low > a.high) {
+                    object(i, runs.parted, "the axis ran other frames than the others");
+                }
             }
             check_distance(runs);
-            check_said(number, *runs.parted);
+            check_reported(number, *runs.parted);
         }
     }
 
@@ -132,17 +137,17 @@ private:
         if (most > 0 && most > least + 1) { object({}, runs.parted, "axes more than one frame apart"); }
     }
 
-    /// Where axes have parted, their coordinator enters Fault, and does not go on in a next epoch before.
-    void check_said(Epoch number, Tick parted) {
+    /// If axes ran different frames, their coordinator enters Fault before it begins another epoch.
+    void check_reported(Epoch number, Tick parted) {
         const auto next = recording_.epochs.upper_bound(number);
         const bool goes_on =
             next != recording_.epochs.end() && next->second.writer == recording_.epochs.at(number).writer;
         if (!goes_on) { return; }
         const Tick until = next->second.frames.begin()->second.start;
         const Ticks early = recording_.machine.slot_ticks() * 2 * recording_.machine.timing.send_ahead_slots;
-        const bool said = std::ranges::any_of(recording_.machine_faults,
-                                              [&](Tick tick) { return tick >= parted - early && tick <= until; });
-        if (!said) { object({}, parted, "axes have parted, and the machine goes on as if they had not"); }
+        const bool reported = std::ranges::any_of(recording_.machine_faults,
+                                                  [&](Tick tick) { return tick >= parted - early && tick <= until; });
+        if (!reported) { object({}, parted, "axes ran different frames, and the machine continues without a Fault"); }
     }
 
     static std::string text(FrameNumber number) { return std::to_string(number); }

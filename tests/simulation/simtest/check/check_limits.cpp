@@ -7,14 +7,14 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kRounding = 1 + 1e-5;  // what integers make of doubles
-constexpr double kJointTicks = 2;       // phases of a motion meet on whole ticks: each may be off by one
+constexpr double kRounding = 1 + 1e-5;  // error of rounding doubles to integers
+constexpr double kJointTicks = 2;       // two phases of a motion meet at whole ticks: each can be off by one
 
-/// What a device's own clock makes of machine time. An axis's limits hold in its device's time, whatever corrections
-/// are made; a feed is one of machine time.
+/// How a device's own clock changes machine time. The limits of an axis hold in its device's time, including clock
+/// corrections; a feed is a speed in machine time.
 struct OwnClock {
-    double hurry = 1;     // of a feed: rates 200 ppm apart, slewed by 500
-    double rounding = 1;  // ticks, of the time between two steps; frames end on whole ticks of it as well
+    double hurry = 1;     // factor of a feed: clock rates differ by 200 ppm, corrections add 500
+    double rounding = 1;  // ticks, in the time between two steps; frames end at its whole ticks too
 };
 
 OwnClock own_clock(const MachineConfig& machine) {
@@ -36,14 +36,14 @@ Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
             axis.max_decel_mm_s2 * scale * tick};
 }
 
-/// One job's steps of one axis.
+/// The steps of one axis in one job.
 class LimitCheck {
 public:
     LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, Violations& violations)
         : limits_(in_ticks(recording.machine.axes[axis], recording.machine)),
           steps_(recording.steps_of(job, axis)),
           course_(job.homing ? nullptr : &job.course.axes[axis]),
-          // Between two epochs, and between an axis's own moves, there is a rest of at least so long.
+          // Between two epochs, and between two moves of an axis on its own, the axis rests at least this long.
           least_rest_((job.homing ? 1 : recording.machine.timing.send_ahead_slots) *
                       recording.machine.slot_ticks().value),
           axis_(axis),
@@ -52,7 +52,7 @@ public:
           hurry_(own_clock(recording.machine).hurry),
           ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
           violations_(violations) {
-        // Steps beyond the course are another check's matter.
+        // Another check covers steps beyond the course.
         if (course_ != nullptr) { steps_ = steps_.first(std::min(steps_.size(), course_->move_of_step.size())); }
     }
 
@@ -76,7 +76,7 @@ private:
         return course_ == nullptr ? 0 : course_->joints_in(first_gap, last_gap);
     }
 
-    /// Joints that may fall between a rest in this gap and the step beside it; a start or an end is no joint.
+    /// The joints between a rest in this gap and the step beside it. The start and the end of a motion are not joints.
     double joints_beside_rest(std::size_t gap) const {
         if (course_ == nullptr) { return 0; }
         const bool edge = gap == 0 || gap == course_->move_of_step.size();
@@ -88,7 +88,7 @@ private:
         return static_cast<double>((steps_[to].tick - steps_[from].tick).value);
     }
 
-    /// Of a forward step to count c, half a step before c; backwards, half a step after it.
+    /// A forward step to count c is made half a step before c, a backward step half a step after it.
     double distance(std::size_t from, std::size_t to) const {
         double d = 0;
         for (std::size_t n = from + 1; n <= to; ++n) { d += steps_[n].direction; }
@@ -146,8 +146,8 @@ private:
         if (change > most) { object("sudden change", n, change, most, m); }
     }
 
-    /// The first crossing lies at most a step from where the axis rested. Where it did not rest, but went slowly, it
-    /// may have gained speed over one step.
+    /// The first crossing is at most one step from the position of rest. An axis that did not rest, but moved slowly,
+    /// can have accelerated over one step.
     double speed_beside_rest(std::size_t gap, double rate) const {
         const double joined = joints_beside_rest(gap) * limits_.start;
         const bool between = gap > 0 && gap < steps_.size();
@@ -184,9 +184,9 @@ private:
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
-    double rounding_;  // ticks, of the time between two steps
-    double hurry_;     // of a feed, by a clock of the device's own
-    bool ceases_;      // the last step may be followed by none, at any speed
+    double rounding_;  // ticks, in the time between two steps
+    double hurry_;     // factor of a feed, because of the device's own clock
+    bool ceases_;      // the steps may end at any speed
     Violations& violations_;
 };
 

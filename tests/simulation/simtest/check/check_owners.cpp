@@ -31,35 +31,35 @@ public:
     }
 
 private:
-    /// Within a process: one that is made anew knows of no term.
+    /// The term of an axis process never decreases. A restarted process does not know any term.
     void check_terms_rise(std::size_t i) {
         const Followed* before = nullptr;
         for (const Followed& now : recording_.axes[i].followed) {
             if (before != nullptr && before->process == now.process && now.term <= before->term) {
-                object(i, now.at, "its term falls");
+                object(i, now.at, "its term decreases");
             }
             before = &now;
         }
     }
 
-    /// No body or tail a second time, and each as it was sent.
+    /// Each body and each tail runs once, with the content that was sent.
     void check_run_once(std::size_t i) {
         std::set<std::tuple<Epoch, FrameNumber, bool>> run;
         for (const Track& track : recording_.axes[i].tracks) {
             if (track.epoch == 0) { continue; }
             if (!run.insert({track.epoch, track.frame, track.tail}).second) {
-                object(i, track.start, "frame " + std::to_string(track.frame) + " run a second time");
+                object(i, track.start, "frame " + std::to_string(track.frame) + " ran a second time");
             }
             const auto epoch = recording_.epochs.find(track.epoch);
             if (epoch == recording_.epochs.end() || !epoch->second.frames.contains(track.frame)) { continue; }
             const Share& sent = epoch->second.frames.at(track.frame).shares[i];
             const bool same =
                 track.from == (track.tail ? sent.to : sent.from) && track.to == (track.tail ? sent.rest : sent.to);
-            if (!same) { object(i, track.start, "frame " + std::to_string(track.frame) + " run with other content"); }
+            if (!same) { object(i, track.start, "frame " + std::to_string(track.frame) + " ran with other content"); }
         }
     }
 
-    /// A move on its own is one that the owner it follows has ordered.
+    /// An axis moves on its own only if its owner ordered it.
     void check_orders(std::size_t i) {
         for (const Motion& motion : motions_) {
             if (motion.axis != i || motion.track == nullptr || motion.track->epoch != 0) { continue; }
@@ -67,16 +67,16 @@ private:
                 return given.order.term == motion.writer && given.at <= motion.begin &&
                        (given.order.kind == AxisCommandKind::Home || given.order.kind == AxisCommandKind::MoveOwn);
             });
-            if (!ordered) { object(i, motion.begin, "a move that its owner did not order"); }
+            if (!ordered) { object(i, motion.begin, "its owner did not order this move"); }
         }
     }
 
-    /// From its beginning to its end the axis follows who moves it; a process made anew may follow nobody yet.
+    /// During a motion the axis follows the owner that moves it. A restarted process may not follow an owner yet.
     void check_followed(const Motion& motion) {
         const AxisRecord& axis = recording_.axes[motion.axis];
         const bool known = motion.track != nullptr;
         if (known && axis.followed_at(motion.begin).term != motion.writer) {
-            object(motion.axis, motion.begin, "it is moved by another than the owner that it follows");
+            object(motion.axis, motion.begin, "it moves for an owner that it does not follow");
         }
         for (const Followed& f : axis.followed) {
             const bool meanwhile = f.at > motion.begin && f.at < motion.end;
@@ -88,9 +88,9 @@ private:
         }
     }
 
-    /// No axis is moved for one owner before all have come to rest that another one moved; and none comes back.
+    /// An owner moves axes only after all motions of the previous owner. A previous owner never moves them again.
     void check_one_after_the_other() {
-        const Motion* last = nullptr;  // of those so far the one that ends last
+        const Motion* last = nullptr;  // the motion that ends last until now
         for (const Motion& motion : motions_) {
             if (last != nullptr && motion.writer != last->writer) {
                 if (motion.begin < last->end) { object(motion.axis, motion.begin, "two owners move the machine"); }
@@ -100,25 +100,27 @@ private:
         }
     }
 
-    /// An owner sends frames when every axis has said that it follows it; but it may have changed within a message's
-    /// way since, and its process may have been made anew.
+    /// An owner sends frames when every axis has reported that it follows it. The axis can have changed its owner
+    /// during the message delay, and its process can have restarted.
     void check_begun(Epoch number, const SentEpoch& epoch) {
         for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
             const AxisRecord& axis = recording_.axes[i];
             const Followed now = axis.followed_at(epoch.first_sent);
-            const bool anew = std::ranges::any_of(axis.followed, [&](const Followed& f) {
+            const bool restarted = std::ranges::any_of(axis.followed, [&](const Followed& f) {
                 return f.at <= epoch.first_sent && f.term == epoch.writer && f.process != now.process;
             });
             const Ticks way = recording_.machine.slot_ticks() * rules::kHopSlots;
-            if (now.term == epoch.writer || anew || axis.followed_at(epoch.first_sent - way).term == epoch.writer) {
+            if (now.term == epoch.writer || restarted ||
+                axis.followed_at(epoch.first_sent - way).term == epoch.writer) {
                 continue;
             }
-            object(i, epoch.first_sent, "epoch " + std::to_string(number) + " is begun, and it follows another owner");
+            object(i, epoch.first_sent,
+                   "epoch " + std::to_string(number) + " began while the axis follows another owner");
         }
     }
 
-    /// Who claims a machine has not heard its owner: since he claimed it, or shortly before, a coordinator, or a link
-    /// of one, has failed. At first all may claim.
+    /// A coordinator claims a machine only when it no longer receives its owner: since the last claim, or just before,
+    /// a coordinator or one of its links failed. At startup every coordinator may claim.
     void check_needed(const Claim& before, const Claim& claim) {
         if (recording_.jobs.empty() || claim.at < recording_.jobs.front().began) { return; }
         const auto is_coordinator = [&](std::size_t process) { return process >= recording_.axes.size(); };
@@ -126,7 +128,7 @@ private:
             const bool concerns = is_coordinator(fault.process) || (fault.peer && is_coordinator(*fault.peer));
             return concerns && fault.at <= claim.at && fault.end() + silence_ * 3 >= before.at;
         });
-        if (!failed) { object({}, claim.at, "a coordinator claims a machine whose owner is well"); }
+        if (!failed) { object({}, claim.at, "a coordinator claims a machine whose owner is healthy"); }
     }
 
     void object(std::optional<std::size_t> axis, Tick tick, std::string what) {

@@ -6,7 +6,7 @@
 namespace lockstep::simtest {
 namespace {
 
-/// Something that the machine need not bear without a pause had a say in the epoch that was over at this tick.
+/// True: a fault that the machine need not tolerate without a pause affected the epoch that ended at this tick.
 bool is_disturbed(const Recording& recording, Tick over) {
     if (recording.lossy()) { return true; }
     Tick begun = recording.began;
@@ -28,7 +28,7 @@ void check_emergency(const Recording& recording, const Emergency& emergency, Vio
         for (const StepEdge& step : recording.axes[i].steps) {
             const Tick tick = recording.axes[i].truth(step);
             if (tick > ceased && tick <= emergency.rests) {
-                violations.push_back({"emergency", i, tick.value, {}, "a pulse after pulses were told to cease"});
+                violations.push_back({"emergency", i, tick.value, {}, "a pulse after the limit for an emergency stop"});
                 break;
             }
         }
@@ -41,7 +41,7 @@ void check_limit(const Recording& recording, const VirtualFault& fault, Violatio
         fault.kind == VirtualFault::Kind::Stick && fault.closed && fault.contact != &PlantInputs::home;
     if (!is_limit) { return; }
     const int towards = fault.contact == &PlantInputs::limit_min ? -1 : 1;
-    const Ticks rounding{2};  // of the device's time to the true one
+    const Ticks rounding{2};  // conversion from the device's time to the true time
     for (const StepEdge& step : recording.axes[fault.process].steps) {
         const Tick tick = recording.axes[fault.process].truth(step);
         if (step.direction != towards || tick <= fault.at + rounding || tick + rounding > fault.end()) { continue; }
@@ -50,26 +50,26 @@ void check_limit(const Recording& recording, const VirtualFault& fault, Violatio
     }
 }
 
-/// A motion that was cut short is said, before anything else is begun.
-void check_cut_is_said(const Recording& recording, std::size_t i, const Track& track, Violations& violations) {
+/// The machine reports a motion that was cut short before it begins anything else.
+void check_cut_is_reported(const Recording& recording, std::size_t i, const Track& track, Violations& violations) {
     const auto next = recording.epochs.upper_bound(track.epoch);
     if (!track.cut || track.epoch == 0 || next == recording.epochs.end()) { return; }
-    const bool said = std::ranges::any_of(recording.machine_faults, [&](Tick tick) {
+    const bool reported = std::ranges::any_of(recording.machine_faults, [&](Tick tick) {
         return tick >= recording.epochs.at(track.epoch).first_sent && tick <= next->second.first_sent;
     });
-    if (said) { return; }
-    violations.push_back({"limit", i, track.start.value, {}, "its motion was cut short, and the machine goes on"});
+    if (reported) { return; }
+    violations.push_back({"limit", i, track.start.value, {}, "its motion was cut short, and the machine continues"});
 }
 
 /// A device that is lost for longer than its axis waits for it is a Fault by then, where nothing else goes wrong.
-void check_loss_is_said(const Recording& recording, const VirtualFault& fault, Violations& violations) {
+void check_loss_is_reported(const Recording& recording, const VirtualFault& fault, Violations& violations) {
     constexpr Slot kNoticed = 10;  // from the axis's look to the coordinator's
     const Ticks patience = recording.machine.slot_ticks() * (rules::silence_slots(recording.machine.timing) + kNoticed);
     const bool alone = recording.faults.size() == 1 && !recording.lossy() && recording.emergencies.empty();
     if (!alone || !fault.is_of_device() || fault.lasts <= patience) { return; }
-    const bool said = std::ranges::any_of(recording.machine_faults,
-                                          [&](Tick tick) { return fault.at <= tick && tick <= fault.at + patience; });
-    if (!said) {
+    const bool reported = std::ranges::any_of(
+        recording.machine_faults, [&](Tick tick) { return fault.at <= tick && tick <= fault.at + patience; });
+    if (!reported) {
         violations.push_back({"device", fault.process, fault.at.value, {}, "its device is lost, and no Fault"});
     }
 }
@@ -81,15 +81,15 @@ Violations check_stops(const Recording& recording) {
     for (const Emergency& emergency : recording.emergencies) { check_emergency(recording, emergency, violations); }
     for (const Tick tick : recording.interruptions) {
         if (!is_disturbed(recording, tick)) {
-            violations.push_back({"needless stop", {}, tick.value, {}, "the machine paused for nothing"});
+            violations.push_back({"needless stop", {}, tick.value, {}, "the machine paused without a reason"});
         }
     }
     for (const VirtualFault& fault : recording.faults) {
         check_limit(recording, fault, violations);
-        check_loss_is_said(recording, fault, violations);
+        check_loss_is_reported(recording, fault, violations);
     }
     for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-        for (const Track& track : recording.axes[i].tracks) { check_cut_is_said(recording, i, track, violations); }
+        for (const Track& track : recording.axes[i].tracks) { check_cut_is_reported(recording, i, track, violations); }
     }
     return violations;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRoundingSteps = 0.5 + 1e-3;
 
-/// Where on the program an axis that has made so many steps can be: places are move + part of it, from 0 to the
+/// Where on the program an axis with this number of steps can be. A place is move + part of it, from 0 to the
 /// number of moves.
 class AxisPlace {
 public:
@@ -21,9 +21,9 @@ public:
         may_have_made(0);
     }
 
-    /// It has certainly made so many. steps rises by one from call to call.
+    /// The axis has certainly made this number of steps. `steps` increases by one from call to call.
     void made(std::int64_t steps) { earliest_ = first_place(static_cast<double>(steps) - kRoundingSteps); }
-    /// It may have made so many, by what its clock is known to. Likewise.
+    /// The axis may have made this number of steps, given its clock error. `steps` increases as above.
     void may_have_made(std::int64_t steps) { latest_ = last_place(static_cast<double>(steps) + kRoundingSteps); }
     double earliest() const { return earliest_; }
     double latest() const { return latest_; }
@@ -46,18 +46,18 @@ private:
     }
 
     const AxisCourse& course_;
-    std::size_t low_ = 0;  // the moves in which the places were last found
+    std::size_t low_ = 0;  // the moves that contained the last places
     std::size_t high_ = 0;
     double earliest_ = 0;
     double latest_ = 0;
 };
 
-/// All axes' steps of a job in order of true time. A step is where its axis's clock was to put it within the bound that
-/// the axis has published: it counts as made so much later for what must not be ahead, and so much earlier for what
-/// must not be behind.
+/// All steps of a job in order of true time. A step can differ from its intended time by the clock error bound that
+/// its axis has published. The check therefore counts it this much later for the axis that must not be ahead, and this
+/// much earlier for the axis that must not be behind.
 class TogetherCheck {
 public:
-    /// until: when an axis is no longer bound to the others.
+    /// until: the time after which an axis is no longer bound to the others.
     TogetherCheck(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until)
         : recording_(recording), job_(job) {
         for (std::size_t i = 0; i < recording.axes.size(); ++i) {
@@ -90,15 +90,15 @@ private:
         std::span<const StepEdge> steps;
         Tick until;
         AxisPlace place;
-        std::size_t made = 0;      // certainly
-        std::size_t may_have = 0;  // made
-        Tick next_made = kNever;   // when the next step certainly is
+        std::size_t made = 0;      // steps certainly made
+        std::size_t may_have = 0;  // steps possibly made
+        Tick next_made = kNever;   // latest time of the next step
         Tick next_may = kNever;
     };
 
     Tick next_tick() const { return std::ranges::min_element(axes_, {}, &Axis::next_made)->next_made; }
 
-    /// What a step may be off: the bound, what rounding in time leaves, and what it leaves here.
+    /// The time error of a step: the clock error bound, the rounding in time, and the rounding in this check.
     Ticks error_at(std::size_t i, Tick truth) const {
         const bool own_clocks = recording_.machine.timing.time_source == TimeSource::Network;
         return own_clocks ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
@@ -130,9 +130,9 @@ private:
 
     void object(Tick tick, const Axis& ahead, const Axis& behind, Violations& violations) const {
         violations.push_back({"together", ahead.index, tick.value, job_.first_step[ahead.index] + ahead.made - 1,
-                              "it is at move " + std::to_string(ahead.place.earliest()) +
-                                  " of the program at least, while axis " + recording_.machine.axes[behind.index].name +
-                                  " is at " + std::to_string(behind.place.latest()) + " at most"});
+                              "it is at least at move " + std::to_string(ahead.place.earliest()) +
+                                  " of the program, while axis " + recording_.machine.axes[behind.index].name +
+                                  " is at most at " + std::to_string(behind.place.latest())});
     }
 
     const Recording& recording_;
@@ -140,8 +140,8 @@ private:
     std::vector<Axis> axes_;
 };
 
-/// Until pulses are told to cease; an axis that a fault may part from the others, until it has; one that a switch
-/// may stop, until then.
+/// An axis is bound until an emergency stop; one that a fault may separate from the others, until that fault;
+/// one that a switch may stop, until that stop.
 std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,
                               const JobRecord& job) {
     std::vector<Tick> until(recording.axes.size(), job.emergency.value_or(job.ended));

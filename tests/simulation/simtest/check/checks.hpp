@@ -1,5 +1,5 @@
-// The judges of a run. They know the configuration, the programs and the pulses, and share no formula with the code
-// they judge.
+// The checks of a run. They know the configuration, the programs and the pulses. They share no formula with the code
+// that they check.
 #pragma once
 
 #include "tests/simulation/simtest/record/recording.hpp"
@@ -7,38 +7,38 @@
 
 namespace lockstep::simtest {
 
-/// Exact: the steps of a job are those of its program, in order, none more; all of them where it was done. From rest
-/// at power-up on, they add up.
+/// Exact: the steps of a job are those of its program, in order, without extra steps. A completed job has made all of
+/// them. Starting at rest at power-up, the steps add up.
 Violations check_counts(const Recording& recording);
 
-/// Within limits: there is a motion within the axis's speed, acceleration, deceleration and sudden change whose
-/// half-step crossings all lie within the tick before their step.
+/// Within limits: a motion exists within the axis's speed, acceleration, deceleration and sudden change whose
+/// half-step crossings are all within the tick before their step.
 ///
-/// For any two windows of steps that follow each other, their mean speeds differ by at most a times the time between
-/// their middles, plus one start velocity for each joint of moves in them; means are bounded by times a tick longer
-/// or shorter. All windows of 1, 4, 16 ... steps are judged. From rest and to rest likewise, with v^2 = v0^2 + 2 a s.
+/// For any two adjacent windows of steps, the mean speeds differ by at most a times the time between
+/// their middles, plus one start velocity for each joint of moves in them. The mean of a window is computed with its
+/// time one tick longer or shorter. All windows of 1, 4, 16 ... steps are checked; rests with v^2 = v0^2 + 2 a s.
 Violations check_limits(const Recording& recording);
 
-/// Together: at every step there is a place on the program's path from which no axis is more than half a step off,
-/// which is what rounding to whole steps makes of a place on the path itself.
+/// Together: at every step there is a place on the program's path such that no axis is more than half a step from it.
+/// Half a step is the error of rounding a place on the path to whole steps.
 Violations check_together(const Recording& recording);
 
-/// Frames: every axis ran the same frames of each epoch, in order, each once, and the same tail, when they were sent
-/// for; only what was armed; and made no step outside them.
+/// Frames: every axis ran the same frames of each epoch and the same tail, in order, each once, at the time they were
+/// sent for. It ran only armed frames, and made no step outside them.
 ///
-/// Where one fault may have parted its victim from the others (explain.hpp), the others ran the same, the victim at
-/// most a frame more or less, and the machine said so before it went on. More faults at a time may part anyone, by a
-/// frame at most.
+/// If one fault may have separated its victim from the others (explain.hpp), the others ran the same frames, the victim
+/// at most one frame more or less, and the machine reported it before it continued. Several faults at a time may
+/// separate any axis, by at most one frame.
 Violations check_frames(const Recording& recording);
 
-/// Stops: after an emergency stop all pulses have ceased within kCeaseSlots, and no motion is interrupted unless what
-/// went wrong is more than the machine must bear without.
+/// Stops: after an emergency stop all pulses have ceased within kCeaseSlots. A motion is interrupted only by a fault
+/// that the machine need not tolerate.
 Violations check_stops(const Recording& recording);
-inline constexpr int kCeaseSlots = 6;  // two messages, each with a loop at both ends, and a slot of the coordinator
+inline constexpr int kCeaseSlots = 6;  // two messages with a loop at both ends, and one coordinator slot
 
-/// Owners: what moves the axes is one owner's at a time. No axis moves but for the owner that it follows, an owner
-/// begins nothing before all axes follow it, one that has been followed by another never comes back, and terms never
-/// fall. No frame is run twice, or other than it was sent. Nobody takes over from an owner that is well.
+/// Owners: one owner at a time moves the axes. An axis moves only for the owner that it follows. An owner begins only
+/// after all axes follow it. A previous owner never returns, and terms never decrease. No frame runs
+/// twice or with other content than sent. No coordinator takes over from a healthy owner.
 Violations check_owners(const Recording& recording);
 
 Violations check_all(const Recording& recording);

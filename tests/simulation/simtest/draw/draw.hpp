@@ -12,13 +12,13 @@ public:
     explicit Draw(std::uint64_t seed) : random_(seed) {}
 
     std::uint64_t bits() { return random_(); }
-    /// In [0, 1).
+    /// A number in [0, 1).
     double part() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    /// In [low, high), evenly.
+    /// A number in [low, high), evenly distributed.
     double real(double low, double high) { return low + (high - low) * part(); }
-    /// In [low, high), each order of magnitude as likely as another. 0 < low.
+    /// A number in [low, high); each order of magnitude is equally likely. 0 < low.
     double magnitude(double low, double high) { return low * std::pow(high / low, part()); }
-    /// In [low, high].
+    /// A number in [low, high].
     std::int64_t whole(std::int64_t low, std::int64_t high) {
         return low + static_cast<std::int64_t>(bits() % static_cast<std::uint64_t>(high - low + 1));
     }

@@ -1,4 +1,4 @@
-// Faults of processes and links, drawn where they hurt: about the instants at which the protocol decides.
+// Faults of processes and links, placed near the instants at which the protocol decides.
 #pragma once
 
 #include "tests/simulation/simtest/draw/draw.hpp"
@@ -6,7 +6,7 @@
 
 namespace lockstep::simtest {
 
-/// For a job; nothing where no kind of it is asked for, and now and then.
+/// For a job. No result: no kind of fault is requested, or sometimes at random.
 std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine, const FaultKinds& faults);
 
 /// For a homing.

@@ -6,7 +6,7 @@
 namespace lockstep::simtest {
 namespace {
 
-/// Slots as short as a quiet network allows, up to those for hosts that stall for long.
+/// From slots as short as a quiet network allows to slots for hosts with long stalls.
 ProtocolTiming draw_timing(Draw& draw) {
     ProtocolTiming t;
     t.slot_us = draw.any_of<std::int64_t>({500, 1000, 2000, 2000, 5000, 5000, 10'000, 10'000});
@@ -18,7 +18,7 @@ ProtocolTiming draw_timing(Draw& draw) {
     return t;
 }
 
-/// Speeds in steps per second, and travel in steps, before they become mm.
+/// Speeds in steps per second and travel in steps, before the conversion to mm.
 struct Dynamics {
     double top = 0;
     double start = 0;
@@ -53,7 +53,7 @@ HomingConfig draw_homing(Draw& draw, const AxisConfig& axis, const Dynamics& d) 
     return h;
 }
 
-/// Near the switch, since searches are slow; on it now and then.
+/// Near the switch, because searches are slow; sometimes on it.
 double draw_start(Draw& draw, const AxisConfig& axis, double travel_mm) {
     const HomingConfig& h = axis.homing;
     const double reach = std::min(0.9 * travel_mm, 0.7 * h.search_velocity_mm_s);
@@ -75,7 +75,7 @@ AxisConfig draw_axis(Draw& draw, const std::string& name) {
     axis.position_min_mm = draw.chance(0.5) ? 0 : -travel_mm * draw.real(0, 1.5);
     axis.position_max_mm = axis.position_min_mm + travel_mm;
     axis.plant.travel_margin_mm = draw.real(5, 30) / axis.steps_per_mm;
-    // A motor hardly stronger than the limits: it loses steps where motion exceeds them.
+    // The motor is hardly stronger than the limits: it loses steps if a motion exceeds them.
     axis.plant.max_torque_accel_mm_s2 = 1.02 * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
     axis.plant.max_jump_mm_s = 1.02 * axis.start_velocity_mm_s;
     axis.homing = draw_homing(draw, axis, d);

@@ -1,4 +1,4 @@
-// A machine that the configuration's rules allow, of any size, speed and timing.
+// A machine of any size, speed and timing that the configuration rules allow.
 #pragma once
 
 #include "core/machine.hpp"
@@ -6,11 +6,11 @@
 
 namespace lockstep::simtest {
 
-/// How long a search for a switch over the whole travel takes: after a stuck switch, or a fault far from it.
+/// The duration of a switch search over the whole travel: after a stuck switch, or after a fault far from the switch.
 double search_slots(const AxisConfig& axis, const ProtocolTiming& timing);
 
-/// `long_searches`: of every length there is. Without them none takes more than some thousand slots: about half of the
-/// time for as many faults.
+/// `long_searches`: searches of all durations. Without it none takes more than some thousand slots, which halves the
+/// time for the same number of faults.
 MachineConfig draw_machine(Draw& draw, std::size_t axes, bool long_searches);
 
 }  // namespace lockstep::simtest

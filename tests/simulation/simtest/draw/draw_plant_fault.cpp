@@ -8,7 +8,7 @@ namespace {
 
 using Kind = VirtualFault::Kind;
 
-/// More than rounding makes of a step, at most a twentieth of the travel.
+/// More than the rounding of a step, at most a twentieth of the travel.
 std::int64_t draw_push(Draw& draw, const AxisConfig& axis) {
     const double travel = (axis.position_max_mm - axis.position_min_mm) * axis.steps_per_mm;
     const auto steps = static_cast<std::int64_t>(draw.magnitude(6, std::max(7.0, travel / 20)));
@@ -51,7 +51,7 @@ PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine) {
     planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
     planned.slots = draw.chance(0.5) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
     if (kind != Kind::Stick || !draw.chance(0.25)) { return planned; }
-    // It is closed before the axis makes its first step.
+    // The switch is closed before the axis makes its first step.
     planned.frame = 1;
     planned.edge = PlannedFault::Edge::FirstSend;
     const int until_moving = machine.timing.send_ahead_slots + machine.timing.frame_slots;

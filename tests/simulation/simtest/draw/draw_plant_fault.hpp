@@ -1,4 +1,4 @@
-// Faults of what hangs on an axis: switches that are stuck, a slide that is pushed, a device that loses a frame.
+// Faults of an axis's hardware: a switch that is stuck, a slide that is pushed, a device that loses a frame.
 #pragma once
 
 #include "tests/simulation/simtest/draw/draw.hpp"
@@ -6,7 +6,7 @@
 
 namespace lockstep::simtest {
 
-/// For a job, or shortly before it.
+/// For a job, or for the time shortly before it.
 PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine);
 
 /// For a homing.

@@ -7,7 +7,7 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kProgramSeconds = 3;  // about; what is drawn ends there
+constexpr double kProgramSeconds = 3;  // approximate length of a drawn program
 constexpr std::int64_t kMostGroups = 8;
 
 class ProgramDrawer {
@@ -47,7 +47,7 @@ private:
             case 5: return zigzag();
             case 6: return from_end_to_end();
             case 7: return add(Dwell{draw_.chance(0.3) ? 1e-6 : draw_.magnitude(1e-4, 0.2)});
-            default: return draw_.chance(0.5) ? add(Pause{}) : move(at_, true);  // or a move to where it stands
+            default: return draw_.chance(0.5) ? add(Pause{}) : move(at_, true);  // or a move to the current position
         }
     }
 
@@ -74,7 +74,7 @@ private:
         }
     }
 
-    /// A curve of two axes in chords, as long as a few steps or many.
+    /// A curve of two axes as a polyline, with chords of a few steps or many.
     void polyline() {
         const std::size_t a = draw_.index(at_.size());
         const std::size_t b = draw_.index(at_.size());
@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// Sharp corners, each a little way off the last.
+    /// Sharp corners, each a short distance from the previous one.
     void zigzag() {
         const double width = draw_.magnitude(1, 2000);
         for (std::int64_t n = draw_.whole(2, 12); n > 0; --n) {
@@ -109,8 +109,8 @@ private:
         move(to, draw_.chance(0.7));
     }
 
-    /// A feed below, at or above what the machine can do, but not so slow that nothing else would happen. The first
-    /// move comes from wherever the machine stands: rapid, since a feed would be for another distance.
+    /// A feed below, at or above the machine's maximum, but not so slow that nothing else happens. The first
+    /// move starts at any position. It is rapid, because a feed would apply to another distance.
     void move(const std::vector<double>& to, bool is_rapid) {
         const bool rapid = is_rapid || !moved_;
         moved_ = true;
@@ -135,7 +135,7 @@ private:
 
     Draw& draw_;
     const MachineConfig& machine_;
-    std::vector<std::size_t> places_;  // of the program's axes in the machine
+    std::vector<std::size_t> places_;  // the index in the machine of each axis of the program
     Program program_;
     std::vector<double> at_;
     double seconds_ = 0;

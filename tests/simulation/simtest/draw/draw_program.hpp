@@ -1,4 +1,4 @@
-// A program within a machine's travel: single steps to full travel, rapid and feed, corners of all angles, reversals,
+// A program within a machine's travel: single steps to full travel, rapids and feeds, corners of all angles, reversals,
 // short polylines, dwells and pauses.
 #pragma once
 

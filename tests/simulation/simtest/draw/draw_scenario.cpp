@@ -10,7 +10,7 @@
 namespace lockstep::simtest {
 namespace {
 
-/// A hop is two slots: up to half a slot until the sender's loop, one on the way, up to half until the receiver's.
+/// A hop takes two slots: up to half a slot until the sender's loop, one on the link, up to half until the receiver's.
 NetworkBehaviour draw_network(Draw& draw, const FaultKinds& faults, Ticks slot) {
     const auto part_of_slot = [&](double most) {
         return Ticks{1 + static_cast<std::int64_t>(draw.part() * most * static_cast<double>(slot.value - 1))};
@@ -18,7 +18,7 @@ NetworkBehaviour draw_network(Draw& draw, const FaultKinds& faults, Ticks slot) 
     NetworkBehaviour network;
     network.delay_min = faults.delay ? part_of_slot(1) : Ticks{1 + slot.value / 50};
     network.delay_max = network.delay_min;
-    if (faults.clock) { slot = {std::max<std::int64_t>(2, slot.value / 8)}; }  // the rest of a hop is the clocks'
+    if (faults.clock) { slot = {std::max<std::int64_t>(2, slot.value / 8)}; }  // the clocks use the rest of a hop
     if (faults.delay && faults.clock) { network.delay_min = network.delay_max = part_of_slot(1); }
     if (faults.reorder) {
         network.delay_max = std::max(network.delay_min, part_of_slot(1));
@@ -90,19 +90,19 @@ Task draw_task(Draw& draw, const MachineConfig& machine, const FaultKinds& fault
     while (draw.chance(0.3)) { task.before.push_back(wrong_when_idle(draw, machine)); }
     for (int n = 0; n < 5 && draw.chance(0.6); ++n) { task.interrupts.push_back(draw_interrupt(draw, machine)); }
     if (const auto fault = draw_fault(draw, machine, faults)) { task.faults.push_back(*fault); }
-    // Half of the faults meet a job that nobody interrupts.
+    // Half of the faults are in a job without interrupts.
     if (!task.faults.empty() && draw.chance(0.5)) { task.interrupts.clear(); }
     return task;
 }
 
-/// Each kind is there in half of the runs, so that each is seen alone, and in company.
+/// Each kind is in half of the runs, so that it occurs alone and together with others.
 FaultKinds half_of(Draw& draw, const FaultKinds& faults) {
     const auto kept = [&draw](bool kind) { return kind && draw.chance(0.5); };
     return {kept(faults.delay), kept(faults.reorder),   kept(faults.duplicate), kept(faults.loss),  kept(faults.freeze),
             kept(faults.crash), kept(faults.partition), kept(faults.corrupt),   kept(faults.stall), kept(faults.clock)};
 }
 
-/// Feed and rapid turned up to three times in each job. Drawn by itself: what else a seed means does not hang on it.
+/// Changes overrides up to three times in each job. The random numbers are separate: other random values stay the same.
 void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
     Draw draw(seed ^ 0x0f0e0d0c0b0a0908U);
     if (mixed && draw.chance(0.5)) { return; }
@@ -116,8 +116,8 @@ void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
-/// A second coordinator, and jobs and homings that meet a takeover. Drawn by itself, as overrides. Where other kinds
-/// are there, some jobs keep the faults that were drawn of those.
+/// A second coordinator, and jobs and homings with a takeover. The random numbers are separate, as for overrides. If
+/// there are other kinds, some jobs keep the faults drawn for those kinds.
 void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scenario& scenario) {
     Draw draw(seed ^ 0x0a0b0c0d0e0f0102U);
     if (mixed && draw.chance(0.6)) { return; }
@@ -134,7 +134,7 @@ void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scen
     }
 }
 
-/// Faults of axes' switches, slides and devices in jobs and homings, alone or shortly after what else goes wrong there.
+/// Faults of axes' switches, slides and devices in jobs and homings, alone or shortly after other faults there.
 void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     Draw draw(seed ^ 0x0102030405060708U);
     constexpr double kLongSearch = 40'000;
@@ -159,8 +159,8 @@ void give_plant_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
-/// Devices that are lost in jobs and homings, alone or shortly after what else goes wrong there. Drawn by itself, as
-/// overrides; the last job meets none.
+/// Devices that are lost in jobs and homings, alone or shortly after other faults there. The random numbers are
+/// separate, as for overrides; the last job has no such fault.
 void give_device_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     Draw draw(seed ^ 0x0de71ce0de71ce00U);
     if (mixed && draw.chance(0.7)) { return; }
@@ -179,8 +179,8 @@ void give_device_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
-/// What is known of the time then changes from one exchange to the next. Drawn by itself, as overrides; the rest of a
-/// hop is the clocks'.
+/// The known clock error then changes from one exchange to the next. The random numbers are separate, as for overrides;
+/// the clocks use the rest of a hop.
 void give_uneven_delays(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x0de1a70fc10c0000U);
     if (draw.chance(0.3)) { return; }
@@ -190,10 +190,10 @@ void give_uneven_delays(std::uint64_t seed, Scenario& scenario) {
     scenario.network.reply_longer = part();
 }
 
-/// Set seconds apart, up to 100 ppm fast or slow, processes and devices each for themselves.
+/// Sets the clocks seconds apart and up to 100 ppm fast or slow, separately for each process and each device.
 void give_clocks(Draw& draw, Scenario& scenario) {
     MachineConfig& machine = scenario.machine;
-    scenario.power_up = {100'000'000};  // later than any clock is behind
+    scenario.power_up = {100'000'000};  // more than any clock is behind
     machine.timing.time_source = TimeSource::Network;
     machine.timing.clock_error_limit_us = machine.timing.most_clock_error_us();
     const auto draw_clock = [&] {
@@ -213,7 +213,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     Draw draw(seed);
     Scenario scenario{.seed = seed};
     FaultKinds faults = asked.mixed ? half_of(draw, asked) : asked;
-    if (faults.clock) { faults.corrupt = false; }  // no bound survives a reply that lies
+    if (faults.clock) { faults.corrupt = false; }  // no clock bound holds with falsified replies
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, kind.axes.value_or(drawn), kind.long_searches);
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
@@ -232,7 +232,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     for (std::int64_t n = draw.whole(1, 2); n > 0; --n) {
         scenario.tasks.push_back(draw_task(draw, scenario.machine, faults));
     }
-    // Whatever went wrong before, the machine is then as good as new.
+    // After any fault the machine then works like a new one.
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
     if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }

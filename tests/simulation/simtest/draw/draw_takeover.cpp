@@ -16,7 +16,7 @@ public:
     TakeoverDraw(Draw& draw, const MachineConfig& machine)
         : draw_(draw), machine_(machine), silence_(static_cast<double>(rules::silence_slots(machine.timing))) {}
 
-    /// The first one most often meets the owner. Up to three more meet what comes of it.
+    /// The first fault usually affects the owner. Up to three more affect the takeover that follows.
     std::vector<PlannedFault> faults() {
         std::vector<PlannedFault> planned;
         add(planned, draw_.chance(0.75) ? Victim::Owner : Victim::Other);
@@ -36,7 +36,7 @@ private:
         return part < 0.4 ? Victim::Owner : (part < 0.75 ? Victim::Other : Victim::Process);
     }
 
-    /// About as long as a process may stall, about as long as whoever is gone is waited for, or several times that.
+    /// About the tolerated stall, about the time after which a lost process is given up, or several times that.
     Ticks draw_length() {
         const ProtocolTiming& t = machine_.timing;
         const double slots = [&] {
@@ -52,7 +52,7 @@ private:
 
     void add(std::vector<PlannedFault>& planned, Victim victim) {
         PlannedFault one{.victim = victim};
-        one.fault.process = draw_.index(axes());  // where an axis is the victim
+        one.fault.process = draw_.index(axes());  // used if an axis is the victim
         one.fault.kind = draw_.any_of({Kind::Freeze, Kind::Freeze, Kind::Crash, Kind::Cut});
         one.fault.in_loop = one.fault.kind == Kind::Freeze && draw_.chance(0.5);
         one.fault.lasts = draw_length();
@@ -72,7 +72,7 @@ private:
         if (planned.edge == Edge::Before && draw_.chance(0.7)) { planned.slots = silence_ + draw_.real(-4, 8); }
     }
 
-    /// A cut is of all links of its victim, of the one between the coordinators, or of those to some of the axes.
+    /// A cut separates its victim from all others, or the two coordinators, or the victim and some axes.
     void spread_cuts(std::vector<PlannedFault>& planned) {
         for (std::size_t n = 0; n < planned.size(); ++n) {
             if (planned[n].fault.kind != Kind::Cut || draw_.chance(0.4)) { continue; }
@@ -88,7 +88,7 @@ private:
         }
     }
 
-    /// Both coordinators' numbers stand for the other one.
+    /// Each coordinator's number stands for the other one.
     std::vector<std::size_t> draw_peers() {
         std::vector<std::size_t> peers;
         for (std::size_t i = 0; i < axes(); ++i) {

@@ -1,5 +1,5 @@
-// Faults about who owns a machine of two coordinators: what silences the owner, and what then goes wrong in the
-// takeover.
+// Faults of the ownership of a machine with two coordinators: what makes the owner silent, and the faults in the
+// takeover that follows.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ std::vector<PlannedFault> draw_takeover(Draw& draw, const MachineConfig& machine
 /// For a homing.
 std::vector<PlannedFault> draw_takeover_of_homing(Draw& draw, const MachineConfig& machine);
 
-/// Now and then the network finds who was frozen only about when those that it does not hear would count as lost.
+/// Sometimes the network finds a frozen process only when that process is about to count its silent peers as lost.
 void draw_late_network(Draw& draw, const MachineConfig& machine, std::vector<PlannedFault>& planned);
 
 }  // namespace lockstep::simtest

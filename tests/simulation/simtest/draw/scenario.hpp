@@ -1,4 +1,4 @@
-// What one run does, all of it drawn from one seed: a machine, its network, programs, and what is commanded when.
+// What one run does, all drawn from one seed: a machine, its network, its programs, and its commands.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace lockstep::simtest {
 
-/// What may go wrong in a run: with messages, with processes, with links.
+/// What may go wrong in a run: with messages, processes and links.
 struct FaultKinds {
     bool delay = false;
     bool reorder = false;
@@ -29,10 +29,10 @@ struct FaultKinds {
     bool corrupt = false;
     bool stall = false;
     bool clock = false;
-    bool mixed = false;  // each kind is there in half of the runs only
+    bool mixed = false;  // each kind is in half of the runs only
     bool override = false;
-    bool standby = false;  // a second coordinator, and faults about takeovers
-    bool limit = false;    // switches, slides, and what a device holds
+    bool standby = false;  // a second coordinator, and faults in takeovers
+    bool limit = false;    // switches, slides, and the content of a device
     bool device = false;   // devices die, stop for a while, are overwritten
 
     bool breaks_processes() const {
@@ -43,23 +43,23 @@ struct FaultKinds {
     }
 };
 
-/// Which machines are drawn.
+/// The kind of machines that are drawn.
 struct MachineKind {
-    std::optional<std::size_t> axes;  // 1 to 6 if not given
+    std::optional<std::size_t> axes;  // not given: 1 to 6
     bool long_searches = false;       // draw_machine.hpp
 };
 
-/// A command that must be refused, and why; the machine goes on as if it had not been given.
+/// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.
 struct WrongCommand {
     CommandKind kind = CommandKind::Resume;
-    std::optional<Program> program;  // Run: this one; none: one that was never sent
+    std::optional<Program> program;  // for Run; none: a program that was never sent
     FaultCode refusal = FaultCode::NothingToDo;
 };
 
-/// A fault of a process or a link, placed by what the protocol is doing then.
+/// A fault of a process or a link, placed by the current action of the protocol.
 struct PlannedFault {
-    /// Of a frame of the job (in homing: of its beginning, whichever); or of what follows the planned fault before:
-    /// itself, a coordinator's claim, the first and the last axis to follow it, all axes at rest.
+    /// An edge of a frame of the job (in homing: of its beginning). Or an edge after the previous planned fault:
+    /// that fault itself, a coordinator's claim, the first and the last axis that follows it, all axes at rest.
     enum class Edge : std::uint8_t {
         FirstSend,
         Evidence,
@@ -73,10 +73,10 @@ struct PlannedFault {
         Rest
     };
     static constexpr std::size_t kFrameEdges = 5;
-    /// Whom it meets: the process that the fault names, or the coordinator that owns the machine then, or the other.
+    /// The victim: the process that the fault names, the coordinator that owns the machine then, or the other one.
     enum class Victim : std::uint8_t { Process, Owner, Other };
-    VirtualFault fault;  // `at` is filled in when the edge comes
-    int epoch = 0;       // of the job, counted from 0
+    VirtualFault fault;  // `at` is set at the edge
+    int epoch = 0;       // in the job, counted from 0
     FrameNumber frame = 1;
     Edge edge = Edge::Start;
     double slots = 0;  // after the edge
@@ -85,19 +85,19 @@ struct PlannedFault {
     bool is_of_frame() const { return static_cast<std::size_t>(edge) < kFrameEdges; }
 };
 
-/// What happens while a job is in motion.
+/// An interruption of a job in motion.
 struct Interrupt {
     enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, EmergencyStop, WrongCommand, Override };
     Kind kind = Kind::HoldAndResume;
-    double after_s = 0;  // since the motion began or went on
-    double rest_s = 0;   // how long it is held
+    double after_s = 0;  // after the motion began or continued
+    double rest_s = 0;   // duration of the hold
     WrongCommand wrong;
     Overrides overrides;
 };
 
-/// A program, to be run from wherever the machine then stands, and what comes in between.
+/// A program that starts at the machine's current position, and the events during the job.
 struct Task {
-    Program program;  // start_mm is filled in when it is given
+    Program program;  // start_mm is set when the program is sent
     std::vector<WrongCommand> before;
     std::vector<Interrupt> interrupts;
     std::vector<PlannedFault> faults;  // in the order in which they are placed
@@ -108,21 +108,21 @@ struct Scenario {
     MachineConfig machine;
     NetworkBehaviour network;
     Tick power_up{1'000'000};
-    std::vector<AxisClocks> clocks;  // none: one clock for all
+    std::vector<AxisClocks> clocks;  // empty: one clock for all
     std::size_t coordinators = 1;
     OnTakeover on_takeover = OnTakeover::Stop;
     std::vector<WrongCommand> before_homing;
-    std::optional<double> homing_emergency_s;  // an emergency stop, so long after the homing began
-    bool asks_in_fault = false;                // for a homing, which must then be refused
-    bool resets_early = false;                 // while a fault may still last
+    std::optional<double> homing_emergency_s;  // the time of an emergency stop after the begin of the homing
+    bool asks_in_fault = false;                // requests a homing, which must be refused
+    bool resets_early = false;                 // resets while a fault may still last
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 
-    /// Messages may be lost, one way or another.
+    /// Messages may be lost or damaged.
     bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
 };
 
-/// axes: how many; none: drawn too.
+/// axes: their number; none: it is drawn too.
 Scenario draw_scenario(std::uint64_t seed, const FaultKinds& faults, const MachineKind& kind);
 
 }  // namespace lockstep::simtest

@@ -13,20 +13,20 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     if (lacks_device || !has_device_[axis]) { return; }  // what it says is where the device was last seen
     if (claimed + node.controller().zero_count() != pulses_[axis]) {
         object(axis, now,
-               "it says step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
+               "it reports step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
     }
-    // The switch closes within a step of where it is said to be, and whole steps are half a step off at most.
+    // The switch closes within a step of the reported position, and whole steps are off by at most half a step.
     constexpr double kHomedWithin = 2;
     const double slide = vm_.device(axis).plant().position_mm() * vm_.machine().axes[axis].steps_per_mm;
     if (state.homed && std::abs(slide - static_cast<double>(claimed)) > kHomedWithin) {
         object(axis, now,
-               "it says that it is homed at step " + std::to_string(claimed) + ", its slide is at step " +
+               "it reports that it is homed at step " + std::to_string(claimed) + ", its slide is at step " +
                    std::to_string(slide));
     }
-    if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it says that it rests, and moves"); }
+    if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it reports that it rests, but moves"); }
 }
 
-/// A device that takes another's place, or is powered up anew, counts from 0. While a device is stopped or its
+/// A device that replaces another one, or is powered up again, counts from 0. While a device is stopped or its
 /// registers are overwritten, what it shows is not what it does; nor is it before its axis has looked at it again.
 void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
     if (!fault.is_of_device()) { return; }

@@ -1,4 +1,4 @@
-// Whether what each axis says of itself is true, at every one of its states: judged by its pulses and its slide.
+// Checks that what each axis reports is true: compares every one of its states with its pulses and its slide.
 #pragma once
 
 #include <vector>

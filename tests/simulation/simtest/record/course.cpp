@@ -48,8 +48,8 @@ double length_mm(const MachineConfig& machine, const Counts& from, const Counts&
     return std::sqrt(square);
 }
 
-/// From rest to rest at a corner's worst, half the start velocity or what the acceleration allows over so short a way,
-/// in every axis's slowest way.
+/// An upper bound for a move from rest to rest. At a corner an axis keeps at least half its start velocity, or the
+/// speed that its acceleration allows over this distance; the slowest axis counts.
 double ample_seconds(const MachineConfig& machine, const Counts& from, const Stretch& stretch) {
     double seconds = stretch.seconds;
     const double length = length_mm(machine, from, stretch.to);
@@ -65,7 +65,7 @@ double ample_seconds(const MachineConfig& machine, const Counts& from, const Str
     return 2 * seconds;
 }
 
-/// By step and gap, from what the axis does in each move.
+/// Indexes the moves by step and by gap.
 void index_steps(AxisCourse& axis, const std::vector<Stretch>& stretches) {
     const auto steps = static_cast<std::size_t>(axis.steps());
     axis.move_of_step.resize(steps);

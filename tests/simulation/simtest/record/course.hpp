@@ -1,4 +1,4 @@
-// What a program asks of each axis, step by step, worked out from the program and the configuration alone.
+// What a program requires of each axis, step by step, computed from the program and the configuration alone.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@ namespace lockstep::simtest {
 
 using Counts = std::vector<std::int64_t>;
 
-/// The nearest whole step, halves away from zero: what "at 3.2 mm" means to an axis.
+/// The nearest whole step; halves are rounded away from zero. This is the axis's position for "at 3.2 mm".
 std::int64_t nearest_step(const AxisConfig& axis, double mm);
 
-/// One axis's share of a program: straight moves and rests, in order.
+/// One axis's part of a program: straight moves and rests, in order.
 struct AxisCourse {
-    /// travelled[j]: steps, either way, made before move j; the last one: all of them.
+    /// travelled[j]: the steps in both directions before move j; the last element: all steps.
     std::vector<std::int64_t> travelled;
     std::vector<std::int8_t> direction;  // of each move; 0: the axis rests
-    std::vector<double> fastest;         // of each move, steps per tick: its limit, or its share of the feed
+    std::vector<double> fastest;  // speed of each move, steps per tick: the limit, or the axis's part of the feed
 
     // By step, and by the gap before it (gap 0: before the first; the last gap: after the last).
     std::vector<std::uint32_t> move_of_step;
-    std::vector<std::uint32_t> joints_before;  // how many joints of its moves have gone by before gap g ends
+    std::vector<std::uint32_t> joints_before;  // the number of joints of moves before the end of gap g
     std::vector<bool> pause_in_gap;
 
     std::int64_t steps() const { return travelled.back(); }
@@ -39,10 +39,10 @@ struct Course {
     std::vector<AxisCourse> axes;
     std::size_t moves = 0;  // pauses and dwells included
     std::size_t pauses = 0;
-    double seconds = 0;  // far more than it can take, rests of the protocol not included
+    double seconds = 0;  // an upper bound of its duration, without the rests of the protocol
 };
 
-/// `most_feed`: what feeds are multiplied with at the most.
+/// `most_feed`: the largest factor of the feeds.
 Course course_of(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed = 1);
 
 }  // namespace lockstep::simtest

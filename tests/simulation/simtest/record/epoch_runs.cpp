@@ -9,7 +9,7 @@ namespace {
 
 std::int64_t pulses_at(Position at) { return static_cast<std::int64_t>((at.raw + (Int128{1} << 63)) >> 64); }
 
-/// What the steps of an axis between two of its recorded tracks amount to.
+/// The net number of steps of an axis between two of its recorded tracks.
 std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
     const Tick from = tracks == 0 ? Tick{} : axis.tracks[tracks - 1].start + axis.tracks[tracks - 1].ticks;
     const bool more = tracks < axis.tracks.size();
@@ -20,7 +20,7 @@ std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
     return net;
 }
 
-/// Faults that can have had a say in an epoch, from when its first frame was made to the end of its last.
+/// The faults that can have affected an epoch, between the creation of its first frame and the end of its last.
 std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
     const ProtocolTiming& t = recording.machine.timing;
     const Ticks slot = recording.machine.slot_ticks();
@@ -42,7 +42,7 @@ bool is_emergency_in(const Recording& recording, const SentEpoch& epoch) {
     });
 }
 
-/// Whether pulses may have ceased anywhere: then what the steps amount to tells nothing.
+/// True: pulses may have ceased anywhere; the net number of steps then proves nothing.
 bool may_be_cut(const Recording& recording, const SentEpoch& epoch, std::size_t axis) {
     const SentFrame& last = epoch.frames.rbegin()->second;
     return is_emergency_in(recording, epoch) ||
@@ -61,14 +61,14 @@ LastFrame from_steps(const Recording& recording, const LostRun& lost, const Sent
     return found.value_or(any);
 }
 
-/// Struck before its last frame was over, however long ago: it may have stopped without its axis noticing.
+/// True: the device failed before the end of its last frame; it may have stopped before its axis noticed.
 bool has_lost_device(const Recording& recording, const SentEpoch& epoch, std::size_t axis) {
     const std::vector<VirtualFault> faults = faults_in(recording, epoch);
     return std::ranges::any_of(
         faults, [axis](const VirtualFault& fault) { return fault.is_of_device() && fault.process == axis; });
 }
 
-/// One fault at a time parts at most its victim. Several, or pulses that cease, may part anyone.
+/// One fault at a time separates at most its victim. Several faults, or ceasing pulses, may separate any axis.
 std::vector<bool> may_differ(const Recording& recording, const SentEpoch& epoch) {
     const std::vector<VirtualFault> faults = faults_in(recording, epoch);
     const std::size_t axes = recording.axes.size();

@@ -30,28 +30,28 @@ struct Explanation {
 
 constexpr std::array kExplanations{
     Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopped},
-    // Three epochs in a row in which no frame was run; one axis that heard otherwise than the others.
+    // In three epochs in a row no frame ran, or one axis received other messages than the others.
     Explanation{Cause::Loss, FaultCode::FrameLate},
     Explanation{Cause::Loss, FaultCode::FramesDiffer},
     Explanation{Cause::Corruption, FaultCode::FrameLate},
     Explanation{Cause::Corruption, FaultCode::FramesDiffer},
-    // A state of an unknown process, or in another's name, is that of an axis that has restarted.
+    // A state of an unknown process, or under another name, looks like an axis that has restarted.
     Explanation{Cause::Corruption, FaultCode::AxisLost},
-    // A state with another position is an axis that is elsewhere.
+    // A state with another position looks like an axis that is elsewhere.
     Explanation{Cause::Corruption, FaultCode::PositionMismatch},
     Explanation{Cause::Freeze, FaultCode::FramesDiffer},
     Explanation{Cause::Freeze, FaultCode::AxisLost},
-    // Axes that move by themselves halt without their coordinator.
+    // Axes that move on their own halt without their coordinator.
     Explanation{Cause::Freeze, FaultCode::CoordinatorSilent},
     Explanation{Cause::CrashOfCoordinator, FaultCode::CoordinatorSilent},
     Explanation{Cause::Cut, FaultCode::CoordinatorSilent},
-    // The first frame of a run, armed when its start has gone by: the device refuses it.
+    // The first frame of a run was armed after its start: the device refuses it.
     Explanation{Cause::Stall, FaultCode::DeviceFault},
     Explanation{Cause::CrashOfAxis, FaultCode::AxisLost},
     Explanation{Cause::Cut, FaultCode::FrameLate},
     Explanation{Cause::Cut, FaultCode::FramesDiffer},
     Explanation{Cause::Cut, FaultCode::AxisLost},
-    // By a clock that is seconds off an axis says nothing in time, and hears nothing in time.
+    // An axis whose clock is seconds off sends and receives nothing in time.
     Explanation{Cause::SetClock, FaultCode::FrameLate},
     Explanation{Cause::SetClock, FaultCode::FramesDiffer},
     Explanation{Cause::SetClock, FaultCode::AxisLost},
@@ -59,7 +59,7 @@ constexpr std::array kExplanations{
     Explanation{Cause::Switch, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Switch, FaultCode::HomeSwitchNotFound},
     Explanation{Cause::Switch, FaultCode::HomeSwitchUnsteady},
-    // Onto a limit in a search, or back behind the switch.
+    // The slide was pushed onto a limit in a search, or back behind the switch.
     Explanation{Cause::Push, FaultCode::HomeSwitchNotFound},
     Explanation{Cause::Push, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Push, FaultCode::HomeSwitchUnsteady},
@@ -68,7 +68,7 @@ constexpr std::array kExplanations{
     Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
     Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
     Explanation{Cause::Device, FaultCode::DeviceLost},
-    // Whoever does not hear the coordinator's clock for long is no longer certain of it.
+    // A process that does not receive the coordinator's clock for long is no longer certain of the time.
     Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
 
@@ -122,7 +122,7 @@ bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine) {
     if (fault.kind == VirtualFault::Kind::Stick && fault.contact == &PlantInputs::home) { return true; }
     if (fault.kind != VirtualFault::Kind::Freeze) { return false; }
     const ProtocolTiming& t = machine.timing;
-    // A coordinator must not only be back in time, but make and send the next frame in time.
+    // A coordinator must not only be back in time, but also make and send the next frame in time.
     const int sends = t.send_ahead_slots - t.send_deadline_slots();
     const int slots = is_coordinator(fault, machine) ? std::min(t.stall_slots, sends) : t.stall_slots;
     return fault.lasts <= machine.slot_ticks() * slots;

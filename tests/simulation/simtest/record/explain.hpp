@@ -1,24 +1,24 @@
-// What each injected fault may lead to. What it may not is a violation.
+// Which Faults each injected fault may cause. Any other is a violation.
 #pragma once
 
 #include "tests/simulation/simtest/record/recording.hpp"
 
 namespace lockstep::simtest {
 
-/// Whether this Fault of the machine is one that what has gone wrong in the run so far explains.
+/// True: the faults injected until now explain this Fault of the machine.
 bool explains(const Recording& recording, FaultCode fault);
 
-/// Whether the machine must not even pause for it.
+/// True: the machine must not even pause for this fault.
 bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine);
 
-/// The axis that may have run a frame more or less than the others for it; nothing: none may.
+/// The axis that may have run one frame more or less than the others because of the fault; no result: none may.
 std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const MachineConfig& machine);
 
-/// From when on its axis may not know what its device did: one that is lost takes along what was not read of it yet.
+/// The time after which the axis may not know what its device did: a lost device loses its unread captures.
 Tick unread_from(const VirtualFault& fault, const MachineConfig& machine);
 
-/// Whether a switch may end this axis's motion at once between these instants: one is stuck then, or the slide was
-/// pushed before and may come upon one; or its device was lost.
+/// True: a switch may end this axis's motion at once between these instants: a switch is stuck then, the slide was
+/// pushed before and may reach one, or the device was lost.
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until);
 
 }  // namespace lockstep::simtest

@@ -7,7 +7,7 @@ namespace {
 
 Tick ended(const Track& track) { return track.start + track.ticks; }
 
-/// Of the steps in (after, until], by the device's time: the last one; `after`: there is none.
+/// The last step in (after, until], in the device's time; `after` if there is none.
 Tick last_step(const AxisRecord& axis, Tick after, std::optional<Tick> until) {
     Tick last = after;
     for (const StepEdge& step : axis.steps) {
@@ -16,13 +16,13 @@ Tick last_step(const AxisRecord& axis, Tick after, std::optional<Tick> until) {
     return last;
 }
 
-/// Who sent the frame; who was followed, of a move of the axis on its own.
+/// The sender of the frame; for a move of the axis on its own, the owner that it followed.
 Term writer_of(const Recording& recording, std::size_t axis, Epoch epoch, Tick at) {
     const auto sent = recording.epochs.find(epoch);
     return sent == recording.epochs.end() ? recording.axes[axis].followed_at(at).term : sent->second.writer;
 }
 
-/// One that was cut short is over with its last step before the next begins.
+/// A motion that was cut short ends with its last step before the next motion begins.
 Motion motion_of(const Recording& recording, std::size_t i, std::size_t n) {
     const AxisRecord& axis = recording.axes[i];
     const Track& track = axis.tracks[n];
@@ -37,7 +37,7 @@ Motion motion_of(const Recording& recording, std::size_t i, std::size_t n) {
     return motion;
 }
 
-/// What was run and not said, by its steps; nothing: none was made.
+/// An unreported motion, known by its steps only; no result: no step was made.
 std::optional<Motion> motion_of(const Recording& recording, std::size_t i, const LostRun& lost) {
     const AxisRecord& axis = recording.axes[i];
     const Tick from = lost.tracks == 0 ? axis.power_up : ended(axis.tracks[lost.tracks - 1]);

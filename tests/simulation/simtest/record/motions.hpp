@@ -1,20 +1,20 @@
-// Who moved which axis when: by the pulses' tracks, and by who sent the frames or was followed.
+// Who moved which axis when, by the tracks of the pulses and by the sender of the frames or the owner followed.
 #pragma once
 
 #include "tests/simulation/simtest/record/recording.hpp"
 
 namespace lockstep::simtest {
 
-/// A body or a tail, a part of a move of the axis on its own, or what a device went on with when its process had ended.
+/// A body, a tail, a part of a move of the axis on its own, or what a device ran after the end of its process.
 struct Motion {
     std::size_t axis = 0;
     Tick begin;  // machine time
     Tick end;
     Term writer;
-    const Track* track = nullptr;  // null: nobody said what it was
+    const Track* track = nullptr;  // null: unreported
 };
 
-/// Of all axes, by their beginning.
+/// The motions of all axes, ordered by their beginning.
 std::vector<Motion> motions_of(const Recording& recording);
 
 }  // namespace lockstep::simtest

@@ -15,7 +15,7 @@ Int128 gone(const Piece& piece) {
     return n * piece.velocity.raw + n * (n + 1) / 2 * piece.acceleration.raw;
 }
 
-/// A pulse stands for every half passed upwards.
+/// One pulse for every half step passed upwards.
 std::int64_t pulses_at(Int128 raw) { return static_cast<std::int64_t>((raw + (Int128{1} << 63)) >> 64); }
 
 Track track_of(const ExecutedTrack& executed, FrameNumber armed) {
@@ -116,7 +116,7 @@ void Recorder::on_coordinator(std::size_t process, Tick now, const CoordinatorOu
     for (const Frame& frame : out.frames) { keep(frame, now); }
     for (const AxisCommand& order : out.axis_commands) { keep(order, now); }
     for (const CoordinatorNotice& notice : out.notices) { take_notice(process, notice, now); }
-    if (out.must_quit) { recording_.troubles.push_back("coordinator: another one is heard"); }
+    if (out.must_quit) { recording_.troubles.push_back("coordinator: another coordinator is present"); }
 }
 
 void Recorder::take_notice(std::size_t process, const CoordinatorNotice& notice, Tick now) {
@@ -139,7 +139,7 @@ void Recorder::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (fault.kind == VirtualFault::Kind::Crash && i < recording_.axes.size()) { lose_run(i, now); }
 }
 
-/// What its device does from then on nobody says.
+/// No process reports what its device does after that.
 void Recorder::lose_run(std::size_t i, Tick now) {
     AxisRecord& axis = recording_.axes[i];
     const bool some = !axis.tracks.empty() && axis.tracks.back().epoch == epoch_[i];

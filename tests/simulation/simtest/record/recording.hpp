@@ -1,4 +1,4 @@
-// Everything a run did, as seen from outside: steps, tracks, frames, orders.
+// Everything that a run did, observed from outside: steps, tracks, frames, orders.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace lockstep::simtest {
 
-/// The body or the tail of a frame, or a move of the axis on its own (epoch 0), as the axis says it was run.
+/// The body or the tail of a frame, or a move of the axis on its own (epoch 0), as the axis reported it.
 struct Track {
     Epoch epoch = 0;
     FrameNumber frame = 0;
@@ -23,21 +23,22 @@ struct Track {
     Ticks ticks;
     Position from;
     Position to;
-    std::int64_t net_steps = 0;  // what its pieces amount to
+    std::int64_t net_steps = 0;  // the sum of its pieces
     bool cut = false;            // ended early: at a switch
-    FrameNumber armed = 0;       // the highest frame the axis had then told its device it may run
-    Tick commanded;              // machine time of its start; all else here is the device's
+    FrameNumber armed = 0;       // the highest frame that the axis had then armed in its device
+    Tick commanded;              // machine time of its start; the other times are the device's
     Ticks commanded_ticks;
-    Ticks clock_error;  // of its steps' times; a long tail's end may be further off than the bound published
+    Ticks clock_error;  // of its steps; at the end of a long tail it can exceed the published bound
 };
 
-/// How far its clock may be off, as an axis has published it.
+/// The bound of the clock error that an axis has published.
 struct PublishedBound {
     Tick at;
     Ticks error;
 };
 
-/// A process ended in the middle of a run, or lost its device: the device ran on, and nobody says what.
+/// A process ended in the middle of a run, or lost its device: the device continued, but no process reports what it
+/// ran.
 struct LostRun {
     Tick at;
     std::size_t tracks = 0;  // recorded before
@@ -46,14 +47,14 @@ struct LostRun {
     FrameNumber armed = 0;
 };
 
-/// From then on an axis says that it follows this owner; a process made anew follows nobody at first.
+/// From this time on an axis reports that it follows this owner. A restarted process follows no owner at first.
 struct Followed {
     Tick at;
     Identity process = 0;
     Term term;
 };
 
-/// An order to an axis, as its owner first gave it.
+/// An order to an axis, at the time its owner first gave it.
 struct GivenOrder {
     Tick at;
     AxisCommand order;
@@ -61,7 +62,7 @@ struct GivenOrder {
 
 struct AxisRecord {
     Tick power_up;
-    VirtualClock clock{};           // the device's: steps and tracks are in its time
+    VirtualClock clock{};           // of the device: steps and tracks are in its time
     std::vector<StepEdge> steps{};  // from power-up on
     std::vector<Track> tracks{};
     std::vector<LostRun> lost{};
@@ -69,16 +70,16 @@ struct AxisRecord {
     std::vector<Followed> followed{};  // by time
     std::vector<GivenOrder> orders{};  // by time
 
-    /// In true time, which is machine time.
+    /// Converts to true time, which is machine time.
     Tick truth(const StepEdge& step) const;
 
-    /// Published last before that instant; in a tail, what its track says if that is more.
+    /// The last bound published before this instant; in a tail, the bound of its track if that is larger.
     Ticks bound_at(Tick truth) const;
-    /// Said last at or before that instant.
+    /// The last owner reported at or before this instant.
     Followed followed_at(Tick truth) const;
 };
 
-/// One axis's share of a frame as sent: where its body begins and ends, and where its tail does.
+/// One axis's part of a sent frame: the begin and end of its body, and the end of its tail.
 struct Share {
     Position from;
     Position to;
@@ -86,7 +87,7 @@ struct Share {
     bool operator==(const Share&) const = default;
 };
 
-/// A frame as first sent.
+/// A frame at the time it was first sent.
 struct SentFrame {
     Tick start;
     Ticks ticks;
@@ -95,20 +96,20 @@ struct SentFrame {
     bool operator==(const SentFrame&) const = default;
 };
 
-/// All frames of an epoch, and who sent them.
+/// All frames of an epoch, and their sender.
 struct SentEpoch {
     Term writer;
     Tick first_sent;
     std::map<FrameNumber, SentFrame> frames;
 };
 
-/// A coordinator takes the machine to be its own.
+/// A coordinator claims the machine.
 struct Claim {
     Tick at;
     std::size_t process = 0;
 };
 
-/// A job, from its first frame to its end: which of the axes' steps are its.
+/// A job from its first frame to its end, and which steps of the axes belong to it.
 struct JobRecord {
     bool homing = false;
     JobOutcome outcome = JobOutcome::Done;
@@ -117,7 +118,7 @@ struct JobRecord {
     std::vector<std::size_t> end_step;
     Tick began;
     Tick ended;
-    std::optional<Tick> emergency;  // when a stop of all pulses was asked for
+    std::optional<Tick> emergency;  // the time of an emergency stop
 };
 
 /// An emergency stop, from the command until the machine is at rest.
@@ -135,12 +136,12 @@ struct Recording {
     std::vector<VirtualFault> faults;  // as they began
     std::vector<Emergency> emergencies;
     std::vector<Claim> claims;
-    std::vector<Tick> epochs_begun;     // the coordinator sets out, and may not come to send a frame
-    std::vector<Tick> interruptions;    // the coordinator says that a motion was interrupted by nobody's wish
+    std::vector<Tick> epochs_begun;     // the coordinator began an epoch; it may not have sent a frame
+    std::vector<Tick> interruptions;    // a motion was interrupted without a command
     std::vector<Tick> machine_faults;   // the coordinator enters Fault, or is about to
-    std::vector<Violation> untrue;      // what an axis said of itself
-    FaultCode fault = FaultCode::None;  // the last of them
-    std::vector<std::string> troubles;  // what must not happen at all, as it happened
+    std::vector<Violation> untrue;      // false reports of an axis about itself
+    FaultCode fault = FaultCode::None;  // the last one
+    std::vector<std::string> troubles;  // events that must never occur
     Tick began;
     Tick ended;
 
@@ -149,11 +150,11 @@ struct Recording {
         return std::span(axes[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
     }
     std::uint64_t steps() const;
-    /// Of every step: axis, tick, direction.
+    /// Over every step: axis, tick, direction.
     std::uint64_t hash() const;
 };
 
-/// Fills a recording's axes and frames from a machine in motion.
+/// Records the axes and frames of a machine in motion.
 class Recorder : public VirtualObserver {
 public:
     explicit Recorder(Recording& recording)
@@ -173,7 +174,7 @@ private:
     void keep(const AxisCommand& order, Tick now);
 
     Recording& recording_;
-    std::vector<Epoch> epoch_;        // the axes are in; 0: none
+    std::vector<Epoch> epoch_;        // of each axis; 0: none
     std::vector<FrameNumber> armed_;  // in that epoch
     std::map<std::size_t, bool> lacks_device_;
 };

@@ -1,4 +1,4 @@
-// What a checker objects to.
+// What a check reports.
 #pragma once
 
 #include <cstdint>

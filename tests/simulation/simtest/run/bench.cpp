@@ -10,7 +10,7 @@ namespace lockstep::simtest {
 
 namespace {
 
-/// From top speed, where nothing but its own limit holds an axis up.
+/// From top speed, with only the axis's own limit.
 double longest_stop_seconds(const MachineConfig& machine) {
     double longest = 0;
     for (const AxisConfig& axis : machine.axes) {
@@ -19,7 +19,7 @@ double longest_stop_seconds(const MachineConfig& machine) {
     return longest;
 }
 
-/// Of everything that is planned, and what it takes to be heard again each time.
+/// The total time of everything planned, plus the time until all peers receive each other again after each outage.
 double outage_seconds(const Scenario& scenario) {
     const ProtocolTiming& t = scenario.machine.timing;
     double slots = 0;
@@ -34,7 +34,8 @@ double outage_seconds(const Scenario& scenario) {
     };
     add(scenario.homing_faults);
     for (const Task& task : scenario.tasks) { add(task.faults); }
-    const double asking_s = scenario.clocks.empty() ? 0 : 4 * ClockAsker::kPeriod_s;  // for the time, in vain at first
+    const double asking_s =
+        scenario.clocks.empty() ? 0 : 4 * ClockAsker::kPeriod_s;  // time requests; the first ones get no answer
     return slots * static_cast<double>(t.slot_us) * 1e-6 + stops_s + asking_s;
 }
 
@@ -73,7 +74,7 @@ bool Bench::await(const std::function<bool()>& done, double seconds, const std::
     if (faulted() && !explains(played_.recording, watch_.fault())) {
         object("fault", "while " + what + ": " + std::string(name_of(watch_.fault())));
     } else if (!faulted() && !in_time) {
-        object("liveness", what + " takes longer than " + std::to_string(seconds + outage_s_) + " s");
+        object("liveness", what + " took longer than " + std::to_string(seconds + outage_s_) + " s");
     }
     return false;
 }
@@ -112,7 +113,7 @@ void Bench::settle(double seconds) {
                std::ranges::all_of(watch_.axes(), has_device) && vm_.now() - from > rest &&
                vm_.now() - watch_.moved() > rest;
     };
-    if (!vm_.advance_until(settled, limit + rest)) { object("liveness", "the machine does not come to rest"); }
+    if (!vm_.advance_until(settled, limit + rest)) { object("liveness", "the machine did not come to rest"); }
 }
 
 const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
@@ -144,7 +145,7 @@ double Bench::most_feed() const {
     return most;
 }
 
-/// A coordinator started anew is followed, and answers, when the axes rest; a tail along a path may be a long one.
+/// A restarted coordinator is followed, and answers, when the axes rest. A tail along a path can be long.
 const Reply* Bench::await_reply(std::uint64_t sequence) {
     constexpr int kMostRepeats = 20;
     const Tick asked = vm_.now();

@@ -1,4 +1,4 @@
-// A machine in virtual time with everything that watches it, and the ways to command it and to wait.
+// A machine in virtual time with all its observers, and functions to command it and to wait.
 #pragma once
 
 #include <functional>
@@ -15,41 +15,41 @@ class Bench {
 public:
     Bench(const Scenario& scenario, Played& played);
 
-    /// The run cannot go on: what is wrong has been noted.
+    /// True: the run cannot continue; a violation is recorded.
     bool over() const { return over_; }
-    /// Notes it; the run is over.
+    /// Records a violation; the run is over.
     void object(const std::string& rule, const std::string& text);
 
-    /// The machine is in a Fault that what has gone wrong in the run explains.
+    /// The machine is in a Fault that the injected faults explain.
     bool faulted() const { return watch_.phase() == MachinePhase::Fault; }
-    /// Messages are altered, or a fault of a process or link has begun since: answers need not be those of a machine
-    /// left alone.
+    /// Messages are altered, or a fault of a process or link has begun since then: answers need not be those of
+    /// an undisturbed machine.
     bool disturbed_since(Tick tick) const {
         return scenario_.network.corrupted > 0 || (watch_.disturbed() && *watch_.disturbed() >= tick);
     }
 
-    /// Goes on until `done` holds, or the machine is in Fault, which may be objected to. After the deadline: an
-    /// objection, too.
+    /// Runs until `done` holds or the machine is in Fault, which can be a violation. A missed deadline is a
+    /// violation too.
     bool await(const std::function<bool()>& done, double seconds, const std::string& what);
     void wait(double seconds);
-    /// Waits for so many slots to pass.
+    /// Waits for this number of slots.
     void wait_slots(double slots) { wait(slots * slot_s()); }
 
-    /// Commands and waits for the answer, repeating itself where messages may be lost. Null: the run is over.
+    /// Sends a command and waits for the answer; repeats it if messages may be lost. Null: the run is over.
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
     /// The same, but a refusal because of uncertain clocks is obeyed first: it tells the client to wait and ask again.
     const Reply* ask_in_time(CommandKind kind, std::uint64_t program = 0);
     const Reply* turn(const Overrides& overrides);
-    /// The faults that the next job meets.
+    /// The faults of the next job.
     void plan(const std::vector<PlannedFault>& faults) { placer_.plan(faults); }
-    /// No further fault begins. Goes on until none is left and every axis has rested for long enough to rest for good.
+    /// No further fault begins. Runs until no fault is left and every axis has rested long enough to stay at rest.
     void settle(double seconds);
     std::uint64_t send_program(Program program);
 
     bool asks_in_fault() const { return scenario_.asks_in_fault; }
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
-    /// The highest that its feeds are turned to, in any job: they hold on.
+    /// The highest feed override of any job; overrides persist.
     double most_feed() const;
     Recording& recording() { return played_.recording; }
     VirtualMachine& vm() { return vm_; }
@@ -60,10 +60,10 @@ public:
 private:
     const Reply* await_reply(std::uint64_t sequence);
     void reset_early();
-    static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of whoever is asked
+    static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of the process that answers
 
-    /// Whoever has taken over may have heard a command while it stood by, and answers it when it comes again. Nobody
-    /// answers before one owns the machine.
+    /// A new owner may have received a command as the standby, and answers when the command is repeated. Before a
+    /// coordinator owns the machine, there is no answer.
     bool may_lose() const {
         const bool taken_over = scenario_.coordinators > 1 && watch_.disturbed();
         return lossy() || vm_.faults_pending() || taken_over || !vm_.owner();
@@ -77,7 +77,7 @@ private:
     FaultPlacer placer_;
     ClaimCheck claims_;
     CoverageWatch coverage_;
-    double outage_s_;  // of all planned faults together, and as long again until everyone is heard
+    double outage_s_;  // of all planned faults, and as long again until all peers are received
     std::uint64_t programs_ = 0;
     bool over_ = false;
 };

@@ -141,7 +141,7 @@ Slot CoverageWatch::start_slot(std::size_t axis, FrameNumber k) const {
     return first + static_cast<Slot>(k - 1) * machine_.timing.frame_slots;
 }
 
-/// By the slots alone: a veto of k while k can still be checked, or of what follows one that no longer can.
+/// Computed from the slots alone: a veto of k while k can still be checked, or of the next frame if k no longer can.
 void CoverageWatch::take_check(std::size_t axis, Slot now, FrameNumber k, bool armed) {
     const Slot due = start_slot(axis, k) - machine_.timing.check_slots();
     if (armed) { return coverage_.hit(kChecks, kCheckNames[now <= due ? 0 : 1]); }

@@ -1,4 +1,4 @@
-// How often runs came to each thing that the protocol and its state machines know; what they never came to shows.
+// How often the runs reached each state and event of the protocol and its state machines, and which they never reached.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lockstep::simtest {
 
-/// Counts by group and name. Everything there is to come to is in it from the start, at 0.
+/// Counts by group and name. It contains everything that can be reached from the start, with count 0.
 class Coverage {
 public:
     using Counts = std::map<std::string, std::uint64_t, std::less<>>;
@@ -21,18 +21,18 @@ public:
     void add(const Coverage& other);
     const std::map<std::string, Counts, std::less<>>& groups() const { return groups_; }
 
-    /// Of a run's network.
+    /// The alterations in the network of a run.
     void take(const AlterationCounts& alterations);
 
 private:
     std::map<std::string, Counts, std::less<>> groups_;
 };
 
-/// Fills it from a machine in motion.
+/// Collects the coverage of a machine in motion.
 class CoverageWatch : public VirtualObserver {
 public:
     CoverageWatch(const MachineConfig& machine, Coverage& coverage);
-    /// The axes' processes that are still there count, too.
+    /// Includes the axis processes that still run.
     ~CoverageWatch() override;
     CoverageWatch(const CoverageWatch&) = delete;
     CoverageWatch& operator=(const CoverageWatch&) = delete;
@@ -48,7 +48,7 @@ private:
 
     MachineConfig machine_;
     Coverage& coverage_;
-    std::vector<TransitionCounts> transitions_;  // of each axis's process so far
+    std::vector<TransitionCounts> transitions_;  // of each axis's process until now
     std::vector<Epoch> epoch_;                   // of each axis
     std::map<Epoch, Tick> starts_;
 };

@@ -34,7 +34,7 @@ void FaultPlacer::take_job_event(const JobEvent& job, Tick now) {
     }
 }
 
-/// What follows the fault before comes after that one has begun.
+/// A fault that follows another fault comes after the other one has begun.
 void FaultPlacer::reach(Edge edge, Tick now) {
     if (!planned_.empty() && planned_.front().edge == edge && now >= last_) { place(now); }
 }
@@ -55,7 +55,7 @@ void FaultPlacer::place(Tick from) {
     if (!planned_.empty() && planned_.front().edge == Edge::Before) { place(last_); }
 }
 
-/// Of the edge, from the start of the epoch.
+/// The edge in slots from the start of the epoch.
 double FaultPlacer::frame_slots(const PlannedFault& planned) const {
     const ProtocolTiming& t = vm_.machine().timing;
     const double start = static_cast<double>(planned.frame - 1) * t.frame_slots;

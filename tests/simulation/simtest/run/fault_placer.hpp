@@ -1,4 +1,4 @@
-// Puts planned faults into a machine's schedule as soon as what they wait for has come.
+// Adds planned faults to a machine's schedule as soon as their edge is reached.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@ class FaultPlacer : public VirtualObserver {
 public:
     explicit FaultPlacer(VirtualMachine& vm) : vm_(vm), at_rest_(vm.machine().axes.size(), true) {}
 
-    /// Of the job that begins next, in this order. Those of the job before that have not been placed are dropped.
+    /// The faults of the next job, in this order. Faults of the previous job that have not been placed are dropped.
     void plan(const std::vector<PlannedFault>& faults) {
         planned_.assign(faults.begin(), faults.end());
         epochs_ = 0;
@@ -33,10 +33,10 @@ private:
 
     VirtualMachine& vm_;
     std::deque<PlannedFault> planned_;
-    std::vector<bool> at_rest_;  // by axis, as last said
+    std::vector<bool> at_rest_;  // by axis, as last reported
     std::map<std::size_t, Tick> crashed_until_;
-    Tick last_;                 // when the fault placed last begins
-    std::size_t followed_ = 0;  // axes that have followed another owner since
+    Tick last_;                 // the begin of the last placed fault
+    std::size_t followed_ = 0;  // the axes that have followed another owner since then
     int epochs_ = 0;
 };
 

@@ -8,7 +8,7 @@
 namespace lockstep::simtest {
 namespace {
 
-/// The slide stands where it should, by its true place: within two steps, by what whole steps make of the switch's.
+/// The slide is at its true place within two steps, which is the rounding of the switch position to whole steps.
 void check_slides(Bench& bench, const Counts& at) {
     for (std::size_t i = 0; i < at.size() && !bench.over(); ++i) {
         const AxisConfig& axis = bench.machine().axes[i];
@@ -21,7 +21,7 @@ void check_slides(Bench& bench, const Counts& at) {
     }
 }
 
-/// What the axes say, what their encoders saw and what their pulses add up to is the same.
+/// The reported position, the encoder and the sum of the pulses agree.
 void check_places(Bench& bench, const Counts& at) {
     bench.wait_slots(bench.lossy() ? 40 : 4);
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -30,13 +30,13 @@ void check_places(Bench& bench, const Counts& at) {
         std::int64_t pulses = 0;
         for (const StepEdge& step : bench.recording().axes[i].steps) { pulses += step.direction; }
         const std::int64_t encoder = bench.vm().device(i).plant().encoder();
-        // A motor that is stopped dead at speed may lose steps; what it then stands at is homed anew.
+        // A motor that is stopped at speed may lose steps; homing then corrects its position.
         const bool moved = may_be_stopped(bench.recording(), i, bench.recording().began, bench.vm().now());
         if (encoder != pulses && bench.recording().emergencies.empty() && !moved) {
             bench.object("lost", axis.name + " has moved " + std::to_string(encoder) + " steps after " +
                                      std::to_string(pulses) + " pulses");
         } else if (!state || state->position.count() != at[i] || !state->homed || !state->at_rest) {
-            bench.object("place", axis.name + " does not say that it rests homed at step " + std::to_string(at[i]));
+            bench.object("place", axis.name + " does not report that it rests homed at step " + std::to_string(at[i]));
         }
     }
 }

@@ -1,4 +1,4 @@
-// Plays a scenario on a machine in virtual time, as a client and as the laboratory around it.
+// Plays a scenario on a machine in virtual time, as its client and as its laboratory.
 #pragma once
 
 #include "tests/simulation/simtest/draw/scenario.hpp"
@@ -11,7 +11,7 @@ namespace lockstep::simtest {
 struct Played {
     Recording recording;
     Coverage coverage;
-    Violations violations;  // of what was asked and answered, and of ends that did not come
+    Violations violations;  // wrong answers and missed deadlines
 };
 
 /// also: another observer, or null.

@@ -6,7 +6,7 @@
 namespace lockstep::simtest {
 namespace {
 
-/// The program, made for where the axes stand.
+/// The program with the current positions of the axes as its start.
 Program starting_at(const Counts& at, const MachineConfig& machine, Program program) {
     if (!program.start_mm.empty()) { return program; }
     for (const std::string& name : program.axes) {
@@ -18,14 +18,14 @@ Program starting_at(const Counts& at, const MachineConfig& machine, Program prog
     return program;
 }
 
-/// Far more than the protocol needs to come to rest and set out again, as often as it may have to.
+/// An upper bound of the time in which the protocol comes to rest and starts again, as often as it may have to.
 double protocol_seconds(const Bench& bench) {
     const ProtocolTiming& t = bench.machine().timing;
     const double rests = bench.lossy() ? 60 : 6;
     return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
 }
 
-/// With a switch that has to be searched again and again.
+/// For a homing that has to repeat the search for a switch.
 double homing_seconds(const Bench& bench) {
     constexpr int kSearches = 4;
     double seconds = protocol_seconds(bench);
@@ -54,7 +54,7 @@ bool is_refusal(const Reply& reply, FaultCode why) {
     return reply.status == ReplyStatus::Refused && reply.fault == static_cast<std::uint16_t>(why);
 }
 
-/// A machine in Fault does nothing before it is reset. Another owner may know of no fault.
+/// A machine in Fault accepts nothing before a reset. Another owner may not know of the fault.
 void ask_in_fault(Bench& bench) {
     const auto before = bench.steps_made();
     const Reply* reply = bench.ask(CommandKind::Home);
@@ -63,7 +63,7 @@ void ask_in_fault(Bench& bench) {
     if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
 }
 
-/// The park position. An axis that lost its coordinator on the way there, with its zero set, rests where it reports;
+/// The park position. An axis that lost its coordinator on the way, with its zero set, rests where it reports;
 /// check_slides() compares that with the true place of the slide.
 std::int64_t place_after_homing(const Bench& bench, std::size_t axis, JobOutcome outcome) {
     const AxisState& state = bench.watch().axes()[axis];
@@ -87,7 +87,7 @@ void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
     }
     bench.wait_slots(3);
     if (bench.watch().phase() != MachinePhase::Idle || bench.steps_made() != before) {
-        bench.object("refusal", "a refused command was not without effect");
+        bench.object("refusal", "a refused command had an effect");
     }
 }
 
@@ -96,7 +96,7 @@ Tick play_emergency(Bench& bench) {
     bench.recording().emergencies.push_back({asked, asked});
     const Reply* reply = bench.ask(CommandKind::EmergencyStop);
     if (reply != nullptr && reply->status != ReplyStatus::Accepted) { bench.object("emergency", answer_text(*reply)); }
-    // A coordinator that ended in the meantime knows nothing of it.
+    // A coordinator that ended in the meantime does not know of the command.
     const auto lost = [&] { return bench.disturbed_since(asked); };
     (void)bench.await(lost, protocol_seconds(bench), "an emergency stop");
     return asked;
@@ -124,7 +124,7 @@ void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
     job.end_step = bench.steps_made();
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
     for (std::size_t i = 0; i < at.size(); ++i) {
-        if (job.end_step[i] == job.first_step[i]) { continue; }  // its turn never came
+        if (job.end_step[i] == job.first_step[i]) { continue; }  // the axis was not reached
         at[i] = place_after_homing(bench, i, job.outcome);
     }
     end_record(bench, job);
@@ -162,7 +162,7 @@ void JobPlayer::play() {
         while (goes_on()) {
             go_on();
             if (bench_.vm().now() > deadline && !disturbed()) {
-                bench_.object("liveness", "a job takes longer than " + std::to_string(seconds) + " s");
+                bench_.object("liveness", "a job took longer than " + std::to_string(seconds) + " s");
             }
         }
         if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
@@ -170,7 +170,7 @@ void JobPlayer::play() {
         } else {
             (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
         }
-    } while (goes_on());  // the fault was that of an owner which has another by now
+    } while (goes_on());  // a new owner continues the job after the fault
     record();
 }
 
@@ -186,12 +186,12 @@ bool JobPlayer::start() {
     return !bench_.over();
 }
 
-/// What an undisturbed machine does not refuse.
+/// Records a refusal that an undisturbed machine must not give.
 void JobPlayer::refused(const char* what, const Reply& reply) {
     if (!disturbed()) { bench_.object(what, "it was " + answer_text(reply)); }
 }
 
-/// To the next thing that happens, by itself or by what was drawn.
+/// Continues to the next event, planned or not.
 void JobPlayer::go_on() {
     if (in(MachinePhase::Paused)) { return resume(); }
     const bool more = next_ < task_.interrupts.size();
@@ -216,7 +216,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
     }
 }
 
-/// Comes when the motion is over where it was sent just before that.
+/// Has no effect if it was sent just before the end of the motion.
 void JobPlayer::hold(const Interrupt& interrupt) {
     const Reply* reply = bench_.ask(CommandKind::Hold);
     if (reply == nullptr) { return; }
@@ -230,7 +230,7 @@ void JobPlayer::hold(const Interrupt& interrupt) {
     }
     const auto before = bench_.steps_made();
     bench_.wait(interrupt.rest_s);
-    if (bench_.steps_made() != before) { return bench_.object("hold", "steps are made while the machine is held"); }
+    if (bench_.steps_made() != before) { return bench_.object("hold", "steps occur while the machine is held"); }
     interrupt.kind == Interrupt::Kind::HoldAndStop ? stop() : resume();
 }
 
@@ -252,7 +252,7 @@ void JobPlayer::turn(const Overrides& overrides) {
 
 void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }
 
-/// Refused while the machine moves. Home would be taken at the job's end: it is given long before that or not at all.
+/// Refused while the machine moves. Home would be accepted at the job's end, so it is sent long before that or never.
 void JobPlayer::give(const WrongCommand& wrong) {
     const double long_s = (bench_.lossy() ? 400 : 40) * bench_.slot_s();
     if (wrong.kind == CommandKind::Home && !(bench_.vm().state()->remaining_s > long_s)) { return; }

@@ -1,4 +1,4 @@
-// One program on a machine at rest: given, run, interrupted, resumed, ended.
+// One program on a machine at rest: it is sent, run, interrupted, resumed and ended.
 #pragma once
 
 #include "tests/simulation/simtest/run/bench.hpp"
@@ -7,10 +7,10 @@ namespace lockstep::simtest {
 
 class JobPlayer {
 public:
-    /// `at`: where the axes stand, and are left standing.
+    /// `at`: the positions of the axes, updated after the job.
     JobPlayer(Bench& bench, const Task& task, Counts& at) : bench_(bench), task_(task), at_(at) {}
 
-    /// Ends with the axes at rest, the job recorded: idle where nothing went wrong.
+    /// Ends with the axes at rest and the job recorded; the machine is Idle if no fault occurred.
     void play();
 
 private:
@@ -34,21 +34,21 @@ private:
     const Task& task_;
     Counts& at_;
     JobRecord job_;
-    std::size_t next_ = 0;  // of the interrupts
+    std::size_t next_ = 0;  // index of the next interrupt
     bool begun_ = false;
     Tick moving_since_;
 };
 
-/// A command that an idle machine must refuse: it stays where it stands.
+/// A command that an idle machine must refuse: its position stays the same.
 void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at);
 
-/// All axes homed together and in their order; `at` is where they stand then. Recorded as a job, well or badly ended.
+/// Homes all axes together and in their order; `at` is their position then. Recorded as a job, whatever its outcome.
 void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s = {});
 
-/// A person's work after a Fault or a restart: reset and homed, until the machine is idle and knows where it stands.
+/// The operator's work after a Fault or a restart: resets and homes until the machine is Idle with known positions.
 void make_ready(Bench& bench, Counts& at);
 
-/// Pulses are to cease, whatever goes on. Returns when it was asked for.
+/// Commands an emergency stop during any motion. Returns the time of the command.
 Tick play_emergency(Bench& bench);
 
 }  // namespace lockstep::simtest

@@ -58,7 +58,7 @@ void print_coverage(const Coverage& coverage) {
 void print_text(const Tally& t) {
     const double hours = t.simulated_s / 3600;
     std::printf("%" PRIu64 " runs, %" PRIu64 " failed, %" PRIu64 " in Fault, %" PRIu64 " epochs parted; %" PRIu64
-                " steps judged; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
+                " steps checked; %.3f hours in %.1f s: %.4f hours a second, %.1f runs a second\n",
                 t.runs, t.failed, t.faulted, t.parted, t.steps, hours, t.wall_s, hours / t.wall_s,
                 static_cast<double>(t.runs) / t.wall_s);
     if (t.runs > 1) { print_coverage(t.coverage); }
@@ -74,31 +74,31 @@ FaultKinds Options::kinds() const {
             has("mixed"), has("override"),  has("standby"),   has("limit"), has("device")};
 }
 
-void Tally::add(const Verdict& verdict) {
+void Tally::add(const RunResult& result) {
     ++runs;
-    failed += verdict.violations.empty() ? 0 : 1;
-    faulted += verdict.fault == FaultCode::None ? 0 : 1;
-    parted += verdict.parted;
-    steps += verdict.steps;
-    coverage.add(verdict.coverage);
-    simulated_s += verdict.simulated_s;
+    failed += result.violations.empty() ? 0 : 1;
+    faulted += result.fault == FaultCode::None ? 0 : 1;
+    parted += result.parted;
+    steps += result.steps;
+    coverage.add(result.coverage);
+    simulated_s += result.simulated_s;
 }
 
-void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options) {
-    const bool faulted = verdict.fault != FaultCode::None;
-    const std::string fault = faulted ? ", was in Fault: " + std::string(name_of(verdict.fault)) : "";
+void print_run(std::uint64_t seed, const RunResult& result, const Options& options) {
+    const bool faulted = result.fault != FaultCode::None;
+    const std::string fault = faulted ? ", was in Fault: " + std::string(name_of(result.fault)) : "";
     std::FILE* to = options.json ? stderr : stdout;
-    std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, verdict.steps,
-                 verdict.simulated_s, verdict.hash, fault.c_str());
+    std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, result.steps,
+                 result.simulated_s, result.hash, fault.c_str());
     constexpr std::size_t kMostPrinted = 8;
-    for (std::size_t n = 0; n < std::min(kMostPrinted, verdict.violations.size()); ++n) {
-        const Violation& v = verdict.violations[n];
+    for (std::size_t n = 0; n < std::min(kMostPrinted, result.violations.size()); ++n) {
+        const Violation& v = result.violations[n];
         std::fprintf(to, "  VIOLATED %s:%s: %s\n", v.rule.c_str(), place(v).c_str(), v.text.c_str());
     }
-    if (verdict.violations.size() > kMostPrinted) {
-        std::fprintf(to, "  ... and %zu more\n", verdict.violations.size() - kMostPrinted);
+    if (result.violations.size() > kMostPrinted) {
+        std::fprintf(to, "  ... and %zu more\n", result.violations.size() - kMostPrinted);
     }
-    if (verdict.violations.empty()) { return; }
+    if (result.violations.empty()) { return; }
     const MachineKind& machine = options.machine;
     const std::string axes = machine.axes ? " --axes " + std::to_string(*machine.axes) : "";
     std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s%s --trace\n", seed,

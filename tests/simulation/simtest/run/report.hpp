@@ -1,4 +1,4 @@
-// What the program is asked, and what it says.
+// The program's options and its report.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Options {
     MachineKind machine;
     std::vector<std::string> faults{"none"};
     bool json = false;
-    std::string coverage;  // the file to write it into; empty: none
+    std::string coverage;  // the file for the coverage; empty: none
     bool verbose = false;
     bool trace = false;
 
@@ -25,19 +25,19 @@ struct Options {
 struct Tally {
     std::uint64_t runs = 0;
     std::uint64_t failed = 0;
-    std::uint64_t faulted = 0;  // were in Fault at some time, for what went wrong on purpose
-    std::uint64_t parted = 0;   // epochs of which not all axes ran the same frames: one more or less, and it was said
+    std::uint64_t faulted = 0;  // runs that were in Fault because of an injected fault
+    std::uint64_t parted = 0;   // epochs in which an axis ran one frame more or less, as reported
     std::uint64_t steps = 0;
     double simulated_s = 0;
     double wall_s = 0;
     Coverage coverage;
 
-    void add(const Verdict& verdict);
+    void add(const RunResult& result);
 };
 
-/// What was violated and where, and the command line that replays it.
-void print_run(std::uint64_t seed, const Verdict& verdict, const Options& options);
-/// As JSON. False: the file cannot be written.
+/// Prints the violations with their places, and the command line that replays the run.
+void print_run(std::uint64_t seed, const RunResult& result, const Options& options);
+/// Writes JSON. False: the file cannot be written.
 [[nodiscard]] bool save_coverage(const Coverage& coverage, const std::string& path);
 void print_tally(const Tally& tally, const Options& options);
 

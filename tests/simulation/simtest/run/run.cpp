@@ -22,26 +22,26 @@ Violations check_configuration(const MachineConfig& machine) {
 
 }  // namespace
 
-Verdict run_seed(std::uint64_t seed, const RunOptions& options) {
+RunResult run_seed(std::uint64_t seed, const RunOptions& options) {
     const Scenario scenario = draw_scenario(seed, options.faults, options.machine);
-    Verdict verdict{.violations = check_configuration(scenario.machine)};
-    if (!verdict.violations.empty()) { return verdict; }
+    RunResult result{.violations = check_configuration(scenario.machine)};
+    if (!result.violations.empty()) { return result; }
     Trace trace(scenario.machine);
     Played played = play(scenario, options.trace ? &trace : nullptr);
     const Recording& recording = played.recording;
-    verdict.violations = std::move(played.violations);
-    verdict.fault = recording.fault;
-    verdict.coverage = std::move(played.coverage);
-    for (const auto& [number, runs] : epoch_runs(recording)) { verdict.parted += runs.apart ? 1 : 0; }
-    append(verdict.violations, check_all(recording));
-    verdict.steps = recording.steps();
-    verdict.hash = recording.hash();
-    verdict.simulated_s =
+    result.violations = std::move(played.violations);
+    result.fault = recording.fault;
+    result.coverage = std::move(played.coverage);
+    for (const auto& [number, runs] : epoch_runs(recording)) { result.parted += runs.apart ? 1 : 0; }
+    append(result.violations, check_all(recording));
+    result.steps = recording.steps();
+    result.hash = recording.hash();
+    result.simulated_s =
         static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
-    if (options.twice && play(scenario).recording.hash() != verdict.hash) {
-        verdict.violations.push_back({"determinism", {}, {}, {}, "a second run of the same seed made other steps"});
+    if (options.twice && play(scenario).recording.hash() != result.hash) {
+        result.violations.push_back({"determinism", {}, {}, {}, "a second run of the same seed made different steps"});
     }
-    return verdict;
+    return result;
 }
 
 }  // namespace lockstep::simtest

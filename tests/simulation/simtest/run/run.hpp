@@ -1,4 +1,4 @@
-// One run from one seed: drawn, played, judged.
+// One run from one seed: drawn, played, checked.
 #pragma once
 
 #include "tests/simulation/simtest/draw/scenario.hpp"
@@ -7,24 +7,24 @@
 
 namespace lockstep::simtest {
 
-struct Verdict {
+struct RunResult {
     Violations violations;
     std::uint64_t steps = 0;
-    std::uint64_t hash = 0;  // of all steps
+    std::uint64_t hash = 0;  // over all steps
     double simulated_s = 0;
     Coverage coverage;
-    std::uint64_t parted = 0;           // epochs of which not all axes ran the same frames
-    FaultCode fault = FaultCode::None;  // the last that what went wrong in the run led to
+    std::uint64_t parted = 0;           // epochs in which not all axes ran the same frames
+    FaultCode fault = FaultCode::None;  // the last Fault of the machine
 };
 
-/// How a seed is run.
+/// The options of a run.
 struct RunOptions {
     FaultKinds faults;
     MachineKind machine;
-    bool twice = false;  // plays it a second time, to see that it comes out the same
-    bool trace = false;  // tells it as it happens
+    bool twice = false;  // plays it a second time, to check that the steps are the same
+    bool trace = false;  // prints its events
 };
 
-Verdict run_seed(std::uint64_t seed, const RunOptions& options);
+RunResult run_seed(std::uint64_t seed, const RunOptions& options);
 
 }  // namespace lockstep::simtest

@@ -89,7 +89,7 @@ void Trace::on_fault(Tick now, const VirtualFault& fault, bool begins) {
                                 "damaged frame", "device stopped",
                                 "device killed", "registers overwritten"};
     const std::string peer = fault.peer ? " from " + process(*fault.peer) : " from all";
-    const std::string ways = std::string(fault.outgoing ? ", unheard" : "") + (fault.incoming ? ", deaf" : "");
+    const std::string ways = std::string(fault.outgoing ? ", outgoing" : "") + (fault.incoming ? ", incoming" : "");
     line(now, process(fault.process),
          std::string("FAULT ") + kKinds[static_cast<std::size_t>(fault.kind)] + (begins ? " begins" : " ends") +
              (fault.in_loop ? " in a loop" : "") +

@@ -1,4 +1,4 @@
-// A run told as it happens, a line for each event: for whoever replays a seed.
+// Prints the events of a run, one line for each, for the replay of a seed.
 #pragma once
 
 #include "services/virtual/virtual_machine.hpp"

@@ -8,8 +8,8 @@ void Watch::on_coordinator(std::size_t process, Tick /*now*/, const CoordinatorO
     for (const JobEvent& job : out.jobs) { take_job(process, job); }
 }
 
-/// Another one has taken the job's machine over when it has heard all axes follow it: then it waits no more. Unless it
-/// goes on with the job, and says so before.
+/// The job has ended for the test when another coordinator has taken over and all axes follow it. But the new
+/// owner continues the job and reports that before.
 void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
     using Kind = CoordinatorNotice::Kind;
     if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
@@ -19,7 +19,7 @@ void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
     if (notice.kind == Kind::Phase || notice.kind == Kind::StoodDown) { look_at_owner(); }
 }
 
-/// Of two that own the machine for a moment, the one that is left may have been idle before.
+/// If two coordinators own the machine for a moment, the remaining one may have been idle before.
 void Watch::look_at_owner() {
     const auto owner = vm_.owner();
     const bool other = owner && (*owner != job_of_ || orphaned_);
@@ -43,21 +43,21 @@ void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (fault.process == job_of_) { orphan(JobOutcome::Failed); }
 }
 
-/// Also where the one before it has failed in it: cut off, he has lost the axes that follow this one.
+/// Also after the previous coordinator failed in the job: it was cut off and lost the axes that follow this one.
 void Watch::go_on(std::size_t process) {
     job_of_ = process;
     orphaned_ = false;
     outcome_.reset();
 }
 
-/// Its coordinator has left it: it is at its end, or another may go on with it.
+/// The coordinator of the job has left it: the job has ended, unless another one continues it.
 void Watch::orphan(JobOutcome outcome) {
     orphaned_ = true;
     if (on_takeover_ == OnTakeover::Stop) { cut_short(outcome); }
 }
 
 void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
-    if (vm_.device(axis).in_motion()) { moved_ = now; }  // also while a process made anew does not speak yet
+    if (vm_.device(axis).in_motion()) { moved_ = now; }  // also while a restarted process sends nothing yet
     if (!out.state) { return; }
     axes_[axis] = *out.state;
     if (!out.state->at_rest || out.state->velocity != Velocity{}) { moved_ = now; }

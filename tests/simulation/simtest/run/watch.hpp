@@ -1,4 +1,4 @@
-// What the coordinators and the axes do and say, as seen beside them.
+// What the coordinators and the axes do and report, as seen by an observer.
 #pragma once
 
 #include <map>
@@ -15,20 +15,20 @@ public:
         : vm_(vm), on_takeover_(on_takeover), axes_(vm.machine().axes.size()) {}
 
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
-    /// With a coordinator goes what it was doing.
+    /// A coordinator that ends loses its phase.
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
 
-    /// When a fault last began.
+    /// The begin of the last fault.
     std::optional<Tick> disturbed() const { return disturbed_; }
-    /// When an axis was last seen in motion, at its own device, or a fault began or ended.
+    /// The last time at which an axis was in motion at its own device, or a fault began or ended.
     Tick moved() const { return moved_; }
-    /// What each axis said last, wherever it went.
+    /// The last state of each axis, even if it was not delivered.
     const std::vector<AxisState>& axes() const { return axes_; }
-    /// The machine's is its owner's; Waiting: it has none.
+    /// The phase of the machine is that of its owner; Waiting: it has no owner.
     MachinePhase phase() const;
     FaultCode fault() const { return fault_; }
-    /// Of the last job; nothing while it is in progress. It ends with its coordinator, and when another has taken over.
+    /// The outcome of the last job; none while it is in progress. A job ends with its coordinator, or after a takeover.
     std::optional<JobOutcome> outcome() const { return outcome_; }
     bool was_moving_at(std::uint64_t command) const {
         const MachinePhase phase = phase_at_command_.at(command);
@@ -52,8 +52,8 @@ private:
     Tick moved_;
     std::map<std::size_t, MachinePhase> phases_;  // by coordinator
     FaultCode fault_ = FaultCode::None;
-    std::size_t job_of_ = 0;  // the coordinator that began the last job, or went on with it
-    bool orphaned_ = false;   // which has ended since, or stood down
+    std::size_t job_of_ = 0;  // the coordinator that began or continued the last job
+    bool orphaned_ = false;   // this coordinator has ended since, or gave up the machine
     std::optional<JobOutcome> outcome_;
     std::map<std::uint64_t, MachinePhase> phase_at_command_;
 };

@@ -1,4 +1,4 @@
-// A small machine and its job, for the judges' tests, and what a judge says of a recording.
+// A small machine and its job for the tests of the checks, and a search in the results of a check.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace lockstep::simtest {
 
-inline AxisConfig axis_of_judges(const std::string& name) {
+inline AxisConfig checked_axis(const std::string& name) {
     AxisConfig a{.name = name, .steps_per_mm = 200};
     a.start_velocity_mm_s = 5;
     a.max_velocity_mm_s = 200;
@@ -21,12 +21,12 @@ inline AxisConfig axis_of_judges(const std::string& name) {
     return a;
 }
 
-/// One job of two axes: 8 mm and 4 mm in a line, which at 1000 mm/s^2 peaks below half the greatest speed, and a
-/// corner.
+/// One job of two axes: 8 mm and 4 mm in a line, and a corner. At 1000 mm/s^2 the line peaks below half the greatest
+/// speed.
 inline Scenario two_axes() {
     Scenario scenario{.seed = 7};
     scenario.machine.name = "two";
-    scenario.machine.axes = {axis_of_judges("X"), axis_of_judges("Y")};
+    scenario.machine.axes = {checked_axis("X"), checked_axis("Y")};
     scenario.machine.timing = {
         .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 6};
     Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {}, .blocks = {}};

@@ -1,11 +1,11 @@
-// The judges object: a recording that is right is tampered with, one wrong at a time.
+// The checks detect errors: each test falsifies a correct recording in one place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/simulation/simtest/check/checks.hpp"
-#include "tests/simulation/simtest/judges_rig.hpp"
+#include "tests/simulation/simtest/checks_rig.hpp"
 #include "tests/simulation/simtest/record/claims.hpp"
 #include "tests/simulation/simtest/run/play.hpp"
 #include "tests/simulation/simtest/run/run.hpp"
@@ -13,9 +13,9 @@
 namespace lockstep::simtest {
 namespace {
 
-class Judges : public testing::Test {
+class Checks : public testing::Test {
 protected:
-    explicit Judges(const Scenario& scenario = two_axes()) : recording(play(scenario).recording) {}
+    explicit Checks(const Scenario& scenario = two_axes()) : recording(play(scenario).recording) {}
 
     void SetUp() override {
         ASSERT_EQ(recording.jobs.size(), 2U);
@@ -26,7 +26,7 @@ protected:
         const JobRecord& job = recording.jobs[1];
         return std::span(recording.axes[i].steps).subspan(job.first_step[i], job.end_step[i] - job.first_step[i]);
     }
-    /// From all others, for the whole job.
+    /// Cuts the axis off from all others for the whole job.
     void cut_off(std::size_t axis) {
         const Tick from = recording.jobs[1].began;
         recording.faults.push_back(
@@ -41,7 +41,7 @@ protected:
     Recording recording;
 };
 
-TEST_F(Judges, MissAStep) {
+TEST_F(Checks, DetectAMissingStep) {
     recording.axes[0].steps.erase(recording.axes[0].steps.begin() +
                                   static_cast<std::ptrdiff_t>(recording.jobs[1].first_step[0]) + 500);
     --recording.jobs[1].end_step[0];
@@ -50,7 +50,7 @@ TEST_F(Judges, MissAStep) {
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
-TEST_F(Judges, SeeAStepTooMany) {
+TEST_F(Checks, DetectAnExtraStep) {
     const StepEdge last = recording.axes[0].steps.back();
     recording.axes[0].steps.push_back({last.tick + Ticks{1000}, last.direction});
     ++recording.jobs[1].end_step[0];
@@ -58,37 +58,37 @@ TEST_F(Judges, SeeAStepTooMany) {
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
-TEST_F(Judges, SeeAStepTheWrongWay) {
+TEST_F(Checks, DetectAStepInTheWrongDirection) {
     job_steps(1)[100].direction = -1;
     EXPECT_TRUE(has(check_counts(recording), "exact"));
 }
 
-TEST_F(Judges, SeeAStepTwoMillisecondsLate) {
-    // All behind it keep their time: the one lies among others of its axis no more.
+TEST_F(Checks, DetectAStepTwoMillisecondsLate) {
+    // All later steps keep their time: only this step is no longer between the steps of its axis.
     auto steps = job_steps(0);
     steps[3].tick += Ticks{2000};
     EXPECT_FALSE(check_limits(recording).empty());
     EXPECT_TRUE(has(check_together(recording), "together"));
 }
 
-TEST_F(Judges, SeeAStepATenthOfItsTimeEarly) {
+TEST_F(Checks, DetectAStepATenthOfItsIntervalEarly) {
     auto steps = job_steps(0);
     const Ticks interval = steps[501].tick - steps[500].tick;
     steps[501].tick = steps[501].tick - Ticks{interval.value / 10};
     EXPECT_FALSE(check_limits(recording).empty());
 }
 
-TEST_F(Judges, SeeAnAxisOneMillisecondBehindTheOther) {
+TEST_F(Checks, DetectAnAxisOneMillisecondBehindTheOther) {
     for (StepEdge& step : job_steps(1)) { step.tick += Ticks{1000}; }
     EXPECT_TRUE(check_counts(recording).empty());
     EXPECT_TRUE(check_limits(recording).empty());
     EXPECT_TRUE(has(check_together(recording), "together"));
 }
 
-/// Boards with clocks of their own, a second apart and 150 ppm.
-class JudgesOfOwnClocks : public Judges {
+/// Boards with their own clocks, which differ by a second and 150 ppm.
+class ChecksWithSeparateClocks : public Checks {
 protected:
-    JudgesOfOwnClocks() : Judges(scenario()) {}
+    ChecksWithSeparateClocks() : Checks(scenario()) {}
 
     static Scenario scenario() {
         Scenario scenario = two_axes();
@@ -102,21 +102,21 @@ protected:
     }
 };
 
-TEST_F(JudgesOfOwnClocks, SeeAnAxisOneMillisecondBehindTheOther) {
+TEST_F(ChecksWithSeparateClocks, DetectAnAxisOneMillisecondBehindTheOther) {
     for (StepEdge& step : job_steps(1)) { step.tick += Ticks{1000}; }
     EXPECT_TRUE(check_limits(recording).empty());
     EXPECT_TRUE(has(check_together(recording), "together"));
 }
 
-TEST_F(JudgesOfOwnClocks, SeeAFrameThatRunsAFiftiethFaster) {
+TEST_F(ChecksWithSeparateClocks, DetectAFrameThatRunsTwoPercentFaster) {
     const auto steps = job_steps(0);
     const Tick from = steps[400].tick;
     for (StepEdge& step : steps.subspan(400, 60)) { step.tick = from + Ticks{(step.tick - from).value * 49 / 50}; }
     EXPECT_FALSE(check_limits(recording).empty());
 }
 
-/// The whole job in 1/sqrt(2) of its time: twice the acceleration, on the path, below the greatest speed.
-TEST_F(Judges, SeeTwiceTheAcceleration) {
+/// The whole job in 1/sqrt(2) of its time: twice the acceleration on the same path, below the greatest speed.
+TEST_F(Checks, DetectTwiceTheAcceleration) {
     const Tick begin = job_steps(0)[0].tick;
     for (std::size_t i = 0; i < 2; ++i) {
         for (StepEdge& step : job_steps(i)) {
@@ -130,25 +130,25 @@ TEST_F(Judges, SeeTwiceTheAcceleration) {
     EXPECT_TRUE(has(violations, "deceleration"));
 }
 
-TEST_F(Judges, SeeASpeedABitTooHigh) {
+TEST_F(Checks, DetectASpeedSlightlyTooHigh) {
     for (AxisConfig& a : recording.machine.axes) { a.max_velocity_mm_s = 80; }
     JobRecord& job = recording.jobs[1];
     job.course = course_of(two_axes().tasks[0].program, recording.machine, job.course.from);
     EXPECT_TRUE(has(check_limits(recording), "speed"));
 }
 
-TEST_F(Judges, SeeAStartThatJumpsTooFar) {
+TEST_F(Checks, DetectAStartThatJumpsTooFar) {
     for (AxisConfig& a : recording.machine.axes) { a.start_velocity_mm_s = 3; }
     const Violations violations = check_limits(recording);
     EXPECT_TRUE(has(violations, "start") || has(violations, "stop"));
 }
 
-TEST_F(Judges, SeeAFrameThatWasNotArmed) {
+TEST_F(Checks, DetectAFrameThatWasNotArmed) {
     recording.axes[1].tracks.back().armed = 0;
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
-TEST_F(Judges, SeeAFrameRunTwiceOrNotAtAll) {
+TEST_F(Checks, DetectAFrameRunTwiceOrNotAtAll) {
     Recording twice = recording;
     twice.axes[0].tracks.push_back(twice.axes[0].tracks.back());
     EXPECT_TRUE(has(check_frames(twice), "frames"));
@@ -156,28 +156,28 @@ TEST_F(Judges, SeeAFrameRunTwiceOrNotAtAll) {
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
-TEST_F(Judges, SeeAFrameRunAtAnotherTime) {
+TEST_F(Checks, DetectAFrameRunAtAnotherTime) {
     recording.axes[0].tracks.back().start += Ticks{1};
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
-TEST_F(Judges, SeeAPulseAfterAnEmergencyStop) {
+TEST_F(Checks, DetectAPulseAfterAnEmergencyStop) {
     const Tick asked = job_steps(0)[200].tick;
     recording.emergencies.push_back({asked, recording.ended});
     EXPECT_TRUE(has(check_stops(recording), "emergency"));
 }
 
-TEST_F(Judges, SeeAPauseForNothingAndExcuseOneForAnOutage) {
+TEST_F(Checks, DetectANeedlessPauseAndAllowOneForAnOutage) {
     recording.interruptions.push_back(recording.ended);
     EXPECT_TRUE(has(check_stops(recording), "needless stop"));
     const Ticks allowed = recording.machine.slot_ticks() * recording.machine.timing.stall_slots;
     recording.faults.push_back({.process = 1, .at = recording.jobs[1].began, .lasts = allowed});
-    EXPECT_TRUE(has(check_stops(recording), "needless stop")) << "so short a stall is no excuse";
+    EXPECT_TRUE(has(check_stops(recording), "needless stop")) << "such a short stall does not justify a pause";
     recording.faults.back().lasts = allowed + allowed;
     EXPECT_TRUE(check_stops(recording).empty());
 }
 
-TEST_F(Judges, ExcuseTheVictimOfAnOutageFromOneFrameButNotFromTwo) {
+TEST_F(Checks, AllowTheVictimOfAnOutageToMissOneFrameButNotTwo) {
     ASSERT_GT(recording.epochs.rbegin()->second.frames.size(), 2U);
     cut_off(1);
     drop_last_frame_of(1);
@@ -186,7 +186,7 @@ TEST_F(Judges, ExcuseTheVictimOfAnOutageFromOneFrameButNotFromTwo) {
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
-TEST_F(Judges, ObjectWhereAxesPartedAndTheMachineWentOn) {
+TEST_F(Checks, DetectAxesThatRanDifferentFramesWithoutAFault) {
     cut_off(1);
     drop_last_frame_of(1);
     const auto [number, epoch] = *recording.epochs.rbegin();
@@ -195,44 +195,44 @@ TEST_F(Judges, ObjectWhereAxesPartedAndTheMachineWentOn) {
     recording.epochs[number + 1] = next;
     EXPECT_TRUE(has(check_frames(recording), "frames"));
     recording.machine_faults.push_back(recording.ended);
-    EXPECT_TRUE(check_frames(recording).empty()) << "it was said";
+    EXPECT_TRUE(check_frames(recording).empty()) << "the fault was reported";
 }
 
-/// Passes on what an axis says, with a step more than it has made.
-class Liar : public VirtualObserver {
+/// Forwards the states of an axis, with one step more than it has made.
+class FalsifyingObserver : public VirtualObserver {
 public:
-    explicit Liar(ClaimCheck& claims) : claims_(claims) {}
+    explicit FalsifyingObserver(ClaimCheck& claims) : claims_(claims) {}
     void on_step(std::size_t axis, StepEdge step) override { claims_.on_step(axis, step); }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override {
-        AxisOutputs said = out;
-        if (said.state) { said.state->position = said.state->position + Displacement::steps(lie); }
-        claims_.on_axis(axis, now, said, node);
+        AxisOutputs altered = out;
+        if (altered.state) { altered.state->position = altered.state->position + Displacement::steps(extra_steps); }
+        claims_.on_axis(axis, now, altered, node);
     }
-    std::int64_t lie = 0;
+    std::int64_t extra_steps = 0;
 
 private:
     ClaimCheck& claims_;
 };
 
-TEST(Claims, OfAStepTooManyAreUntrue) {
+TEST(Claims, WithAnExtraStepAreUntrue) {
     const Scenario scenario = two_axes();
     Recording recording{.machine = scenario.machine, .axes = std::vector<AxisRecord>(2)};
     VirtualMachine vm({.machine = scenario.machine});
     ClaimCheck claims(vm, recording);
-    Liar liar(claims);
-    vm.observe(liar);
+    FalsifyingObserver falsifier(claims);
+    vm.observe(falsifier);
     for (int n = 0; n < 100; ++n) { vm.advance(); }
     EXPECT_TRUE(recording.untrue.empty());
-    liar.lie = 1;
+    falsifier.extra_steps = 1;
     for (int n = 0; n < 100; ++n) { vm.advance(); }
     EXPECT_FALSE(recording.untrue.empty());
 }
 
 TEST(Seeds, GiveTheSameStepsEachTimeAndOthersForAnotherSeed) {
     const FaultKinds all = FaultKinds::all();
-    const Verdict once = run_seed(11, {all, 3});
-    const Verdict again = run_seed(11, {all, 3});
-    const Verdict other = run_seed(12, {all, 3});
+    const RunResult once = run_seed(11, {all, 3});
+    const RunResult again = run_seed(11, {all, 3});
+    const RunResult other = run_seed(12, {all, 3});
     EXPECT_EQ(once.hash, again.hash);
     EXPECT_NE(once.hash, other.hash);
 }
