@@ -1,0 +1,175 @@
+#!/usr/bin/python3
+"""Changes the code in one place at a time and runs the tests: each change that no test notices is listed.
+
+  tests/mutation/run_mutants.py [--folder build-mutants] [--seed 1] [--sample 400] [--runs 1000]
+  tests/mutation/run_mutants.py --only 17,93     these mutants again
+
+The README beside it says what the result means."""
+import argparse
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE))
+from make_mutants import find, rewrite  # noqa: E402
+from programs import TARGETS, steps  # noqa: E402
+
+FOLDERS = [f"core/{f}" for f in ("axis", "coordinator", "protocol", "motion", "clock", "step")]
+
+
+def copy_sources(copy):
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in listed.splitlines():
+        source, into = ROOT / name, copy / name
+        if not source.is_file() or any(name.startswith(f + "/") for f in FOLDERS):
+            continue
+        if not into.exists() or into.read_bytes() != source.read_bytes():
+            into.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(source, into)
+
+
+def build(copy):
+    """The lines that did not compile, as (file, line)."""
+    flags = f"-include {HERE}/mutant.hpp -w -fpermissive -Wno-narrowing"
+    subprocess.run(["cmake", "-S", copy, "-B", copy / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                    "-DLOCKSTEP_WERROR=OFF", "-DLOCKSTEP_SPY=OFF", f"-DCMAKE_CXX_FLAGS={flags}",
+                    "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"], check=True, stdout=subprocess.DEVNULL)
+    done = subprocess.run(["cmake", "--build", copy / "build", "-j", str(os.cpu_count()), "--", "-k", "0", *TARGETS],
+                          capture_output=True, text=True)
+    if done.returncode == 0:
+        return set()
+    bad = set()
+    for line in done.stdout.splitlines():
+        place = rf"(?:{re.escape(str(copy))}/)?(?:\.\./)*(core/[^:]+):(\d+):\d*:? +"
+        at = re.match(place + "(?:error|fatal error|  required from)", line)
+        if at:
+            bad.add((at[1], int(at[2])))
+    if not bad:
+        raise SystemExit("the copy does not build:\n" + done.stdout[-4000:])
+    return bad
+
+
+def make(copy):
+    """Writes, builds, and leaves out the changes that do not compile, until the rest does."""
+    copy_sources(copy)
+    found = list(find(ROOT, FOLDERS))
+    dropped = set()
+    while True:
+        mutants = rewrite(found, copy, dropped)
+        bad = build(copy) - dropped
+        if not bad:
+            return mutants
+        print(f"{len(bad)} lines have changes that do not compile: left out", flush=True)
+        dropped |= bad
+
+
+def run(copy, step, environment, limit):
+    """The result of one step: None if it passed, else how it failed."""
+    try:
+        done = subprocess.run(step.command(copy / "build/bin"), cwd=copy, env=os.environ | environment, timeout=limit,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    except subprocess.TimeoutExpired:
+        return "time"
+    return None if done.returncode == 0 else "failed"
+
+
+def measure(copy, wanted):
+    """Each step run as it is: how long it takes and which mutants it reaches."""
+    kept = copy / "reached"
+    kept.mkdir(exist_ok=True)
+    for step in wanted:
+        reached = kept / (step.name.replace(" ", "_") + ".txt")
+        if not reached.exists():
+            begun = time.monotonic()
+            if run(copy, step, {"LOCKSTEP_REACHED": str(reached)}, 900):
+                raise SystemExit(f"{step.name} fails without any change")
+            reached.write_text(f"{time.monotonic() - begun}\n" + (reached.read_text() if reached.exists() else ""))
+        seconds, *numbers = reached.read_text().split()
+        step.seconds, step.reaches = float(seconds), set(map(int, numbers))
+
+
+def kill(copy, n, wanted):
+    """The step that notices mutant n, and how."""
+    for step in wanted:
+        if n in step.reaches:
+            how = run(copy, step, {"LOCKSTEP_MUTANT": str(n)}, 5 * step.seconds + 2)
+            if how:
+                return f"{step.name}: {how}"
+    return None
+
+
+def key(mutant):
+    return f"{mutant['file']} | {mutant['was']} | {mutant['is'] or 'nothing'}"
+
+
+def equivalents():
+    """Changes that change nothing, with the reason: lines `file | was | is | reason`."""
+    lines = (HERE / "equivalents.txt").read_text().splitlines() if (HERE / "equivalents.txt").exists() else []
+    return {" | ".join(line.split(" | ")[:-1]) for line in lines if line and not line.startswith("#")}
+
+
+def report(mutants, results, wanted):
+    known = equivalents()
+    survivors = [n for n, how in results.items() if how is None]
+    same = [n for n in survivors if key(mutants[n]) in known]
+    for n in sorted(set(survivors) - set(same)):
+        m = mutants[n]
+        seen = "" if any(n in step.reaches for step in wanted) else " (no test reaches it)"
+        print(f"survived {n}: {m['file']}:{m['line']}: {m['what']}{seen}: {key(m).split(' | ', 1)[1]}")
+    print("\n| folder | mutants | killed | equivalent | survived |\n|---|---|---|---|---|")
+    for folder in [*FOLDERS, ""]:
+        here = [n for n in results if mutants[n]["file"].startswith(folder)]
+        dead = sum(results[n] is not None for n in here)
+        equal = sum(n in same for n in here)
+        left = len(here) - dead - equal
+        print(f"| {folder or 'all'} | {len(here)} | {dead} | {equal} | {left} |")
+    judged = len(results) - len(same)
+    print(f"\nkilled: {100 * (judged - (len(survivors) - len(same))) / max(1, judged):.1f} % of those not equivalent")
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    options.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutants")
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--sample", type=int, default=400)
+    options.add_argument("--runs", type=int, default=1000, help="of lockstep-simtest")
+    options.add_argument("--only", help="numbers of mutants, with commas")
+    options.add_argument("--survivors", action="store_true", help="only what survived the last time")
+    options.add_argument("--built", action="store_true", help="go on with the copy and its results")
+    given = options.parse_args()
+    copy = given.folder.resolve()
+    copy.mkdir(exist_ok=True)
+    if given.built:
+        mutants = json.loads((copy / "mutants.json").read_text())
+    else:
+        mutants = make(copy)
+        (copy / "results.json").unlink(missing_ok=True)
+        shutil.rmtree(copy / "reached", ignore_errors=True)
+    usable = [n for n, mutant in enumerate(mutants) if mutant["used"]]
+    print(f"{len(usable)} mutants")
+    kept = copy / "results.json"
+    results = {int(n): how for n, how in json.loads(kept.read_text()).items()} if kept.exists() else {}
+    chosen = sorted(random.Random(given.seed).sample(usable, min(given.sample, len(usable))))
+    if given.only:
+        chosen = [int(n) for n in given.only.split(",")]
+    wanted = steps(given.runs)
+    measure(copy, wanted)
+    for n in random.Random(given.seed).sample(chosen, len(chosen)):  # what is done so far is a sample, too
+        if n in results and not (results[n] is None and (given.survivors or given.only)):
+            continue
+        results[n] = kill(copy, n, wanted)
+        kept.write_text(json.dumps(results))
+        print(f"{n}: {results[n] or 'survived'}", flush=True)
+    report(mutants, {n: results[n] for n in chosen if n in results}, wanted)
+
+
+if __name__ == "__main__":
+    main()
