@@ -35,9 +35,9 @@ std::string text_of(const KnownParts& seen) {
 TEST(AwaitedParts, AreThoseOfOtherHostsWithTheirState) {
     const KnownParts seen{.present = {{0, "board-b", 7}}};
     EXPECT_EQ(text_of(seen),
-              "waits for coordinator on board-a: not there; on board-a: lockstep up\n"
+              "waits for coordinator on board-a: absent; on board-a: lockstep up\n"
               "waits for axis X on board-b: started, waits for the coordinator's clock\n"
-              "waits for axis Y on board-c: not there; on board-c: lockstep up\n");
+              "waits for axis Y on board-c: absent; on board-c: lockstep up\n");
 }
 
 TEST(AwaitedParts, AreNoneIfAllReceiveEachOther) {

@@ -155,7 +155,7 @@ TEST_F(EndedProcess, CountsUnpublishedSteps) {
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, 60 + kSteps);
     EXPECT_THAT(notes(), HasSubstr("axis Y: 40 steps after tick"));
-    EXPECT_THAT(notes(), HasSubstr("by frame 1 it came to 100"));
+    EXPECT_THAT(notes(), HasSubstr("with frame 1 it came to 100"));
 }
 
 TEST_F(EndedProcess, NoProcessHoldsMoreStepsThanAMessageTakes) {

@@ -173,7 +173,7 @@ TEST_F(StateBoard, RefusesStatesOfAnotherAxis) {
     StateBoardReader listener = reader();
     axis.write(state_of(1, 1));
     EXPECT_THAT(read_from(listener), IsEmpty());
-    EXPECT_THAT(listener.refusals().last, HasSubstr("in the part of axis 0"));
+    EXPECT_THAT(listener.refusals().last, HasSubstr("the part of axis 0 is not a state of that axis"));
 }
 
 TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
