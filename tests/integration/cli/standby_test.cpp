@@ -98,7 +98,7 @@ protected:
             return false;
         }
         EXPECT_EQ(outcome, "done");
-        EXPECT_THAT(text_of_log(heir), HasSubstr("goes on with the job"));
+        EXPECT_THAT(text_of_log(heir), HasSubstr("continues the previous coordinator's job"));
         return true;
     }
 };
