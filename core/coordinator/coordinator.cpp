@@ -40,7 +40,7 @@ void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     if (!axes_.is_present(state.axis, loop.slot)) { loop.notice({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
     const bool is_replaced = arrival == AxisRoster::Arrival::Replaced;
     if (is_replaced && jobs_.exists()) { jobs_.fail(FaultCode::AxisLost, state.axis, loop); }
-    if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.axis); }
+    if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.axis, axes_); }
     if (is_replaced) { jobs_.doubt_inherited(loop); }
     const bool has_open_order = !loop.is_order_done(state.axis);
     axes_.take(state, loop.slot);
@@ -120,11 +120,10 @@ void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
     }
 }
 
-/// The next process of this axis must not carry out the orders of this one.
 void Coordinator::lose_axis(std::size_t axis, CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, axis});
+    orders_.withdraw(axis, axes_);
     axes_.forget(axis);
-    orders_.withdraw(axis);
     jobs_.doubt_inherited(loop);
     if (condition_.phase() == MachinePhase::Idle) { loop.enter(MachinePhase::Waiting); }
     if (condition_.phase() != MachinePhase::Waiting) { jobs_.fail(FaultCode::AxisLost, axis, loop); }

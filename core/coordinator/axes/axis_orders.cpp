@@ -8,6 +8,10 @@ AxisCommand& AxisOrders::give(std::size_t axis, AxisCommandKind kind, const Term
     return orders_[axis].emplace(AxisCommand{term, ++sequence_, static_cast<std::uint32_t>(axis), kind});
 }
 
+void AxisOrders::withdraw(std::size_t axis, const AxisRoster& axes) {
+    if (!is_open(axis, AxisCommandKind::Reset, axes)) { orders_[axis].reset(); }
+}
+
 void AxisOrders::withdraw_all() { std::ranges::fill(orders_, std::nullopt); }
 
 bool AxisOrders::is_done(std::size_t axis, const AxisRoster& axes) const {

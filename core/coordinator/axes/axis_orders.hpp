@@ -14,7 +14,9 @@ public:
 
     /// Replaces the order before, which may be open. Returns it, for its parameters.
     AxisCommand& give(std::size_t axis, AxisCommandKind kind, const Term& term);
-    void withdraw(std::size_t axis) { orders_[axis].reset(); }
+    /// The axis's process is gone, and the next one must not carry out its orders. Only an open reset remains: it moves
+    /// nothing, and the operator was told that it is accepted.
+    void withdraw(std::size_t axis, const AxisRoster& axes);
     void withdraw_all();
     /// A new owner counts from the beginning.
     void restart() { sequence_ = 0; }
