@@ -16,15 +16,15 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       following_(axis, machine),
       own_(axis, machine, begin_steps) {}
 
-AxisOutputs AxisController::step(const AxisInputs& inputs) {
-    AxisOutputs out;
-    AxisLoop loop{inputs.now, rules::slot_of(inputs.now, slot_), condition_, device_, out};
+const AxisOutputs& AxisController::step(const AxisInputs& inputs) {
+    out_.clear();
+    AxisLoop loop{inputs.now, rules::slot_of(inputs.now, slot_), condition_, device_, out_};
     owner_.forgive(gate_.missed(loop.slot));
     look(inputs, loop);
     receive(inputs, loop);
     move_on(loop);
     publish(inputs, loop);
-    return out;
+    return out_;
 }
 
 void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {

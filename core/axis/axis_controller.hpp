@@ -22,7 +22,8 @@ public:
     AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
                    BeginSteps begin_steps, KeptOrNot kept);
 
-    AxisOutputs step(const AxisInputs& inputs);
+    /// Valid until the next step.
+    const AxisOutputs& step(const AxisInputs& inputs);
 
     AxisPhase phase() const { return condition_.phases.phase(); }
     bool homed() const { return condition_.position.homed(); }
@@ -67,6 +68,7 @@ private:
     OwnMoves own_;
     SpeedTrend trend_;
     SlotGate gate_;
+    AxisOutputs out_;
 };
 
 }  // namespace lockstep

@@ -40,7 +40,7 @@ void HealthMeter::take(const AxisOutputs& out) {
         refused_commands_ += notice.kind == AxisNotice::Kind::CommandRefused ? 1 : 0;
     }
     if (out.state) { refused_frames_ = out.state->refused_frames; }
-    tracks_.insert(tracks_.end(), out.tracks.begin(), out.tracks.end());
+    for (const ExecutedTrack& track : out.tracks) { tracks_.append() = track; }
 }
 
 /// A frame is loaded in the loop in which it came. Those of an axis's own moves came from nowhere.

@@ -54,7 +54,7 @@ private:
     std::optional<Tick> reported_;
 
     StepLateness lateness_of_;
-    std::vector<ExecutedTrack> tracks_;  // of this loop
+    ReusedVector<ExecutedTrack> tracks_;  // of this loop
     std::optional<Tick> last_step_;
     std::uint64_t run_ = 0;  // begun last
     bool own_run_ = false;

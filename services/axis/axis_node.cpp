@@ -1,6 +1,7 @@
 #include "services/axis/axis_node.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "core/methods/paper_steps.hpp"
@@ -23,25 +24,26 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
       time_(setup.axis, setup.machine),
       clock_reset_(setup.machine.tick_ns) {}
 
-AxisOutputs AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
-    AxisOutputs out = decide(own, mail, on_step);
-    carry_out(own, out);
-    return out;
+const AxisOutputs& AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
+    decide(own, mail, on_step);
+    carry_out(own, out_);
+    return out_;
 }
 
-AxisOutputs AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_step) {
+const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_step) {
     if (!found_) { seek_device(own); }
     advance_simulated(own);
     for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
     look(own);
     const bool shares_clock = !has_device() || found_->device.shares_clock;
     knows_time_ = time_.look(own, {status_.now, shares_clock}, !controller_.at_rest());
-    AxisOutputs out = knows_time_ && !is_looking() ? control(mail) : AxisOutputs{};
+    out_.clear();
+    if (knows_time_ && !is_looking()) { control(mail); }
     const auto owns = [](const MachineState& state) { return state.phase != MachinePhase::Standby; };
     must_restart_ = clock_reset_.must_restart(own, std::ranges::any_of(mail.coordinator, owns), controller_.at_rest(),
                                               knows_time_ ? time_.error() : Ticks{});
-    drain(own, on_step, out.device_clock);
-    return out;
+    drain(own, on_step, out_.device_clock);
+    return out_;
 }
 
 void AxisNode::carry_out(Tick own, const AxisOutputs& decided) {
@@ -84,16 +86,17 @@ void AxisNode::lose_device(Tick own, const std::string& why) {
 void AxisNode::drain(Tick own, const OnStep& on_step, const ClockView& machine_time) {
     if (!has_device()) { return; }
     HealthMeter* meter = knows_time_ ? meter_ : nullptr;
-    const auto drained = found_->driver.drain_capture([&](StepEdge step) {
+    const auto take = [&](StepEdge step) {
         on_step(step);
         if (meter != nullptr) { meter->step({machine_time.at(step.tick), step.direction}); }
-    });
+    };
+    const auto drained = found_->driver.drain_capture(std::cref(take));  // by reference: a copy would be allocated
     if (!drained) { return lose_device(own, drained.error()); }
     lost_captures_ = found_->driver.lost_captures();
     if (meter != nullptr) { meter->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
 }
 
-AxisOutputs AxisNode::control(const AxisMail& mail) {
+void AxisNode::control(const AxisMail& mail) {
     has_begun_ = true;
     const DeviceStatus status = time_.in_machine_time(status_);
     const AxisInputs in{.now = time_.now(),
@@ -106,16 +109,15 @@ AxisOutputs AxisNode::control(const AxisMail& mail) {
                         .commands = mail.commands,
                         .requests = mail.requests,
                         .clock_error = time_.error()};
-    AxisOutputs out = controller_.step(in);
-    if (flight_ != nullptr) { flight_->take(in, out); }
+    out_ = controller_.step(in);
+    if (flight_ != nullptr) { flight_->take(in, out_); }
     if (meter_ != nullptr) {
         meter_->look(time_.now(), status);
-        meter_->take(out);
+        meter_->take(out_);
     }
-    for (ExecutedTrack& track : out.tracks) { track = time_.in_device_time(std::move(track)); }
-    for (DeviceOrder& order : out.orders) { order = time_.in_device_time(std::move(order)); }
-    out.device_clock = time_.device_clock();
-    return out;
+    for (ExecutedTrack& track : out_.tracks) { track = time_.in_device_time(std::move(track)); }
+    for (DeviceOrder& order : out_.orders) { order = time_.in_device_time(std::move(order)); }
+    out_.device_clock = time_.device_clock();
 }
 
 void AxisNode::look(Tick own) {

@@ -62,11 +62,11 @@ public:
     /// device run up to it, decides, and gives the device its orders. Every step made since the last loop goes to
     /// on_step, in order, in the device's time. An error of the device becomes a fault. A device that is given up is
     /// closed; before that it is ordered to come to rest, in case it goes on running. The node decides and publishes
-    /// nothing before it knows the machine time.
-    AxisOutputs step(Tick own, const AxisMail& mail, const OnStep& on_step);
+    /// nothing before it knows the machine time. What is returned is valid until the next loop.
+    const AxisOutputs& step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
     /// The two halves of a loop: the decisions, and the orders to the device.
-    AxisOutputs decide(Tick own, const AxisMail& mail, const OnStep& on_step);
+    const AxisOutputs& decide(Tick own, const AxisMail& mail, const OnStep& on_step);
     void carry_out(Tick own, const AxisOutputs& decided);
 
     /// From the next step on, every loop is measured. `meter` outlives the node.
@@ -96,7 +96,7 @@ private:
     void lose_device(Tick own, const std::string& why);
     void advance_simulated(Tick own);
     void look(Tick own);
-    AxisOutputs control(const AxisMail& mail);
+    void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
@@ -132,6 +132,7 @@ private:
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
     bool failed_ = false;           // since the controller was last informed
+    AxisOutputs out_;               // of the last loop
 };
 
 }  // namespace lockstep

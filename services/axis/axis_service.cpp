@@ -89,7 +89,7 @@ public:
         const AxisReceived& in = receive();
         const Tick now = clock_.now();
         if (user_signal_.take()) { flight_log_->incident(node_.now(), IncidentReason::Asked); }
-        const AxisOutputs out =
+        const AxisOutputs& out =
             node_.step(now, {in.frames, in.states, in.machine, in.commands, in.requests, in.exchanges},
                        [this](StepEdge step) { recorder_.step(step); });
         looped_ = node_.now();

@@ -1,142 +1,64 @@
 #include "services/virtual/virtual_machine.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Its first piece starts a tick later than it should: the frame does not join the one before.
-void damage_newest_frame(RegisterWindow& window) {
-    using namespace registers;
-    const std::uint64_t head = window.load(kSegmentHead);
-    const auto place = [](std::uint64_t n) {
-        return kSegmentRing + (n % kSegmentRingEntries) * kSegmentRingEntryBytes;
-    };
-    for (std::uint64_t n = head; n != window.load(kSegmentTail); --n) {
-        const std::size_t entry = place(n - 1);
-        if ((window.load(entry + kSegmentRingFlags) & kSegmentRingFlagsFirst) == 0) { continue; }
-        return window.store(entry + kSegmentRingStart, window.load(entry + kSegmentRingStart) + 1);
-    }
-}
-
-/// Its last piece covers two steps more: the frame joins the one before and ends elsewhere.
-void mislead_newest_frame(RegisterWindow& window) {
-    using namespace registers;
-    const std::uint64_t newest = window.load(kSegmentHead) - 1;
-    const std::size_t entry = kSegmentRing + (newest % kSegmentRingEntries) * kSegmentRingEntryBytes;
-    const auto ticks = static_cast<double>(window.load(entry + kSegmentRingTicks));
-    const auto more = static_cast<std::uint64_t>(2 / ticks * 0x1p64);
-    window.store(entry + kSegmentRingVelocity, window.load(entry + kSegmentRingVelocity) + more);
-}
-
-}  // namespace
 
 VirtualMachine::VirtualMachine(const VirtualOptions& options)
     : options_(options),
-      network_(options.network, options.seed),
       now_(options.start),
-      period_{options.machine.slot_ticks().value / options.loops_per_slot},
-      axis_states_(options.machine.axes.size()) {
-    power_up();
-    network_.trust(static_cast<VirtualNetwork::Address>(client_address()));
-}
-
-void VirtualMachine::power_up() {
-    const MachineConfig& machine = options_.machine;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        axes_.push_back({.device = simulated_device(machine.axes[i], machine.tick_ns, device_time(i))});
-    }
-    coordinators_.resize(options_.coordinators);
-    coordinator_flights_.resize(options_.coordinators);
-    processes_.resize(axes_.size() + coordinators_.size());
-    std::mt19937_64 random(options_.seed ^ 0x9e3779b97f4a7c15U);
-    for (std::size_t i = 0; i < processes_.size(); ++i) {
-        start(i);
-        const auto phase = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(period_.value));
-        processes_[i].next = now_ + Ticks{phase};
-    }
+      clocks_(options.clocks, options.start),
+      devices_(options.machine, clocks_, options.seed, now_),
+      post_(options.network, options.seed, options.machine.axes.size(), options.coordinators),
+      client_(options.machine),
+      schedule_(post_.processes(), {options.machine.slot_ticks().value / options.loops_per_slot}),
+      axes_(options.machine.axes.size()),
+      coordinators_(options.coordinators),
+      stalls_(post_.processes()) {
+    for (std::size_t i = 0; i < post_.processes(); ++i) { start(i); }
+    schedule_.start_all(now_, options_.seed);
 }
 
 /// A new process, with an identity of its own; an axis's finds its device as it is.
 void VirtualMachine::start(std::size_t process, bool other_config) {
     const std::uint64_t config_hash = options_.config_hash + (other_config ? 1 : 0);
-    if (is_coordinator(process)) {
-        const Identity identity = static_cast<Identity>(machine_time().value) + process;
-        coordinator(process).emplace(options_.machine, identity, config_hash, methods::begin_steps,
-                                     coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
-    } else {
-        const AxisNode::Setup setup{process, options_.machine, axis_identities_++, config_hash, axes_[process].kept};
-        axes_[process].asker.emplace(static_cast<std::uint32_t>(process), setup.identity, options_.machine.tick_ns);
-        axes_[process].node.emplace(setup, [this, process](Tick) { return open_device(process); });
-    }
-    processes_[process] = {true, now_};
-    if (options_.flight) { note_flight(process); }
+    post_.is_coordinator(process) ? start_coordinator(process, config_hash) : start_axis(process, config_hash);
+    stalls_[process] = {};
+    schedule_.start(process, now_);
 }
 
-/// The axis's end of it: the device itself is advanced here.
-std::expected<AxisDevice, std::string> VirtualMachine::open_device(std::size_t axis) const {
-    const Axis& it = axes_[axis];
-    if (it.no_device) { return std::unexpected("nobody holds its registers"); }
-    return AxisDevice{it.device.window, nullptr};
+void VirtualMachine::start_axis(std::size_t axis, std::uint64_t config_hash) {
+    Axis& it = axes_[axis];
+    const AxisNode::Setup setup{axis, options_.machine, axis_identities_++, config_hash, it.kept};
+    it.asker.emplace(static_cast<std::uint32_t>(axis), setup.identity, options_.machine.tick_ns);
+    it.node.emplace(setup, [this, axis](Tick) { return devices_.open(axis); });
+    if (!options_.flight) { return; }
+    it.flight.emplace(axis, options_.machine, options_.flight(axis));
+    it.node->note_in(*it.flight);
 }
 
-void VirtualMachine::advance_device(std::size_t axis) {
-    if (!axes_[axis].stopped) { device(axis).advance(device_time(axis)); }
-}
-
-void VirtualMachine::power_up_anew(std::size_t axis, RegisterWindow window) {
-    AxisDevice& it = axes_[axis].device;
-    it.simulated = std::make_unique<SimulatedDevice>(window, it.simulated->plant(), options_.machine.tick_ns,
-                                                     device_time(axis), static_cast<std::uint64_t>(now_.value));
-    it.window = std::move(window);
-}
-
-void VirtualMachine::overwrite(std::size_t axis, bool garbage) {
-    std::mt19937_64 random(options_.seed ^ static_cast<std::uint64_t>(now_.value));
-    for (std::size_t word = 0; word < registers::kWindowBytes; word += sizeof(std::uint64_t)) {
-        axes_[axis].device.window.store(word, garbage ? random() : 0);
-    }
-}
-
-/// What becomes of an axis's device itself.
-void VirtualMachine::strike(const VirtualFault& fault, bool begins) {
-    const std::size_t i = fault.process;
-    Axis& axis = axes_[i];
-    advance_device(i);
-    axis.stopped = begins && fault.kind != VirtualFault::Kind::Overwrite;
-    axis.no_device = begins && fault.kind == VirtualFault::Kind::KillDevice;
-    if (fault.kind == VirtualFault::Kind::Overwrite) {
-        begins ? overwrite(i, fault.garbage) : power_up_anew(i, axis.device.window);
-    } else if (fault.kind == VirtualFault::Kind::KillDevice && !begins) {
-        power_up_anew(i, RegisterWindow::in_process());
-    }
-    advance_device(i);
-}
-
-void VirtualMachine::note_flight(std::size_t process) {
-    FlightLog& log = options_.flight(process);
-    if (is_coordinator(process)) {
-        coordinator_flights_[process - axes_.size()].emplace(options_.machine, log);
-    } else {
-        axes_[process].flight.emplace(process, options_.machine, log);
-        axes_[process].node->note_in(*axes_[process].flight);
-    }
+void VirtualMachine::start_coordinator(std::size_t process, std::uint64_t config_hash) {
+    const Identity identity = static_cast<Identity>(clocks_.machine(now_).value) + process;
+    CoordinatorProcess& it = coordinator(process);
+    it.coordinator.emplace(options_.machine, identity, config_hash, methods::begin_steps,
+                           coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
+    if (options_.flight) { it.flight.emplace(options_.machine, options_.flight(process)); }
 }
 
 void VirtualMachine::crash(std::size_t process) {
-    processes_[process] = {};
-    is_coordinator(process) ? coordinator(process).reset() : axes_[process].node.reset();
+    schedule_.end(process);
+    stalls_[process] = {};
+    post_.is_coordinator(process) ? coordinator(process).coordinator.reset() : axes_[process].node.reset();
 }
 
 void VirtualMachine::restart(const VirtualFault& crash) {
     const std::size_t process = crash.process;
-    mail_.collect(network_, now_, process);  // nobody was there to receive it
-    if (!is_coordinator(process)) { advance_device(process); }
-    if (crash.reboots) { booted_ = now_ - options_.start; }
+    (void)post_.collect(now_, process);  // lost: nobody was there to receive it
+    if (!post_.is_coordinator(process)) { devices_.advance(process, now_); }
+    if (crash.reboots) { clocks_.reboot(now_); }
     start(process, crash.other_config);
 }
 
@@ -144,94 +66,49 @@ void VirtualMachine::restart(const VirtualFault& crash) {
 void VirtualMachine::start_again(std::size_t axis) {
     constexpr Ticks kPause{1'000'000};
     crash(axis);
-    turns_.emplace(now_ + kPause, Turn{{.kind = VirtualFault::Kind::Crash, .process = axis}, false});
+    faults_.add_end(now_ + kPause, {.kind = VirtualFault::Kind::Crash, .process = axis});
 }
 
-void VirtualMachine::cut(const VirtualFault& fault, bool begins) {
-    const auto turn = [&](std::size_t from, std::size_t to) {
-        const auto a = static_cast<VirtualNetwork::Address>(from);
-        const auto b = static_cast<VirtualNetwork::Address>(to);
-        begins ? network_.cut(a, b) : network_.mend(a, b);
-    };
-    for (std::size_t peer = 0; peer < processes_.size(); ++peer) {
-        if (peer == fault.process || (fault.peer && peer != *fault.peer)) { continue; }
-        if (fault.outgoing) {
-            turn(fault.process, peer);
-            turn(fault.process, clock_address(peer));
-        }
-        if (fault.incoming) {
-            turn(peer, fault.process);
-            turn(peer, clock_address(fault.process));
-        }
-    }
-}
-
-/// At this very tick of the device, which looks at its inputs at once.
-void VirtualMachine::disturb(const VirtualFault& fault, bool begins) {
-    const std::size_t i = fault.process;
-    advance_device(i);
-    if (fault.kind == VirtualFault::Kind::Stick) {
-        device(i).plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
-    } else if (fault.kind == VirtualFault::Kind::Push && begins) {
-        device(i).plant().push(fault.push_steps);
-    } else if (begins) {
-        RegisterWindow& window = axes_[i].device.window;
-        fault.ends_elsewhere ? mislead_newest_frame(window) : damage_newest_frame(window);
-    }
-    advance_device(i);
-}
-
-void VirtualMachine::schedule(const VirtualFault& fault) {
-    turns_.emplace(std::max(fault.at, now_), Turn{fault, true});
-    turns_.emplace(std::max(fault.end(), now_), Turn{fault, false});
-}
-
-void VirtualMachine::take_turn(const Turn& turn) {
-    Process& victim = processes_[turn.fault.process];
-    switch (turn.fault.kind) {
-        case VirtualFault::Kind::Freeze:
-            if (turn.begins && turn.fault.in_loop) { victim.stalls_until = turn.fault.end(); }
-            if (turn.begins && !turn.fault.in_loop) { victim.next = std::max(victim.next, turn.fault.end()); }
-            break;
-        case VirtualFault::Kind::SetClock:
-            options_.clocks.resize(axes_.size());
-            if (turn.begins) { options_.clocks.at(turn.fault.process).process.offset += turn.fault.set_by; }
-            break;
-        case VirtualFault::Kind::Crash: turn.begins ? crash(turn.fault.process) : restart(turn.fault); break;
-        case VirtualFault::Kind::Cut: cut(turn.fault, turn.begins); break;
-        case VirtualFault::Kind::Stick:
-        case VirtualFault::Kind::Push:
-        case VirtualFault::Kind::DamageFrame: disturb(turn.fault, turn.begins); break;
-        case VirtualFault::Kind::StopDevice:
-        case VirtualFault::Kind::KillDevice:
-        case VirtualFault::Kind::Overwrite: strike(turn.fault, turn.begins); break;
-    }
+void VirtualMachine::take_turn(const FaultSchedule::Turn& turn) {
+    turn.begins ? begin(turn.fault) : end(turn.fault);
     for (VirtualObserver* observer : observers_) { observer->on_fault(now_, turn.fault, turn.begins); }
 }
 
-std::optional<std::size_t> VirtualMachine::next_process() const {
-    std::optional<std::size_t> next;
-    for (std::size_t i = 0; i < processes_.size(); ++i) {
-        const bool sooner = !next || processes_[i].next < processes_[*next].next;
-        if (processes_[i].alive && sooner) { next = i; }
+void VirtualMachine::begin(const VirtualFault& fault) {
+    switch (fault.kind) {
+        case VirtualFault::Kind::Freeze:
+            if (fault.in_loop) {
+                stalls_[fault.process].until = fault.end();
+            } else {
+                schedule_.delay(fault.process, fault.end());
+            }
+            return;
+        case VirtualFault::Kind::SetClock: return clocks_.set_process(fault.process, fault.set_by);
+        case VirtualFault::Kind::Crash: return crash(fault.process);
+        case VirtualFault::Kind::Cut: return post_.cut(fault);
+        default: return devices_.begin(fault, now_);
     }
-    return next;
 }
 
-bool VirtualMachine::is_up(std::size_t process) const {
-    const bool frozen = processes_[process].next > now_ + period_;
-    return processes_[process].alive && !frozen;
+void VirtualMachine::end(const VirtualFault& fault) {
+    switch (fault.kind) {
+        case VirtualFault::Kind::Freeze:
+        case VirtualFault::Kind::SetClock: return;
+        case VirtualFault::Kind::Crash: return restart(fault);
+        case VirtualFault::Kind::Cut: return post_.mend(fault);
+        default: return devices_.end(fault, now_);
+    }
 }
 
-/// Whose clock messages come before anything else happens.
+/// The process whose clock messages come before anything else happens.
 std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
     if (!asks_time()) { return std::nullopt; }
-    Tick soonest{std::numeric_limits<std::int64_t>::max()};
-    if (const auto process = next_process()) { soonest = processes_[*process].next; }
-    if (!turns_.empty()) { soonest = std::min(soonest, turns_.begin()->first); }
+    Tick soonest = VirtualNetwork::kNever;
+    if (const auto process = schedule_.next()) { soonest = schedule_.at(*process); }
+    if (const auto turn = faults_.next()) { soonest = std::min(soonest, *turn); }
     std::optional<std::size_t> next;
-    for (std::size_t i = 0; i < processes_.size(); ++i) {
-        const Tick arrival = network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(i)));
+    for (std::size_t i = 0; i < post_.processes(); ++i) {
+        const Tick arrival = post_.next_arrival(post_.clock_of(i));
         if (arrival >= soonest) { continue; }
         next = i;
         soonest = arrival;
@@ -240,42 +117,39 @@ std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
 }
 
 void VirtualMachine::take_clock_mail(std::size_t process) {
-    now_ = std::max(now_, network_.next_arrival(static_cast<VirtualNetwork::Address>(clock_address(process))));
-    mail_.collect(network_, now_, clock_address(process));
-    if (!is_up(process)) { return; }
-    for (const ClockRequest& request : mail_.clock_requests) {
-        network_.send(now_ + options_.network.reply_longer, static_cast<VirtualNetwork::Address>(process),
-                      static_cast<VirtualNetwork::Address>(clock_address(request.axis)),
-                      std::make_shared<const VirtualMessage>(ClockReply{request, machine_time(), machine_time()}));
+    now_ = std::max(now_, post_.next_arrival(post_.clock_of(process)));
+    const Mail& mail = post_.collect(now_, post_.clock_of(process));
+    if (!schedule_.is_up(process, now_)) { return; }
+    for (const ClockRequest& request : mail.clock_requests) {
+        const Tick time = clocks_.machine(now_);
+        post_.send(now_ + options_.network.reply_longer, process, post_.clock_of(request.axis),
+                   ClockReply{request, time, time});
     }
-    for (const ClockReply& reply : mail_.clock_replies) {
+    for (const ClockReply& reply : mail.clock_replies) {
         Axis& axis = axes_[process];
-        if (const auto exchange = axis.asker->hear(reply, process_time(process))) {
-            axis.exchanges.push_back(*exchange);
-        }
+        const auto exchange = axis.asker->hear(reply, clocks_.process(process, now_));
+        if (exchange) { axis.exchanges.push_back(*exchange); }
     }
 }
 
-void VirtualMachine::ask_time(std::size_t i) {
+void VirtualMachine::ask_time(std::size_t axis) {
     if (!asks_time()) { return; }
-    if (const auto request = axes_[i].asker->ask(process_time(i))) {
-        send(i, clock_address(coordinator_address()), std::make_shared<const VirtualMessage>(*request));
-    }
+    const auto request = axes_[axis].asker->ask(clocks_.process(axis, now_));
+    if (request) { post_.send(now_, axis, post_.clock_of(post_.coordinator()), *request); }
 }
 
 void VirtualMachine::advance() {
     if (const auto mail = next_clock_mail()) { return take_clock_mail(*mail); }
-    const auto process = next_process();
-    if (!turns_.empty() && (!process || turns_.begin()->first <= processes_[*process].next)) {
-        now_ = turns_.begin()->first;
-        const Turn turn = turns_.begin()->second;
-        turns_.erase(turns_.begin());
-        take_turn(turn);
+    const auto process = schedule_.next();
+    const auto turn = faults_.next();
+    if (turn && (!process || *turn <= schedule_.at(*process))) {
+        now_ = *turn;
+        take_turn(faults_.take());
     } else {
-        now_ = processes_[*process].next;
+        now_ = schedule_.at(*process);
         run_loop(*process);
     }
-    listen();
+    client_.receive(post_.collect(now_, post_.client()), now_);
 }
 
 bool VirtualMachine::advance_until(const std::function<bool()>& done, Ticks limit) {
@@ -288,152 +162,103 @@ bool VirtualMachine::advance_until(const std::function<bool()>& done, Ticks limi
 }
 
 /// A process that stalls in a loop has decided and has not acted; when it goes on, it does.
-void VirtualMachine::run_loop(std::size_t i) {
-    Process& process = processes_[i];
-    process.next += period_;
-    if (process.decided.index() != 0) {
-        const auto decided = std::exchange(process.decided, std::monostate{});
-        std::visit([&](const auto& out) { carry_out(i, out); }, decided);
-    } else if (is_coordinator(i)) {
-        act(i, decide_coordinator(i));
+void VirtualMachine::run_loop(std::size_t process) {
+    schedule_.run(process);
+    Stall& stall = stalls_[process];
+    if (stall.decided.index() != 0) {
+        const auto decided = std::exchange(stall.decided, std::monostate{});
+        std::visit([&](const auto& out) { carry_out(process, out); }, decided);
+    } else if (post_.is_coordinator(process)) {
+        act(process, decide_coordinator(process));
     } else {
-        act(i, decide_axis(i));
+        act(process, decide_axis(process));
     }
 }
 
 template <typename Outputs>
-void VirtualMachine::act(std::size_t i, Outputs&& out) {
-    Process& process = processes_[i];
-    if (process.stalls_until <= now_) { return carry_out(i, out); }
-    process.decided = std::forward<Outputs>(out);
-    process.next = std::max(process.next, process.stalls_until);
+void VirtualMachine::act(std::size_t process, Outputs&& out) {
+    Stall& stall = stalls_[process];
+    if (stall.until <= now_) { return carry_out(process, out); }
+    stall.decided = std::forward<Outputs>(out);
+    schedule_.delay(process, stall.until);
 }
 
 AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
-    mail_.collect(network_, now_, i);
+    const Mail& mail = post_.collect(now_, i);
     const auto on_step = [&](StepEdge step) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
     };
     AxisNode& node = *axes_[i].node;
     const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
-    advance_device(i);
+    devices_.advance(i, now_);
     AxisOutputs out =
-        node.decide(process_time(i),
-                    {mail_.frames, mail_.axes, mail_.machine, mail_.axis_commands, mail_.commands, exchanges}, on_step);
+        node.decide(clocks_.process(i, now_),
+                    {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands, exchanges}, on_step);
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }
     return out;
 }
 
 void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
-    advance_device(i);
-    axes_[i].node->carry_out(process_time(i), out);
-    advance_device(i);  // it acts on its orders
+    devices_.advance(i, now_);
+    axes_[i].node->carry_out(clocks_.process(i, now_), out);
+    devices_.advance(i, now_);  // it acts on its orders
     ask_time(i);
     if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }
-    if (out.state) { multicast(*out.state, i); }
+    if (out.state) { post_.multicast(now_, i, *out.state); }
     if (axes_[i].node->must_restart()) { start_again(i); }
 }
 
-CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t here) {
-    mail_.collect(network_, now_, here);
-    const CoordinatorInputs in{machine_time(), mail_.axes, mail_.machine, mail_.commands};
-    CoordinatorOutputs out = coordinator(here)->step(in);
-    if (auto& flight = coordinator_flights_[here - axes_.size()]) { flight->take(in, out); }
-    for (VirtualObserver* observer : observers_) { observer->on_coordinator(here, now_, out); }
+CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t process) {
+    const Mail& mail = post_.collect(now_, process);
+    const CoordinatorInputs in{clocks_.machine(now_), mail.axes, mail.machine, mail.commands};
+    CoordinatorProcess& it = coordinator(process);
+    CoordinatorOutputs out = it.coordinator->step(in);
+    if (it.flight) { it.flight->take(in, out); }
+    for (VirtualObserver* observer : observers_) { observer->on_coordinator(process, now_, out); }
     return out;
 }
 
-void VirtualMachine::carry_out(std::size_t here, const CoordinatorOutputs& out) {
-    if (out.state) { multicast(*out.state, here); }
-    for (const Frame& frame : out.frames) {
-        const auto message = std::make_shared<const VirtualMessage>(frame);
-        for (std::size_t i = 0; i < axes_.size(); ++i) { send(here, i, message); }
-    }
-    for (const AxisCommand& command : out.axis_commands) {
-        send(here, command.axis, std::make_shared<const VirtualMessage>(command));
-    }
-    for (const Reply& reply : out.replies) {
-        send(here, client_address(), std::make_shared<const VirtualMessage>(reply));
-    }
-}
-
-void VirtualMachine::send(std::size_t from, std::size_t to, SharedMessage message) {
-    network_.send(now_, static_cast<VirtualNetwork::Address>(from), static_cast<VirtualNetwork::Address>(to),
-                  std::move(message));
-}
-
-void VirtualMachine::multicast(VirtualMessage message, std::size_t from) {
-    const auto shared = std::make_shared<const VirtualMessage>(std::move(message));
-    for (std::size_t to = 0; to <= client_address(); ++to) {
-        if (to != from) { send(from, to, shared); }
-    }
-}
-
-void VirtualMachine::listen() {
-    mail_.collect(network_, now_, client_address());
-    for (const AxisState& state : mail_.axes) {
-        if (state.axis >= axis_states_.size()) { continue; }
-        auto& newest = axis_states_[state.axis];
-        const bool is_later =
-            newest && state.identity > newest->identity;  // of another process, perhaps by another clock
-        if (!newest || is_later || state.stamp >= newest->stamp) { newest = state; }
-    }
-    for (const MachineState& state : mail_.machine) {
-        if (state.phase == MachinePhase::Standby) { continue; }
-        // Of two that speak the higher term counts, unless it has fallen silent.
-        const Ticks silence = options_.machine.slot_ticks() * rules::silence_slots(options_.machine.timing);
-        const bool is_silent = !machine_state_ || now_ - machine_heard_ > silence;
-        const bool is_next = machine_state_ && state.term >= machine_state_->term &&
-                             (state.term != machine_state_->term || state.stamp >= machine_state_->stamp);
-        if (!is_silent && !is_next) { continue; }
-        machine_state_ = state;
-        machine_heard_ = now_;
-    }
-    for (Reply& reply : mail_.replies) { replies_.push_back(std::move(reply)); }
+void VirtualMachine::carry_out(std::size_t process, const CoordinatorOutputs& out) {
+    if (out.state) { post_.multicast(now_, process, *out.state); }
+    for (const Frame& frame : out.frames) { post_.send_to_axes(now_, process, frame); }
+    for (const AxisCommand& command : out.axis_commands) { post_.send(now_, process, command.axis, command); }
+    for (const Reply& reply : out.replies) { post_.send(now_, process, post_.client(), reply); }
 }
 
 std::uint64_t VirtualMachine::command(CommandKind kind, AxisSet axes, std::uint64_t program, Ticks ticks) {
-    command_ = {kClient, command_.sequence + 1, kind, axes, program, ticks};
-    repeat_command();
-    return command_.sequence;
+    return ask({.kind = kind, .axes = axes, .program = program, .ticks = ticks});
 }
 
 std::uint64_t VirtualMachine::turn(const Overrides& overrides) {
-    command_ = {.client = kClient,
-                .sequence = command_.sequence + 1,
-                .kind = CommandKind::Override,
+    return ask({.kind = CommandKind::Override,
                 .feed_percent = overrides.feed_percent,
-                .rapid_percent = overrides.rapid_percent};
-    repeat_command();
-    return command_.sequence;
+                .rapid_percent = overrides.rapid_percent});
 }
 
-/// Everyone hears what a client asks of the coordinator.
-void VirtualMachine::repeat_command() {
-    const auto message = std::make_shared<const VirtualMessage>(command_);
-    for (std::size_t to = 0; to < client_address(); ++to) { send(client_address(), to, message); }
+std::uint64_t VirtualMachine::ask(const Command& command) {
+    post_.multicast(now_, post_.client(), client_.ask(command));
+    return client_.last_command().sequence;
 }
+
+void VirtualMachine::repeat_command() { post_.multicast(now_, post_.client(), client_.last_command()); }
 
 std::optional<std::size_t> VirtualMachine::owner() const {
-    std::optional<std::size_t> owner;
+    const Coordinator* owner = nullptr;
+    std::size_t process = 0;
     for (std::size_t i = 0; i < coordinators_.size(); ++i) {
-        if (!coordinators_[i] || !coordinators_[i]->owns_machine()) { continue; }
-        const bool higher = !owner || coordinators_[*owner]->term() < coordinators_[i]->term();
-        if (higher) { owner = i; }
+        const auto& one = coordinators_[i].coordinator;
+        const bool owns = one && one->owns_machine();
+        if (!owns || (owner != nullptr && one->term() <= owner->term())) { continue; }
+        owner = &*one;
+        process = axes_.size() + i;
     }
-    return owner ? std::optional(axes_.size() + *owner) : std::nullopt;
+    return owner == nullptr ? std::nullopt : std::optional(process);
 }
 
 void VirtualMachine::give_program(std::uint64_t id, const Program& program) {
     for (auto& one : coordinators_) {
-        if (one) { one->accept_program(id, program); }
+        if (one.coordinator) { one.coordinator->accept_program(id, program); }
     }
-}
-
-const Reply* VirtualMachine::reply_to(std::uint64_t sequence) const {
-    const auto found =
-        std::find_if(replies_.begin(), replies_.end(), [&](const Reply& reply) { return reply.sequence == sequence; });
-    return found == replies_.end() ? nullptr : &*found;
 }
 
 }  // namespace lockstep

@@ -5,8 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -15,10 +13,12 @@
 #include "core/coordinator/coordinator.hpp"
 #include "core/flight/coordinator_flight.hpp"
 #include "services/axis/axis_node.hpp"
-#include "services/virtual/mail.hpp"
-#include "services/virtual/virtual_clock.hpp"
-#include "services/virtual/virtual_fault.hpp"
-#include "services/virtual/virtual_network.hpp"
+#include "services/virtual/fault_schedule.hpp"
+#include "services/virtual/machine_clocks.hpp"
+#include "services/virtual/process_schedule.hpp"
+#include "services/virtual/virtual_client.hpp"
+#include "services/virtual/virtual_devices.hpp"
+#include "services/virtual/virtual_post.hpp"
 
 namespace lockstep {
 
@@ -55,17 +55,17 @@ struct VirtualOptions {
 class VirtualMachine {
 public:
     explicit VirtualMachine(const VirtualOptions& options);
+    VirtualMachine(const VirtualMachine&) = delete;
+    VirtualMachine& operator=(const VirtualMachine&) = delete;
 
     void observe(VirtualObserver& observer) { observers_.push_back(&observer); }
 
     /// A fault to come; what should have begun already begins at once. Crashes of one process do not overlap.
-    void schedule(const VirtualFault& fault);
+    void schedule(const VirtualFault& fault) { faults_.add(fault, now_); }
     /// Faults that have not begun do not come after all.
-    void withdraw_faults() {
-        std::erase_if(turns_, [this](const auto& turn) { return turn.second.fault.at > now_; });
-    }
+    void withdraw_faults() { faults_.withdraw(now_); }
     /// Whether a fault is still to come or to end.
-    bool faults_pending() const { return !turns_.empty(); }
+    bool faults_pending() const { return !faults_.empty(); }
 
     /// Goes on to the next loop of any process, or the next turn of a fault.
     void advance();
@@ -79,114 +79,89 @@ public:
     void repeat_command();
     /// A program that has arrived whole at every coordinator.
     void give_program(std::uint64_t id, const Program& program);
-    const std::vector<Reply>& replies() const { return replies_; }
+    const std::vector<Reply>& replies() const { return client_.replies(); }
     /// The reply to a command, once it has come.
-    const Reply* reply_to(std::uint64_t sequence) const;
+    const Reply* reply_to(std::uint64_t sequence) const { return client_.reply_to(sequence); }
 
     /// The coordinator that owns the machine, as a process; of several that think so the one of the highest term.
     std::optional<std::size_t> owner() const;
 
     Tick now() const { return now_; }
     const MachineConfig& machine() const { return options_.machine; }
-    /// The newest the client has heard.
-    const std::optional<MachineState>& state() const { return machine_state_; }
-    const std::vector<std::optional<AxisState>>& axis_states() const { return axis_states_; }
+    /// The newest that the client has received.
+    const std::optional<MachineState>& state() const { return client_.state(); }
+    const std::vector<std::optional<AxisState>>& axis_states() const { return client_.axis_states(); }
     /// What an axis's device's clock reads now.
-    Tick device_time(std::size_t i) const { return clocks_of(i).device.at(now_, options_.start); }
+    Tick device_time(std::size_t i) const { return clocks_.device(i, now_); }
     /// An axis's device, which outlives its processes.
-    SimulatedDevice& device(std::size_t i) { return *axes_[i].device.simulated; }
-    const SimulatedDevice& device(std::size_t i) const { return *axes_[i].device.simulated; }
-    const AlterationCounts& alterations() const { return network_.alterations(); }
+    SimulatedDevice& device(std::size_t i) { return devices_[i]; }
+    const SimulatedDevice& device(std::size_t i) const { return devices_[i]; }
+    const AlterationCounts& alterations() const { return post_.alterations(); }
 
 private:
-    /// An axis: its device, and the process that runs it, while there is one.
+    /// The process of an axis, while there is one.
     struct Axis {
-        AxisDevice device;
-        bool stopped = false;    // the device
-        bool no_device = false;  // that could be opened
         std::optional<AxisNode> node;
         std::optional<AxisFlight> flight;
         std::optional<ClockAsker> asker;
         std::vector<ClockExchange> exchanges;  // not used yet
         KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
     };
-    /// When a process's loop runs next; that of a dead one does not.
-    struct Process {
-        bool alive = false;
-        Tick next;
-        Tick stalls_until{};  // in its next loop, if that is to come
-        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided{};  // and not done: it stalls in a loop
+    struct CoordinatorProcess {
+        std::optional<Coordinator> coordinator;
+        std::optional<CoordinatorFlight> flight;
     };
-    /// A fault begins or ends.
-    struct Turn {
-        VirtualFault fault;
-        bool begins = true;
+    /// A stall of a process between what its loop decides and what it does about it.
+    struct Stall {
+        Tick until{};  // in its next loop, if that is to come
+        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided{};  // and not done
     };
 
-    void power_up();
-    std::optional<std::size_t> next_process() const;
-    void take_turn(const Turn& turn);
+    // Processes begin and end.
     void start(std::size_t process, bool other_config = false);
-    std::expected<AxisDevice, std::string> open_device(std::size_t axis) const;
-    void advance_device(std::size_t axis);
-    void power_up_anew(std::size_t axis, RegisterWindow window);
-    void overwrite(std::size_t axis, bool garbage);
-    void strike(const VirtualFault& fault, bool begins);
-    void note_flight(std::size_t process);
+    void start_axis(std::size_t axis, std::uint64_t config_hash);
+    void start_coordinator(std::size_t process, std::uint64_t config_hash);
     void crash(std::size_t process);
     void restart(const VirtualFault& crash);
     void start_again(std::size_t axis);
-    void cut(const VirtualFault& fault, bool begins);
-    void disturb(const VirtualFault& fault, bool begins);
 
-    AxisClocks clocks_of(std::size_t i) const { return i < options_.clocks.size() ? options_.clocks[i] : AxisClocks{}; }
-    /// The coordinator's clock.
-    Tick machine_time() const { return now_ - booted_; }
-    Tick process_time(std::size_t i) const { return clocks_of(i).process.at(now_, options_.start); }
-    bool is_up(std::size_t process) const;
+    // Faults.
+    void take_turn(const FaultSchedule::Turn& turn);
+    void begin(const VirtualFault& fault);
+    void end(const VirtualFault& fault);
+
+    // Clock messages.
     std::optional<std::size_t> next_clock_mail() const;
     void take_clock_mail(std::size_t process);
     bool asks_time() const { return options_.machine.timing.time_source == TimeSource::Network; }
-    void ask_time(std::size_t i);
+    void ask_time(std::size_t axis);
 
+    // Loops.
     void run_loop(std::size_t process);
     template <typename Outputs>
     void act(std::size_t process, Outputs&& out);
-    AxisOutputs decide_axis(std::size_t i);
-    CoordinatorOutputs decide_coordinator(std::size_t here);
-    void carry_out(std::size_t process, const AxisOutputs& out);
+    AxisOutputs decide_axis(std::size_t axis);
+    CoordinatorOutputs decide_coordinator(std::size_t process);
+    void carry_out(std::size_t axis, const AxisOutputs& out);
     void carry_out(std::size_t process, const CoordinatorOutputs& out);
     void carry_out(std::size_t /*process*/, std::monostate /*nothing*/) {}
-    void listen();
-    void send(std::size_t from, std::size_t to, SharedMessage message);
-    void multicast(VirtualMessage message, std::size_t from);
-    std::size_t coordinator_address() const { return axes_.size(); }  // the first; whom axes ask for the time
-    bool is_coordinator(std::size_t process) const { return process >= axes_.size(); }
-    std::optional<Coordinator>& coordinator(std::size_t process) { return coordinators_[process - axes_.size()]; }
-    std::size_t client_address() const { return axes_.size() + coordinators_.size(); }
-    /// Clock messages are answered when they come, not in the loop.
-    std::size_t clock_address(std::size_t process) const { return client_address() + 1 + process; }
+    std::uint64_t ask(const Command& command);
 
-    static constexpr Identity kClient = 1;
+    CoordinatorProcess& coordinator(std::size_t process) { return coordinators_[process - axes_.size()]; }
 
     VirtualOptions options_;
-    VirtualNetwork network_;
-    Mail mail_;  // of whose turn it is
     Tick now_;
-    Ticks booted_;  // by so much the coordinator's clock began later than the true one
-    Ticks period_;
+    MachineClocks clocks_;
+    VirtualDevices devices_;
+    VirtualPost post_;
+    VirtualClient client_;
+    FaultSchedule faults_;
+    ProcessSchedule schedule_;
     std::vector<Axis> axes_;
-    std::vector<std::optional<Coordinator>> coordinators_;
-    std::vector<std::optional<CoordinatorFlight>> coordinator_flights_;
-    std::vector<Process> processes_;  // the axes, then the coordinators
+    std::vector<CoordinatorProcess> coordinators_;
+    std::vector<Stall> stalls_;       // the axes, then the coordinators
     Identity axis_identities_ = 100;  // given so far
-    std::multimap<Tick, Turn> turns_;
     std::vector<VirtualObserver*> observers_;
-    Command command_{.client = kClient};  // the last one given
-    std::vector<Reply> replies_;
-    std::optional<MachineState> machine_state_;
-    Tick machine_heard_;  // the true time, then
-    std::vector<std::optional<AxisState>> axis_states_;
 };
 
 }  // namespace lockstep

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <deque>
-#include <utility>
+#include <cstddef>
+#include <vector>
 
 #include "core/protocol/messages.hpp"
 
@@ -24,27 +24,48 @@ struct HeldFrame {
     }
 };
 
-/// In order of their numbers.
+/// In order of their numbers, in a ring: frames come and go without allocation.
 class HeldFrames {
 public:
-    void push_back(const HeldFrame& frame) { frames_.push_back(frame); }
-    void forget_before(FrameNumber number) {
-        while (!frames_.empty() && frames_.front().number < number) { frames_.pop_front(); }
+    /// `room`: for so many frames. For more of them the ring grows.
+    explicit HeldFrames(std::size_t room) : frames_(room) {}
+
+    void push_back(const HeldFrame& frame) {
+        if (size_ == frames_.size()) { grow(); }
+        at(size_++) = frame;
     }
-    void clear() { frames_.clear(); }
+    void forget_before(FrameNumber number) {
+        while (!empty() && front().number < number) {
+            first_ = (first_ + 1) % frames_.size();
+            --size_;
+        }
+    }
+    void clear() { size_ = 0; }
 
     /// Null: it is not held.
     const HeldFrame* find(FrameNumber number) const {
-        const auto found = std::ranges::find(frames_, number, &HeldFrame::number);
-        return found == frames_.end() ? nullptr : &*found;
+        for (std::size_t i = 0; i < size_; ++i) {
+            if (at(i).number == number) { return &at(i); }
+        }
+        return nullptr;
     }
-    const HeldFrame& front() const { return frames_.front(); }
-    const HeldFrame& back() const { return frames_.back(); }
-    bool empty() const { return frames_.empty(); }
-    std::size_t size() const { return frames_.size(); }
+    const HeldFrame& front() const { return at(0); }
+    const HeldFrame& back() const { return at(size_ - 1); }
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
 
 private:
-    std::deque<HeldFrame> frames_;
+    HeldFrame& at(std::size_t i) { return frames_[(first_ + i) % frames_.size()]; }
+    const HeldFrame& at(std::size_t i) const { return frames_[(first_ + i) % frames_.size()]; }
+    void grow() {
+        std::rotate(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(first_), frames_.end());
+        first_ = 0;
+        frames_.resize(2 * frames_.size() + 1);
+    }
+
+    std::vector<HeldFrame> frames_;
+    std::size_t first_ = 0;
+    std::size_t size_ = 0;
 };
 
 }  // namespace lockstep

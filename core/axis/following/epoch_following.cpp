@@ -37,7 +37,7 @@ void EpochFollowing::refuse(const Frame& frame, FaultCode why, AxisLoop& loop) {
 void EpochFollowing::check(AxisLoop& loop) {
     if (!is_open()) { return; }
     const auto veto_before = follower_.veto();
-    for (DeviceOrder& order : follower_.decide(loop.slot)) { loop.out.orders.push_back(std::move(order)); }
+    for (const DeviceOrder& order : follower_.decide(loop.slot)) { loop.out.orders.push_back(order); }
     if (follower_.veto() == veto_before) { return; }
     loop.notice({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
 }

@@ -83,8 +83,8 @@ void SetpointFollower::refuse(FrameNumber veto, const FailedCheck& check) {
     add_veto(veto);
 }
 
-std::vector<DeviceOrder> SetpointFollower::decide(Slot now) {
-    std::vector<DeviceOrder> orders;
+const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now) {
+    orders_.clear();
     std::optional<FrameNumber> unarmed;  // never to be armed, though others may run it
     for (FrameNumber k = checked_ + 1; open_; ++k) {
         const std::optional<Slot> start = start_slot(k);
@@ -97,7 +97,7 @@ std::vector<DeviceOrder> SetpointFollower::decide(Slot now) {
             refuse(rules::veto_when_too_late(k), check);
             unarmed = rules::merge(unarmed, k);
         } else if (rules::may_arm(k, {held_, veto_, check.lacking == 0})) {
-            orders.emplace_back(device::Arm{k});
+            orders_.emplace_back(device::Arm{k});
         } else {
             refuse(rules::veto_when_failed(k), check);
         }
@@ -106,9 +106,9 @@ std::vector<DeviceOrder> SetpointFollower::decide(Slot now) {
     const auto veto = rules::merge(rules::merge(veto_, unarmed), device_veto_);
     if (veto != device_veto_) {
         device_veto_ = veto;
-        orders.emplace_back(device::Veto{*veto});
+        orders_.emplace_back(device::Veto{*veto});
     }
-    return orders;
+    return orders_;
 }
 
 void SetpointFollower::veto_for_own_reasons(Slot now) {

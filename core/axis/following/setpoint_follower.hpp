@@ -30,8 +30,8 @@ public:
     /// Otherwise the frame is held (held() says so), or the fault says why not.
     FaultCode offer(const Frame& frame, std::optional<Position> rest);
 
-    /// Makes the checks that are due. Returns what the device is to be told, in order.
-    std::vector<DeviceOrder> decide(Slot now);
+    /// Makes the checks that are due. Returns what the device is to be told, in order; valid until the next call.
+    const std::vector<DeviceOrder>& decide(Slot now);
 
     /// Casts the lowest veto that still reaches everyone: this axis cannot go on.
     void veto_for_own_reasons(Slot now);
@@ -78,7 +78,8 @@ private:
     MotionPoint end_;                         // of the last body held
     Tick end_tick_;
     bool last_held_ = false;
-    HeldFrames frames_;
+    HeldFrames frames_{kMaxFrames};
+    std::vector<DeviceOrder> orders_;  // of one call
 };
 
 }  // namespace lockstep

@@ -37,7 +37,7 @@ public:
 private:
     LocalMove move_;
     OwnMove frames_;                    // those to come
-    HeldFrames held_;                   // those loaded and not yet recorded
+    HeldFrames held_{4};                // those loaded and not yet recorded
     std::optional<HeldFrame> waiting_;  // made, but the device's ring has no room for it
     RunRecorder recorder_;
     Ticks span_;

@@ -10,6 +10,7 @@
 #include "core/clock/clock_view.hpp"
 #include "core/faults.hpp"
 #include "core/protocol/messages.hpp"
+#include "core/reused_vector.hpp"
 
 namespace lockstep {
 
@@ -76,11 +77,22 @@ struct AxisNotice {
 struct AxisOutputs {
     std::optional<AxisState> state;  // once a slot
     std::vector<DeviceOrder> orders;
-    std::vector<ExecutedTrack> tracks;
+    ReusedVector<ExecutedTrack> tracks;
     std::vector<AxisNotice> notices;
     std::optional<KeptPosition> rests;  // homed, after a run: to be kept for the process that comes after this one
     ClockView device_clock;             // in machine time: steps and tracks are recorded in the device's own
     bool device_changed = false;        // from this step on counts are those of another device, or power-up
+
+    /// For the next loop: what the lists have taken of memory stays.
+    void clear() {
+        state.reset();
+        orders.clear();
+        tracks.clear();
+        notices.clear();
+        rests.reset();
+        device_clock = {};
+        device_changed = false;
+    }
 };
 
 }  // namespace lockstep

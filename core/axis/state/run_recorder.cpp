@@ -1,7 +1,6 @@
 #include "core/axis/state/run_recorder.hpp"
 
 #include <optional>
-#include <utility>
 
 #include "core/check.hpp"
 
@@ -9,9 +8,12 @@ namespace lockstep {
 namespace {
 
 /// `cut_at`: where the pulses ceased early, in machine coordinates.
-ExecutedTrack track_of(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at,
-                       const RunRecorder::Run& run) {
-    ExecutedTrack r{.epoch = run.epoch, .frame = frame.number, .tail = tail};
+void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, const RunRecorder::Run& run,
+            ReusedVector<ExecutedTrack>& tracks) {
+    ExecutedTrack& r = tracks.append();
+    r.epoch = run.epoch;
+    r.frame = frame.number;
+    r.tail = tail;
     r.start = tail ? frame.end() : frame.start;
     r.from = tail ? frame.body_end() : frame.track.from;
     const auto take = [&r](const auto& pieces) { r.pieces.assign(pieces.begin(), pieces.end()); };
@@ -21,30 +23,32 @@ ExecutedTrack track_of(const HeldFrame& frame, bool tail, std::optional<std::int
     r.cut = cut_at.has_value();
     r.stop_count = cut_at.value_or(end.count());
     r.zero_count = run.zero_count;
-    return r;
+    r.commanded_start = {};
+    r.commanded_ticks.clear();
+    r.clock_error = {};
 }
 
 void record_end(const HeldFrame& frame, const DeviceStatus& device, const RunRecorder::Run& run,
-                std::vector<ExecutedTrack>& tracks) {
+                ReusedVector<ExecutedTrack>& tracks) {
     const bool stopped = device.stopped_by_limit || device.stopped_by_trigger || device.stopped_by_host;
     const std::int64_t here = device.position.count() - run.zero_count;
     const bool in_tail = !frame.last && (!stopped || device.in_tail);
-    tracks.push_back(track_of(frame, false, stopped && !in_tail ? std::optional(here) : std::nullopt, run));
+    record(frame, false, stopped && !in_tail ? std::optional(here) : std::nullopt, run, tracks);
     if (in_tail && !frame.track.tail.empty()) {
-        tracks.push_back(track_of(frame, true, stopped ? std::optional(here) : std::nullopt, run));
+        record(frame, true, stopped ? std::optional(here) : std::nullopt, run, tracks);
     }
 }
 
 }  // namespace
 
 void RunRecorder::take(const DeviceStatus& device, const Run& run, HeldFrames& frames,
-                       std::vector<ExecutedTrack>& tracks) {
+                       ReusedVector<ExecutedTrack>& tracks) {
     for (; recorded_ < device.frame; ++recorded_) {
         const FrameNumber k = recorded_ + 1;
         const HeldFrame& frame =
             check_found(frames.find(k), "a frame that the device runs is held until it is recorded");
         if (k < device.frame) {
-            tracks.push_back(track_of(frame, false, {}, run));
+            record(frame, false, {}, run, tracks);
         } else if (device.finished) {
             record_end(frame, device, run, tracks);
         } else {

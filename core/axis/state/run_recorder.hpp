@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/axis/device/held_frames.hpp"
 #include "core/axis/state/axis_io.hpp"
@@ -20,7 +19,7 @@ public:
     };
     /// Each loop of a run. Records each body when the next has begun, and the last with its tail when the run has
     /// ended; frames that are recorded are no longer held.
-    void take(const DeviceStatus& device, const Run& run, HeldFrames& frames, std::vector<ExecutedTrack>& tracks);
+    void take(const DeviceStatus& device, const Run& run, HeldFrames& frames, ReusedVector<ExecutedTrack>& tracks);
 
 private:
     FrameNumber recorded_ = 0;  // bodies of the run so far

@@ -21,14 +21,14 @@ protected:
     Recorder() {
         for (const FrameNumber k : {1, 2, 3}) { frames.push_back(frame(k)); }
     }
-    const std::vector<ExecutedTrack>& record(const DeviceStatus& device) {
+    const ReusedVector<ExecutedTrack>& record(const DeviceStatus& device) {
         tracks.clear();
         recorder.take(device, {.epoch = 9, .zero_count = 100}, frames, tracks);
         return tracks;
     }
-    HeldFrames frames;
+    HeldFrames frames{2};
     RunRecorder recorder;
-    std::vector<ExecutedTrack> tracks;
+    ReusedVector<ExecutedTrack> tracks;
 };
 
 TEST_F(Recorder, RecordsABodyWhenTheNextHasBegun) {

@@ -1,0 +1,54 @@
+// A vector that keeps its elements, and what they hold of memory, when it is cleared: a loop that fills it anew each
+// time allocates nothing once it has been full.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+namespace lockstep {
+
+template <typename T>
+class ReusedVector {
+public:
+    ReusedVector() = default;
+    ReusedVector(std::initializer_list<T> values) : items_(values), size_(values.size()) {}
+    ReusedVector(const ReusedVector& other) { *this = other; }
+    ReusedVector& operator=(const ReusedVector& other) {
+        if (this == &other) { return *this; }
+        clear();
+        for (const T& value : other) { append() = value; }
+        return *this;
+    }
+    ReusedVector(ReusedVector&& other) noexcept
+        : items_(std::move(other.items_)), size_(std::exchange(other.size_, 0)) {}
+    ReusedVector& operator=(ReusedVector&& other) noexcept {
+        items_ = std::move(other.items_);
+        size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
+    ~ReusedVector() = default;
+
+    /// A new last element with whatever value an earlier one had: every field of it is to be set.
+    T& append() {
+        if (size_ == items_.size()) { items_.emplace_back(); }
+        return items_[size_++];
+    }
+    void clear() { size_ = 0; }
+
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    T& operator[](std::size_t i) { return items_[i]; }
+    const T& operator[](std::size_t i) const { return items_[i]; }
+    T* begin() { return items_.data(); }
+    T* end() { return items_.data() + size_; }
+    const T* begin() const { return items_.data(); }
+    const T* end() const { return items_.data() + size_; }
+
+private:
+    std::vector<T> items_;
+    std::size_t size_ = 0;  // of those in use
+};
+
+}  // namespace lockstep

@@ -1,0 +1,49 @@
+// The devices of a virtual machine's axes, which outlive the axes' processes, and the faults that are theirs.
+#pragma once
+
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "services/axis/axis_node.hpp"
+#include "services/virtual/machine_clocks.hpp"
+#include "services/virtual/virtual_fault.hpp"
+
+namespace lockstep {
+
+class VirtualDevices {
+public:
+    /// All are powered up at `now`. `clocks` outlives them.
+    VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, std::uint64_t seed, Tick now);
+
+    SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].device.simulated; }
+    const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].device.simulated; }
+
+    /// The axis's end of it. Error: nobody holds its registers.
+    std::expected<AxisDevice, std::string> open(std::size_t axis) const;
+    void advance(std::size_t axis, Tick now);
+
+    /// Faults of an axis's slide, switches or device: at this very tick of the device, which looks at its inputs at
+    /// once.
+    void begin(const VirtualFault& fault, Tick now) { turn(fault, true, now); }
+    void end(const VirtualFault& fault, Tick now) { turn(fault, false, now); }
+
+private:
+    struct Device {
+        AxisDevice device;
+        bool is_stopped = false;
+        bool is_gone = false;
+    };
+    void turn(const VirtualFault& fault, bool begins, Tick now);
+    void disturb(const VirtualFault& fault, bool begins);
+    void strike(const VirtualFault& fault, bool begins, Tick now);
+    void power_up_anew(std::size_t axis, RegisterWindow window, Tick now);
+    void overwrite(std::size_t axis, bool garbage, Tick now);
+
+    const MachineClocks& clocks_;
+    std::int64_t tick_ns_;
+    std::uint64_t seed_;
+    std::vector<Device> devices_;
+};
+
+}  // namespace lockstep

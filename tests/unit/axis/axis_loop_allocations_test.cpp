@@ -1,0 +1,124 @@
+// The loop of an axis allocates no memory while frames come and go: it cannot wait for the allocator, nor fault a page
+// in.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "core/coordinator/coordinator.hpp"
+#include "core/methods/paper_steps.hpp"
+#include "services/axis/axis_node.hpp"
+
+namespace {
+
+thread_local bool g_counts = false;
+thread_local std::uint64_t g_allocations = 0;
+
+void* allocate(std::size_t bytes) {
+    if (g_counts) { ++g_allocations; }
+    if (void* const memory = std::malloc(bytes)) { return memory; }
+    throw std::bad_alloc();
+}
+
+}  // namespace
+
+// NOLINTBEGIN(misc-new-delete-overloads): of this test program
+void* operator new(std::size_t bytes) { return allocate(bytes); }
+void* operator new[](std::size_t bytes) { return allocate(bytes); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
+// NOLINTEND(misc-new-delete-overloads)
+
+namespace lockstep {
+namespace {
+
+MachineConfig one_axis() {
+    MachineConfig machine{.name = "one"};
+    machine.timing = {
+        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+    machine.axes.push_back({.name = "X",
+                            .steps_per_mm = 100,
+                            .start_velocity_mm_s = 10,
+                            .max_velocity_mm_s = 50,
+                            .max_accel_mm_s2 = 500,
+                            .max_decel_mm_s2 = 500,
+                            .position_min_mm = 0,
+                            .position_max_mm = 100});
+    machine.axes[0].homing = {
+        .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
+    machine.axes[0].plant = {
+        .start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
+    return machine;
+}
+
+/// A coordinator and an axis with its device in one thread, a loop of each in each slot.
+class RunningAxis : public testing::Test {
+protected:
+    RunningAxis() { node_.measure(meter_); }
+    void slot() {
+        now_ += Ticks{1000};
+        const CoordinatorOutputs out =
+            coordinator_.step({now_, std::span(&axis_state_, axis_state_.stamp > 0 ? 1 : 0), {}, commands_});
+        commands_.clear();
+        std::vector<MachineState> machine;
+        if (out.state) { machine.push_back(*out.state); }
+        steps_.reserve(steps_.size() + 1000);
+        g_counts = counts_;
+        const AxisOutputs& axis = node_.step(now_, {out.frames, {}, machine, out.axis_commands, {}, {}}, on_step_);
+        if (axis.state) { axis_state_ = *axis.state; }
+        g_counts = false;
+    }
+    bool reaches(MachinePhase phase) {
+        for (int i = 0; i < 20'000 && coordinator_.phase() != phase; ++i) { slot(); }
+        return coordinator_.phase() == phase;
+    }
+    void ask(CommandKind kind) {
+        commands_.push_back({.client = 1, .sequence = ++sequence_, .kind = kind, .program = 1});
+        slot();
+    }
+    /// The program goes there and back, and is held and resumed on the way.
+    void run_hold_and_resume() {
+        ask(CommandKind::Run);
+        ASSERT_EQ(coordinator_.phase(), MachinePhase::Running);
+        for (int i = 0; i < 300; ++i) { slot(); }
+        ask(CommandKind::Hold);
+        ASSERT_TRUE(reaches(MachinePhase::Holding));
+        ask(CommandKind::Resume);
+        ASSERT_TRUE(reaches(MachinePhase::Idle));
+    }
+
+    MachineConfig machine_ = one_axis();
+    Tick now_{1'000'000};
+    Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
+    AxisNode node_{{0, machine_, 7, 1},
+                   [this](Tick now) { return simulated_device(machine_.axes[0], machine_.tick_ns, now); }};
+    HealthMeter meter_{0, 7, machine_.tick_ns};
+    std::vector<StepEdge> steps_;
+    AxisNode::OnStep on_step_ = [this](StepEdge step) { steps_.push_back(step); };
+    AxisState axis_state_;
+    std::vector<Command> commands_;
+    std::uint64_t sequence_ = 0;
+    bool counts_ = false;
+};
+
+TEST_F(RunningAxis, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle));
+    ask(CommandKind::Home);
+    ASSERT_TRUE(reaches(MachinePhase::Idle));
+    ASSERT_TRUE(axis_state_.homed);
+    Program there_and_back{.name = "there and back", .axes = {"X"}, .start_mm = {5}};
+    for (const double x : {50.0, 10.0, 60.0, 5.0}) { there_and_back.blocks.push_back({1, LinearMove{{x}, 40, false}}); }
+    coordinator_.accept_program(1, there_and_back);
+    run_hold_and_resume();
+    const std::size_t steps_before = steps_.size();
+
+    counts_ = true;
+    run_hold_and_resume();
+    EXPECT_EQ(g_allocations, 0u);
+    EXPECT_GT(steps_.size(), steps_before + 10'000) << "the axis has moved";
+}
+
+}  // namespace
+}  // namespace lockstep

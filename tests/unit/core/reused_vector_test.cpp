@@ -1,0 +1,35 @@
+// A vector that keeps its elements' memory when it is cleared.
+#include "core/reused_vector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace lockstep {
+namespace {
+
+TEST(ReusedVector, KeepsTheMemoryOfItsElements) {
+    ReusedVector<std::string> texts;
+    texts.append() = std::string(100, 'a');
+    const char* const memory = texts[0].data();
+    texts.clear();
+    EXPECT_TRUE(texts.empty());
+    texts.append() = "short";
+    EXPECT_EQ(texts[0], "short");
+    EXPECT_EQ(texts[0].data(), memory);
+}
+
+TEST(ReusedVector, CopiesAndMovesOnlyWhatIsInUse) {
+    ReusedVector<int> numbers{1, 2, 3};
+    numbers.clear();
+    numbers.append() = 4;
+    ReusedVector<int> copy = numbers;
+    EXPECT_EQ(copy.size(), 1u);
+    EXPECT_EQ(copy[0], 4);
+    const ReusedVector<int> moved = std::move(copy);
+    EXPECT_EQ(moved.size(), 1u);
+    EXPECT_TRUE(copy.empty());  // NOLINT(bugprone-use-after-move): it is empty, and may be filled anew
+}
+
+}  // namespace
+}  // namespace lockstep
