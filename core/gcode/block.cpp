@@ -1,58 +1,14 @@
 #include "core/gcode/block.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "core/number_text.hpp"
-#include "core/program.hpp"
 
-namespace lockstep {
+namespace lockstep::gcode {
 namespace {
 
-using gcode::Distance;
-using gcode::Immediate;
-using gcode::Motion;
-using gcode::Stop;
-using gcode::Units;
-
-/// The alternative is the modal group.
-using Meaning = std::variant<Motion, Immediate, Units, Distance, Stop>;
-constexpr std::array<std::string_view, 5> kGroupNames{"motion", "non-modal", "units", "distance mode", "stop"};
-
-struct Code {
-    char letter;
-    int tenths;  // G92.1 is 921
-    Meaning meaning;
-};
-
-constexpr std::array kCodes{
-    Code{'G', 0, Motion::Rapid},
-    Code{'G', 10, Motion::Feed},
-    Code{'G', 40, Immediate::Dwell},
-    Code{'G', 280, Immediate::Park},
-    Code{'G', 920, Immediate::SetOffset},
-    Code{'G', 921, Immediate::ClearOffset},
-    Code{'G', 200, Units::Inches},
-    Code{'G', 210, Units::Millimetres},
-    Code{'G', 900, Distance::Absolute},
-    Code{'G', 910, Distance::Relative},
-    Code{'M', 0, Stop::Pause},
-    Code{'M', 10, Stop::OptionalPause},
-    Code{'M', 20, Stop::End},
-    Code{'M', 300, Stop::End},
-};
-constexpr std::string_view kCodesText = "G0 G1 G4 G20 G21 G28 G90 G91 G92 G92.1 M0 M1 M2 M30";
-
-constexpr std::string_view kUsualAxisLetters = "XYZABCUVW";
-
-const Code* find_code(const GcodeWord& word) {
-    const double tenths = word.value * 10;
-    for (const Code& code : kCodes) {
-        if (code.letter == word.letter && std::abs(tenths - code.tenths) < 1e-6) { return &code; }
-    }
-    return nullptr;
-}
+constexpr std::string_view kOtherLetters = "DEFHIJKLPQRST";
 
 std::string spaced(std::string_view letters) {
     std::string text;
@@ -60,120 +16,181 @@ std::string spaced(std::string_view letters) {
     return text.empty() ? "none that a letter calls" : text;
 }
 
-/// Goes through a line's words once; the first thing wrong stays.
 class BlockReader {
 public:
-    BlockReader(std::string_view axis_letters, int line) : axis_letters_(axis_letters), line_(line) {}
+    BlockReader(Reader& reader, const Line& line, std::string_view axes, Block& block)
+        : reader_(reader), line_(line), axes_(axes), block_(block) {}
 
-    std::expected<GcodeBlock, GcodeError> read(const std::vector<GcodeWord>& words) {
-        for (const GcodeWord& word : words) {
-            take(word);
-            is_first_ = false;
-        }
-        check_together();
-        if (error_) { return std::unexpected(*error_); }
-        return block_;
+    std::optional<GcodeError> read() {
+        while (!reader_.done()) { take_word(); }
+        return reader_.error();
     }
 
 private:
-    void fail(const GcodeWord& word, const std::string& what) {
-        if (!error_) { error_ = GcodeError{line_, word.column, word.text + what}; }
-    }
-
-    void take(const GcodeWord& word) {
-        if (word.letter == 'G' || word.letter == 'M') { return take_code(word); }
-        auto& before = seen_[static_cast<std::size_t>(word.letter - 'A')];
-        if (before) { return fail(word, " repeats " + before->text + "; a block has each word once"); }
-        before = word;
-        switch (word.letter) {
-            case 'N': return take_line_number(word);
-            case 'F': return take_feed(word);
-            case 'P': return;  // with G4, see check_together
-            default: return take_axis(word);
+    void take_word() {
+        const std::size_t place = reader_.place();
+        const char letter = reader_.next();
+        if (letter == 'G' || letter == 'M') { return take_code(letter, place); }
+        if (is_letter(letter)) { return take_letter(letter, place); }
+        switch (letter) {
+            case '(':
+                reader_.go_to(place);
+                block_.comment = place;
+                return reader_.skip_comment();
+            case '#': return take_assignment();
+            case '@': return take_polar(block_.distance, place);
+            case '^': return take_polar(block_.angle, place);
+            case '*': return take_checksum(place);
+            default: reader_.fail(place, shown(letter) + " where a word's letter is expected");
         }
     }
 
-    void take_code(const GcodeWord& word) {
-        const Code* code = find_code(word);
-        if (code == nullptr) { return fail(word, " is not a code known here; known are " + std::string(kCodesText)); }
-        auto& before = groups_[code->meaning.index()];
-        if (before) {
-            return fail(word, " after " + before->text + ": a block has one " +
-                                  std::string(kGroupNames[code->meaning.index()]) + " word; use two lines");
+    void take_letter(char letter, std::size_t place) {
+        if (axes_.find(letter) == std::string_view::npos && kOtherLetters.find(letter) == std::string_view::npos) {
+            return refuse_letter(letter, place);
         }
-        before = word;
-        std::visit([this](auto meaning) { set(meaning); }, code->meaning);
+        const double value = reader_.word_value(place);
+        if (reader_.error()) { return; }
+        if (block_.has(letter)) {
+            return reader_.fail(place, word_text(line_, place) + " repeats " + word_text(line_, block_.place(letter)) +
+                                           "; a block has each word once");
+        }
+        if (std::abs(value) > kMaxNumber) { return refuse_size(place); }
+        block_.set(letter, value, place);
     }
 
-    void set(Motion meaning) { block_.motion = meaning; }
-    void set(Immediate meaning) { block_.immediate = meaning; }
-    void set(Units meaning) { block_.units = meaning; }
-    void set(Distance meaning) { block_.distance = meaning; }
-    void set(Stop meaning) { block_.stop = meaning; }
+    void refuse_letter(char letter, std::size_t place) {
+        const std::string text = word_text(line_, place);
+        if (letter == 'N') { return reader_.fail(place, text + " is a line number and must come first in its block"); }
+        if (kAxisLetters.find(letter) != std::string_view::npos) {
+            return reader_.fail(place,
+                                text + ": this machine has no axis " + letter + "; its axes are " + spaced(axes_));
+        }
+        reader_.fail(place, text + " is not a word known here; known are G M N O " + spaced(kOtherLetters) +
+                                " and the axes " + spaced(axes_));
+    }
 
-    void take_line_number(const GcodeWord& word) {
-        if (!is_first_) { fail(word, " is a line number and must come first in its block"); }
-        if (word.value < 0 || word.value != std::floor(word.value)) {
-            fail(word, " is not a line number; it is a whole number from 0");
+    void refuse_size(std::size_t place) {
+        reader_.fail(place, word_text(line_, place) + " is out of range; numbers go to " + number_text(kMaxNumber) +
+                                " either way");
+    }
+
+    void take_code(char letter, std::size_t place) {
+        const double tenths = reader_.word_value(place) * 10;
+        if (reader_.error()) { return; }
+        const double whole = std::round(tenths);
+        const bool is_one = std::abs(tenths - whole) < 0.01 && whole >= 0 && whole < 1e6;
+        const Code* code = is_one ? find_code(letter, static_cast<int>(whole)) : nullptr;
+        if (code == nullptr) { return refuse_code(letter, is_one ? static_cast<int>(whole) : -1, place); }
+        m_codes_ += letter == 'M' ? 1 : 0;
+        if (m_codes_ > kMaxMCodes) {
+            return reader_.fail(place, word_text(line_, place) + " is one M code more than the " +
+                                           std::to_string(kMaxMCodes) + " that a block can have; use two lines");
+        }
+        if (block_.has(code->group) && !cancels(*code)) { return refuse_group(*code, place); }
+        block_.set(*code, place);
+    }
+
+    /// G80 beside another motion word of the block: the other holds.
+    bool cancels(const Code& code) {
+        constexpr int kCancel = 800;
+        if (code.group != Group::Motion) { return false; }
+        return block_.code(Group::Motion) == kCancel || code.tenths == kCancel;
+    }
+
+    void refuse_code(char letter, int tenths, std::size_t place) {
+        const std::string text = word_text(line_, place);
+        if (const RefusedCode* refused = find_refused(letter, tenths)) {
+            return reader_.fail(place, text + " " + std::string(refused->reason));
+        }
+        reader_.fail(place, text + " is not a code known here; take it out, or see the list of codes");
+    }
+
+    void refuse_group(const Code& code, std::size_t place) {
+        reader_.fail(place, word_text(line_, place) + " after " + word_text(line_, block_.place(code.group)) +
+                                ": a block has one " + std::string(name_of(code.group)) + " word; use two lines");
+    }
+
+    void take_assignment() {
+        Assignment assignment;
+        const std::size_t place = reader_.place();
+        if (reader_.peek() == '<') {
+            assignment.parameter = reader_.name();
+        } else {
+            assignment.parameter = reader_.parameter_number();
+        }
+        if (!reader_.error() && !reader_.take('=')) {
+            return reader_.fail(place - 1, "a parameter alone on its line does nothing; write = and its value");
+        }
+        assignment.value = reader_.error() ? 0 : reader_.value();
+        block_.assignments.push_back(std::move(assignment));
+    }
+
+    void take_polar(std::optional<double>& coordinate, std::size_t place) {
+        if (coordinate) { return reader_.fail(place, shown(line_.at(place)) + " stands twice in the block"); }
+        coordinate = reader_.word_value(place);
+        if (std::abs(*coordinate) > kMaxNumber) { refuse_size(place); }
+    }
+
+    /// As some senders add it: the exclusive or of all bytes before the *.
+    void take_checksum(std::size_t place) {
+        const double given = reader_.word_value(place);
+        if (!reader_.error() && given != line_.checksum()) {
+            reader_.fail(place, word_text(line_, place) + " is not the line's checksum, " +
+                                    std::to_string(line_.checksum()) + "; the line was damaged on its way");
         }
     }
 
-    void take_feed(const GcodeWord& word) {
-        if (!(word.value > 0)) { return fail(word, " is no feed; F is per minute and above 0"); }
-        block_.feed = word;
-    }
-
-    void take_axis(const GcodeWord& word) {
-        if (axis_letters_.find(word.letter) != std::string_view::npos) { return block_.axes.push_back(word); }
-        if (kUsualAxisLetters.find(word.letter) != std::string_view::npos) {
-            return fail(word, std::string(": this machine has no axis ") + word.letter + "; its axes are " +
-                                  spaced(axis_letters_));
-        }
-        fail(word, " is not a word known here; known are G M F P N and the axes " + spaced(axis_letters_));
-    }
-
-    const std::optional<GcodeWord>& seen(char letter) const { return seen_[static_cast<std::size_t>(letter - 'A')]; }
-
-    void check_together() {
-        const auto& immediate = groups_[Meaning(Immediate::Dwell).index()];
-        const auto& motion = groups_[Meaning(Motion::Rapid).index()];
-        check_dwell(immediate);
-        const bool takes_axes = block_.immediate == Immediate::Park || block_.immediate == Immediate::SetOffset;
-        if (takes_axes && motion) {
-            fail(*motion, " and " + immediate->text + " both use the block's axis words; use two lines");
-        }
-        if (block_.immediate == Immediate::SetOffset && block_.axes.empty()) {
-            fail(*immediate, " sets no axis; write the axes and what they now read, or G92.1 to clear");
-        }
-    }
-
-    void check_dwell(const std::optional<GcodeWord>& immediate) {
-        const auto& seconds = seen('P');
-        if (block_.immediate != Immediate::Dwell) {
-            if (seconds) { fail(*seconds, " belongs to G4 alone"); }
-            return;
-        }
-        if (!seconds) { return fail(*immediate, " does not say how long; write P and the seconds"); }
-        if (seconds->value < 0 || seconds->value > kMaxDwell_s) {
-            return fail(*seconds, " s is no dwell; it goes from 0 to " + number_text(kMaxDwell_s) + " s");
-        }
-        block_.dwell_seconds = seconds->value;
-    }
-
-    std::string_view axis_letters_;
-    int line_;
-    bool is_first_ = true;
-    GcodeBlock block_;
-    std::optional<GcodeError> error_;
-    std::array<std::optional<GcodeWord>, 26> seen_;
-    std::array<std::optional<GcodeWord>, std::variant_size_v<Meaning>> groups_;
+    Reader& reader_;
+    const Line& line_;
+    std::string_view axes_;
+    Block& block_;
+    int m_codes_ = 0;
 };
 
 }  // namespace
 
-std::expected<GcodeBlock, GcodeError> read_gcode_block(const std::vector<GcodeWord>& words,
-                                                       std::string_view axis_letters, int line) {
-    return BlockReader(axis_letters, line).read(words);
+void Block::clear() {
+    present_ = 0;
+    codes_.fill(kNoCode);
+    assignments.clear();
+    comment.reset();
+    distance.reset();
+    angle.reset();
 }
 
-}  // namespace lockstep
+bool Block::has_any(std::string_view letters) const {
+    return std::ranges::any_of(letters, [this](char letter) { return has(letter); });
+}
+
+void Block::set(char letter, double value, std::size_t place) {
+    present_ |= letter_bit(letter);
+    values_[index(letter)] = value;
+    places_[index(letter)] = static_cast<std::uint16_t>(place);
+}
+
+void Block::set(const Code& code, std::size_t place) {
+    constexpr int kCancel = 800;
+    const auto group = static_cast<std::size_t>(code.group);
+    if (code.tenths == kCancel && code.group == Group::Motion && codes_[group] != kNoCode) { return; }
+    codes_[group] = static_cast<std::int16_t>(code.tenths);
+    code_places_[group] = static_cast<std::uint16_t>(place);
+}
+
+std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, Block& block) {
+    return BlockReader(reader, line, axes, block).read();
+}
+
+std::string word_text(const Line& line, std::size_t place) {
+    const std::string_view text = line.text();
+    std::size_t end = place + 1;
+    int depth = 0;
+    while (end < text.size() && (depth > 0 || (!is_letter(text[end]) && text[end] != '('))) {
+        depth += text[end] == '[' ? 1 : 0;
+        depth -= text[end] == ']' ? 1 : 0;
+        ++end;
+    }
+    return std::string(text.substr(place, end - place));
+}
+
+}  // namespace lockstep::gcode

@@ -3,39 +3,76 @@
 // A block is what the line says; what it comes to depends on the lines before and is the interpreter's.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <variant>
 #include <vector>
 
-#include "core/gcode/words.hpp"
+#include "core/gcode/codes.hpp"
+#include "core/gcode/motion.hpp"
+#include "core/gcode/text/reader.hpp"
 
-namespace lockstep {
+namespace lockstep::gcode {
 
-namespace gcode {
+/// Numbers beyond this, either way, are refused: sums of them stay exact to far below a step.
+inline constexpr double kMaxNumber = 1e6;
+/// A block has so many M codes at most, as in LinuxCNC.
+inline constexpr int kMaxMCodes = 4;
 
-// The modal groups: at most one word of each in a block.
-enum class Motion : std::uint8_t { Rapid, Feed };                             // G0 G1
-enum class Immediate : std::uint8_t { Dwell, Park, SetOffset, ClearOffset };  // G4 G28 G92 G92.1: this block only
-enum class Units : std::uint8_t { Inches, Millimetres };                      // G20 G21
-enum class Distance : std::uint8_t { Absolute, Relative };                    // G90 G91
-enum class Stop : std::uint8_t { Pause, OptionalPause, End };                 // M0 M1 M2 M30
+constexpr std::uint32_t letter_bit(char letter) { return std::uint32_t{1} << (letter - 'A'); }
+inline constexpr std::uint32_t kAxisBits = [] {
+    std::uint32_t bits = 0;
+    for (const char letter : kAxisLetters) { bits |= letter_bit(letter); }
+    return bits;
+}();
 
-}  // namespace gcode
-
-struct GcodeBlock {
-    std::optional<gcode::Motion> motion;
-    std::optional<gcode::Immediate> immediate;
-    std::optional<gcode::Units> units;
-    std::optional<gcode::Distance> distance;
-    std::optional<gcode::Stop> stop;
-    std::optional<GcodeWord> feed;  // F, above 0
-    double dwell_seconds = 0;       // with Immediate::Dwell
-    std::vector<GcodeWord> axes;    // every letter is one of the machine's
+struct Assignment {
+    std::variant<int, std::string> parameter;
+    double value = 0;
 };
 
-/// `axis_letters` are the letters by which the machine's axes are called, capitals. The first thing wrong is the error.
-std::expected<GcodeBlock, GcodeError> read_gcode_block(const std::vector<GcodeWord>& words,
-                                                       std::string_view axis_letters, int line);
+class Block {
+public:
+    static constexpr int kNoCode = -1;
 
-}  // namespace lockstep
+    void clear();
+    bool has(char letter) const { return (present_ & letter_bit(letter)) != 0; }
+    double operator[](char letter) const { return values_[index(letter)]; }
+    std::optional<double> find(char letter) const {
+        return has(letter) ? std::optional((*this)[letter]) : std::nullopt;
+    }
+    std::size_t place(char letter) const { return places_[index(letter)]; }
+    /// The code's number times ten, or kNoCode.
+    int code(Group group) const { return codes_[static_cast<std::size_t>(group)]; }
+    bool has(Group group) const { return code(group) != kNoCode; }
+    std::size_t place(Group group) const { return code_places_[static_cast<std::size_t>(group)]; }
+    bool has_axes() const { return (present_ & kAxisBits) != 0; }
+    bool has_any(std::string_view letters) const;
+
+    void set(char letter, double value, std::size_t place);
+    void set(const Code& code, std::size_t place);
+
+    std::vector<Assignment> assignments;  // made when the whole block has been read
+    std::optional<std::size_t> comment;   // the last one's place: the only one that can say something
+    std::optional<double> distance;       // @, polar
+    std::optional<double> angle;          // ^, degrees
+
+private:
+    static constexpr std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+
+    std::uint32_t present_ = 0;
+    std::array<double, 26> values_{};
+    std::array<std::uint16_t, 26> places_{};
+    std::array<std::int16_t, kGroups> codes_{};
+    std::array<std::uint16_t, kGroups> code_places_{};
+};
+
+/// Reads the rest of the line into a cleared block. `axes` are the letters of the machine's axes.
+std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, Block& block);
+
+/// The word that begins at a place, as written, without blanks.
+std::string word_text(const Line& line, std::size_t place);
+
+}  // namespace lockstep::gcode

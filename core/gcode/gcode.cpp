@@ -1,76 +1,97 @@
 #include "core/gcode/gcode.hpp"
 
-#include "core/gcode/block.hpp"
 #include "core/gcode/interpreter.hpp"
-#include "core/gcode/words.hpp"
+#include "core/gcode/modal_state.hpp"
+#include "core/gcode/program_builder.hpp"
+#include "core/gcode/text_lines.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr int kNoEnd = 0;  // lines are numbered from 1
 
-/// Cuts the next line off the text, without its LF or CR LF.
-std::string_view take_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.ends_with('\r')) { line.remove_suffix(1); }
-    return line;
-}
-
+/// Takes a text's lines until one ends the program, or there are too many errors.
 class GcodeReader {
 public:
-    explicit GcodeReader(const GcodeSetup& setup) : setup_(setup), letters_(axis_letters(setup)), interpreter_(setup) {}
+    GcodeReader(const GcodeSetup& setup, gcode::Sink sink)
+        : interpreter_(gcode::interpreter_setup(setup), gcode::start_state(setup), std::move(sink)) {}
 
-    void read_lines(std::string_view text, int end) {
-        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-        if (text.starts_with(kByteOrderMark)) { text.remove_prefix(kByteOrderMark.size()); }
-        for (int number = 1; number != end && !text.empty() && !ended_; ++number) {
-            if (interpreter_.errors().size() >= kMaxGcodeErrors) { return; }
-            read_line(take_line(text), number);
-        }
+    template <typename AfterLine>
+    void read(std::string_view text, int end, AfterLine after_line) {
+        gcode::for_each_line(text, [&](std::string_view line, int number) {
+            if (number == end) { return false; }
+            if (auto done = interpreter_.take(line, number); !done) { report(done.error()); }
+            after_line(number);
+            return !interpreter_.ended() && errors_.size() < kMaxGcodeErrors;
+        });
+        if (errors_.size() >= kMaxGcodeErrors) { return; }
+        if (auto done = interpreter_.finish(); !done) { report(done.error()); }
     }
-    ModalState modal_state() const { return interpreter_.modal_state(); }
-    std::expected<Program, std::vector<GcodeError>> program() const {
-        if (!interpreter_.errors().empty()) { return std::unexpected(interpreter_.errors()); }
-        return interpreter_.program();
+
+    void report(const GcodeError& error) {
+        if (error.repeats && std::exchange(repeated_, true)) { return; }
+        errors_.push_back(error);
     }
+    const gcode::Interpreter& interpreter() const { return interpreter_; }
+    std::vector<GcodeError>& errors() { return errors_; }
 
 private:
-    void read_line(std::string_view text, int number) {
-        const auto line = split_gcode_line(text, number);
-        if (!line) { return interpreter_.report(line.error()); }
-        if (line->tape_mark) {
-            ended_ = begun_;
-            return;
-        }
-        if (line->words.empty() || (line->deletable && setup_.switches.skip_deletable)) { return; }
-        begun_ = true;
-        const auto block = read_gcode_block(line->words, letters_, number);
-        if (!block) { return interpreter_.report(block.error()); }
-        interpreter_.execute(*block, number);
-        ended_ = block->stop == gcode::Stop::End;
-    }
-
-    const GcodeSetup& setup_;
-    std::string letters_;
-    GcodeInterpreter interpreter_;
-    bool begun_ = false;  // a block has been read: the next % ends the program
-    bool ended_ = false;
+    gcode::Interpreter interpreter_;
+    std::vector<GcodeError> errors_;
+    bool repeated_ = false;
 };
+
+/// An F so small is a mistake in the units.
+std::optional<GcodeError> slow_feed(const gcode::Interpreter& interpreter) {
+    const gcode::Block& block = interpreter.block();
+    if (!block.has('F') || block['F'] <= 0 || block['F'] >= kMinFeedPerMinute) { return std::nullopt; }
+    if (interpreter.state().modal.feed_mode != gcode::FeedMode::PerMinute) { return std::nullopt; }
+    return interpreter.line().error(block.place('F'), gcode::word_text(interpreter.line(), block.place('F')) +
+                                                          " is too slow; F is per minute, from " +
+                                                          number_text(kMinFeedPerMinute));
+}
 
 }  // namespace
 
+std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup) {
+    gcode::ProgramBuilder builder(setup);
+    GcodeReader* reading = nullptr;
+    GcodeReader reader(setup, [&](const gcode::Action& action, int line) {
+        builder.take(action, line, reading->interpreter());
+        for (const GcodeError& error : builder.take_errors()) { reading->report(error); }
+    });
+    reading = &reader;
+    reader.read(text, kNoEnd, [&](int) {
+        if (auto wrong = slow_feed(reader.interpreter())) { reader.report(*wrong); }
+    });
+    if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
+    return std::move(builder).reading();
+}
+
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup) {
-    GcodeReader reader(setup);
-    reader.read_lines(text, kNoEnd);
-    return reader.program();
+    auto reading = read_gcode(text, setup);
+    if (!reading) { return std::unexpected(std::move(reading.error())); }
+    return std::move(reading->program);
+}
+
+std::expected<void, std::vector<GcodeError>> gcode_actions(std::string_view text, const GcodeSetup& setup,
+                                                           const TakeAction& take) {
+    GcodeReader reader(setup, take);
+    reader.read(text, kNoEnd, [](int) {});
+    if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
+    return {};
 }
 
 ModalState modal_state_at(std::string_view text, const GcodeSetup& setup, int line) {
-    GcodeReader reader(setup);
-    reader.read_lines(text, line);
-    return reader.modal_state();
+    GcodeReader reader(setup, [](const gcode::Action&, int) {});
+    reader.read(text, line, [](int) {});
+    const gcode::State& now = reader.interpreter().state();
+    ModalState state{.inches = now.modal.inches, .relative = now.modal.relative, .feed_mm_min = {}, .offset_mm = {}};
+    if (now.modal.feed_linear > 0) { state.feed_mm_min = now.modal.feed_linear; }
+    const gcode::Point zero = gcode::to_machine(now.offsets, {});
+    for (const auto& place : gcode::axis_places(setup)) { state.offset_mm.push_back(place ? zero[*place] : 0); }
+    return state;
 }
 
 }  // namespace lockstep

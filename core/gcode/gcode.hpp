@@ -1,15 +1,13 @@
 // A G-code text becomes a motion program: everything modal resolved, every target absolute in machine coordinates.
 //
-// Words: G0 G1 G4 G20 G21 G28 G90 G91 G92 G92.1 F P N M0 M1 M2 M30 and the machine's axes that a single letter names.
-// Meanings are RS274/NGC's (Kramer, Proctor, Messina: The NIST RS274/NGC Interpreter, version 3) as LinuxCNC has
-// them; where they leave a choice:
-// - At the start: G21, G90, no feed, no offset, and no motion mode: the first axis words need a G0 or a G1.
-// - F is per minute in the block's own units, along the path of the linear axes; where only rotary axes (A, B, C)
-//   move, along theirs, in degrees. What the machine calls mm is degrees for them, and G20 does not touch it.
-// - A motion word with no axis words selects the mode; a move to where the axes already stand is left out.
-// - G28 goes, rapidly, through the point its words name to the park position of these axes, or of all if it names
-//   none. It does not home.
-// - Text after M2, M30 or the second % is ignored; the end of the text ends the program too.
+// The language is RS-274/NGC as LinuxCNC has it; docs/gcode.md lists it, and tests/integration/oracle compares it with
+// LinuxCNC's own interpreter. What a machine adds:
+// - F below kMinFeedPerMinute is refused as a mistake in the units.
+// - A target outside travel is refused. A move to where the axes already stand is left out.
+// - Axes of longer names than a letter stay where they are.
+// - G28 and G30 go to the park position until G28.1 or G30.1 sets another; they do not home.
+// - Arcs and splines are cut into chords (chords.hpp), because the planner takes straight moves.
+// - Words for devices that the machine does not have are refused or ignored, as `unassigned` says.
 #pragma once
 
 #include <expected>
@@ -17,7 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/gcode/error.hpp"
+#include "core/gcode/motion.hpp"
+#include "core/gcode/setup.hpp"
+#include "core/gcode/text/error.hpp"
 #include "core/program.hpp"
 
 namespace lockstep {
@@ -43,13 +43,45 @@ struct GcodeSwitches {
     bool skip_deletable = true;  // block delete: lines that begin with / are not run
 };
 
+/// What happens to a word for a device that is not configured.
+enum class Unassigned : std::uint8_t { Refuse, Ignore };
+
+struct GcodeDevices {
+    Unassigned spindle = Unassigned::Refuse;  // S M3 M4 M5
+    Unassigned coolant = Unassigned::Ignore;  // M7 M8 M9
+    Unassigned outputs = Unassigned::Refuse;  // M62 to M68
+    bool pause_at_tool_change = true;         // M6: a person changes the tool
+};
+
 struct GcodeSetup {
     std::string program_name;
     std::vector<GcodeAxis> axes;
     GcodeSwitches switches;
+    GcodeDevices devices;
+    double chord_tolerance_mm = 0.001;  // of arcs and splines
+    gcode::Limits limits;
+    std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
+};
+
+/// A word that was passed over, or a message of the program.
+struct GcodeNote {
+    int line = 0;
+    std::string text;
+};
+
+struct GcodeReading {
+    Program program;
+    std::vector<GcodeNote> notes;  // each word's kind once, with its first line; messages all
 };
 
 /// The same text and setup give the same program, bit for bit. Errors are in the order of lines.
+std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup);
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup);
+
+/// One motion of a program, before arcs and splines are cut.
+using TakeAction = std::function<void(const gcode::Action& action, int line)>;
+/// Hands out the program's actions, without looking at travel or devices.
+std::expected<void, std::vector<GcodeError>> gcode_actions(std::string_view text, const GcodeSetup& setup,
+                                                           const TakeAction& take);
 
 }  // namespace lockstep

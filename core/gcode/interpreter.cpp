@@ -1,183 +1,144 @@
 #include "core/gcode/interpreter.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "core/axis_unit.hpp"
-#include "core/number_text.hpp"
+#include "core/gcode/run/steps.hpp"
 
-namespace lockstep {
-namespace {
+namespace lockstep::gcode {
 
-constexpr double kMillimetresPerInch = 25.4;
-constexpr double kSecondsPerMinute = 60;
-constexpr std::string_view kWordLetters = "GMFPN";
-
-/// ' ' for an axis that no letter calls.
-char letter_of(const GcodeAxis& axis) {
-    if (axis.name.size() != 1) { return ' '; }
-    const char c = axis.name[0];
-    const char letter = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    return kWordLetters.find(letter) == std::string_view::npos ? letter : ' ';
+Interpreter::Interpreter(Setup setup, State state, Sink sink)
+    : setup_(std::move(setup)),
+      state_(std::move(state)),
+      sink_(std::move(sink)),
+      parameters_(state_.parameters, *this) {
+    begin(state_);
 }
 
-}  // namespace
+std::unexpected<GcodeError> Interpreter::error(std::size_t place, std::string message) const {
+    return std::unexpected(line_.error(place, std::move(message)));
+}
 
-std::string axis_letters(const GcodeSetup& setup) {
-    std::string letters;
-    for (const GcodeAxis& axis : setup.axes) {
-        if (letter_of(axis) != ' ') { letters += letter_of(axis); }
+Result Interpreter::take(std::string_view text, int number) {
+    if (ended_) { return {}; }
+    block_.clear();
+    if (auto wrong = line_.read(text, number)) { return std::unexpected(*std::move(wrong)); }
+    if (line_.text().empty()) { return {}; }
+    return take_line(text);
+}
+
+Result Interpreter::take_line(std::string_view text) {
+    if (line_.at(0) == '%') { return take_percent(); }
+    Reader reader(line_, parameters_);
+    const bool is_done = skip_head(reader);
+    if (reader.error()) { return std::unexpected(*reader.error()); }
+    if (reader.peek() == 'O' && is_done) {
+        begun_ = true;
+        const OWord word = read_o_word(reader);
+        if (reader.error()) { return std::unexpected(*reader.error()); }
+        if (recorder_.active()) { return keep(word, text); }
+        return do_o_word(reader, word);
     }
-    return letters;
+    if (recorder_.active()) { return keep({}, text); }
+    return is_done ? do_plain(reader) : Result{};
 }
 
-GcodeInterpreter::GcodeInterpreter(const GcodeSetup& setup) : setup_(setup), offset_(setup.axes.size()) {
-    program_.name = setup.program_name;
-    for (const GcodeAxis& axis : setup.axes) {
-        program_.axes.push_back(axis.name);
-        program_.start_mm.push_back(axis.start_mm);
+/// A % before the program opens it, the next one ends it.
+Result Interpreter::take_percent() {
+    for (std::size_t at = 1; at < line_.text().size(); at = line_.end_of_comment(at)) {
+        if (line_.at(at) != '(') { return error(at, "a % stands alone on its line"); }
     }
-    position_ = program_.start_mm;
+    if (begun_) { return finish(); }
+    begun_ = true;
+    return {};
 }
 
-void GcodeInterpreter::execute(const GcodeBlock& block, int line) {
-    units_ = block.units.value_or(units_);
-    distance_ = block.distance.value_or(distance_);
-    if (block.feed) { set_feed(*block.feed, line); }
-    if (block.motion) { motion_ = block.motion; }
-    immediate(block, line);
-    const bool axes_are_taken =
-        block.immediate == gcode::Immediate::Park || block.immediate == gcode::Immediate::SetOffset;
-    if (!block.axes.empty() && !axes_are_taken) { motion(block, line); }
-    if (block.stop) { stop(*block.stop, line); }
-}
-
-ModalState GcodeInterpreter::modal_state() const {
-    ModalState state{.inches = units_ == gcode::Units::Inches,
-                     .relative = distance_ == gcode::Distance::Relative,
-                     .feed_mm_min = {},
-                     .offset_mm = offset_};
-    if (feed_) { state.feed_mm_min = feed_->linear_mm_s * kSecondsPerMinute; }
-    return state;
-}
-
-void GcodeInterpreter::set_feed(const GcodeWord& word, int line) {
-    const double scale = units_ == gcode::Units::Inches ? kMillimetresPerInch : 1;
-    if (word.value < kMinFeedPerMinute) {
-        report(
-            {line, word.column, word.text + " is too slow; F is per minute, from " + number_text(kMinFeedPerMinute)});
+/// Comments before a /, block delete, line number. False: the line is not to be run.
+bool Interpreter::skip_head(const Line& line, Reader& reader) const {
+    std::size_t place = 0;
+    while (line.at(place) == '(') { place = line.end_of_comment(place); }
+    if (line.at(place) == '/') { reader.go_to(place); }
+    const bool is_deletable = reader.take('/');
+    const std::size_t begin = reader.place();
+    if (reader.take('N')) {
+        if (!is_of_number(reader.peek())) {
+            reader.fail(begin, word_text(line, begin) + " is not a line number; it is a number from 0");
+            return true;
+        }
+        (void)reader.word_value(begin);
     }
-    feed_ = Feed{.linear_mm_s = word.value * scale / kSecondsPerMinute, .rotary_deg_s = word.value / kSecondsPerMinute};
+    return !(is_deletable && setup_.skip_deletable);
 }
 
-void GcodeInterpreter::immediate(const GcodeBlock& block, int line) {
-    if (!block.immediate) { return; }
-    switch (*block.immediate) {
-        case gcode::Immediate::Dwell: return append(line, Dwell{block.dwell_seconds});
-        case gcode::Immediate::Park: return park(block, line);
-        case gcode::Immediate::SetOffset: return set_offsets(block);
-        case gcode::Immediate::ClearOffset: offset_.assign(offset_.size(), 0); return;
+Context Interpreter::context() {
+    KeptModes* kept = &kept_;
+    for (Frame& frame : frames_) { kept = frame.is_call ? &frame.kept : kept; }
+    return {setup_, state_, parameters_, sink_, line_, block_, *kept};
+}
+
+Result Interpreter::do_plain(Reader& reader) {
+    block_.clear();
+    if (auto wrong = read_block(reader, line_, setup_.axes, block_)) { return std::unexpected(*std::move(wrong)); }
+    if (!block_.assignments.empty()) {
+        if (auto assigned = assign(); !assigned) { return assigned; }
     }
+    Context here = context();
+    auto done = run_block(here);
+    const bool is_comment = line_.at(0) == '(' && line_.end_of_comment(0) == line_.text().size();
+    begun_ = begun_ || !is_comment;
+    ended_ = ended_ || here.ended;
+    return done;
 }
 
-void GcodeInterpreter::park(const GcodeBlock& block, int line) {
-    move_to(target_of(block, line), true, line);
-    Point target = position_;
-    for (std::size_t axis = 0; axis < target.size(); ++axis) {
-        const bool named = std::ranges::any_of(block.axes, [&](const GcodeWord& w) { return axis_of(w) == axis; });
-        if (named || block.axes.empty()) { target[axis] = setup_.axes[axis].park_mm; }
+Result Interpreter::assign() {
+    for (const Assignment& assignment : block_.assignments) {
+        const bool is_read_only = std::visit([&](const auto& parameter) { return parameters_.is_read_only(parameter); },
+                                             assignment.parameter);
+        if (is_read_only) { return error(line_.text().find('#'), "the parameter can be read, but not written"); }
+        std::visit([&](const auto& parameter) { parameters_.set(parameter, assignment.value); }, assignment.parameter);
     }
-    move_to(target, true, line);
+    return {};
 }
 
-void GcodeInterpreter::set_offsets(const GcodeBlock& block) {
-    for (const GcodeWord& word : block.axes) {
-        const std::size_t axis = axis_of(word);
-        offset_[axis] = position_[axis] - to_mm(word);
+Result Interpreter::keep(const OWord& word, std::string_view text) {
+    if (++kept_lines_ > setup_.limits.kept_lines) {
+        recorder_.clear();
+        return error(0, "loops and subroutines have more than " + std::to_string(setup_.limits.kept_lines) +
+                            " lines, the limit kept_lines");
     }
+    if (auto wrong = recorder_.take(line_, word, text)) { return std::unexpected(*std::move(wrong)); }
+    return recorder_.active() ? Result{} : close_body();
 }
 
-void GcodeInterpreter::motion(const GcodeBlock& block, int line) {
-    if (!motion_) {
-        const GcodeWord& word = block.axes.front();
-        return report(
-            {line, word.column, word.text + " but no motion mode; write G0 or G1 before the first axis word"});
+Result Interpreter::do_o_word(Reader& reader, const OWord& word) {
+    if (word.keyword == Keyword::Call) {
+        if (auto called = call(reader, word); !called) { return called; }
+        return do_frames();
     }
-    const bool rapid = *motion_ == gcode::Motion::Rapid;
-    if (!rapid && !feed_ && !missing_feed_reported_) {
-        missing_feed_reported_ = true;
-        report({line, block.axes.front().column, "G1 without a feed; write F, per minute, here or before"});
+    return keep(word, line_.raw());
+}
+
+/// A subroutine waits for its call; anything else is done at once.
+Result Interpreter::close_body() {
+    const bool is_subroutine = recorder_.is_subroutine();
+    Body body = recorder_.take_body();
+    if (is_subroutine) {
+        subroutines_.insert_or_assign(body.label, std::move(body));
+        return {};
     }
-    move_to(target_of(block, line), rapid, line);
+    const std::size_t lines = body.lines.size();
+    frames_.push_back({.body = &body, .kept = {}, .repeats = {}});
+    auto done = do_frames();
+    kept_lines_ -= lines;
+    return done;
 }
 
-void GcodeInterpreter::stop(gcode::Stop stop, int line) {
-    const bool pauses =
-        stop == gcode::Stop::Pause || (stop == gcode::Stop::OptionalPause && setup_.switches.pause_at_m1);
-    if (pauses) { append(line, Pause{}); }
-}
-
-std::size_t GcodeInterpreter::axis_of(const GcodeWord& word) const {
-    const auto found = std::ranges::find(setup_.axes, word.letter, letter_of);
-    return static_cast<std::size_t>(found - setup_.axes.begin());
-}
-
-bool GcodeInterpreter::is_rotary(std::size_t axis) const { return lockstep::is_rotary(setup_.axes[axis].name); }
-
-double GcodeInterpreter::to_mm(const GcodeWord& word) const {
-    const bool inches = units_ == gcode::Units::Inches && !is_rotary(axis_of(word));
-    return inches ? word.value * kMillimetresPerInch : word.value;
-}
-
-GcodeInterpreter::Point GcodeInterpreter::target_of(const GcodeBlock& block, int line) {
-    Point target = position_;
-    for (const GcodeWord& word : block.axes) {
-        const std::size_t axis = axis_of(word);
-        const double from = distance_ == gcode::Distance::Relative ? position_[axis] : offset_[axis];
-        target[axis] = within_travel(word, from + to_mm(word), line);
+Result Interpreter::finish() {
+    ended_ = true;
+    if (auto wrong = recorder_.unclosed()) {
+        recorder_.clear();
+        return std::unexpected(*std::move(wrong));
     }
-    return target;
+    return {};
 }
 
-/// What lies outside is reported and returned as it is: the lines after are then judged by what they mean.
-double GcodeInterpreter::within_travel(const GcodeWord& word, double mm, int line) {
-    const GcodeAxis& axis = setup_.axes[axis_of(word)];
-    const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);
-    if (std::abs(mm - nearest) <= kTravelTolerance_mm) { return nearest; }
-    const std::string unit(unit_of(axis.name));
-    report({line, word.column,
-            word.text + " takes " + axis.name + " to " + number_text(mm) + " " + unit + ", outside its travel of " +
-                number_text(axis.min_mm) + " to " + number_text(axis.max_mm) + " " + unit +
-                " (machine coordinates); change the program, or the axis's " +
-                (mm < nearest ? "position_min_mm" : "position_max_mm")});
-    return mm;
-}
-
-/// A program's feed is along the path of all axes; this is the one that makes the linear ones go at F.
-double GcodeInterpreter::feed_along_path(const Point& target) const {
-    double linear = 0;
-    double rotary = 0;
-    for (std::size_t axis = 0; axis < target.size(); ++axis) {
-        double& length = is_rotary(axis) ? rotary : linear;
-        length = std::hypot(length, target[axis] - position_[axis]);
-    }
-    const Feed feed = feed_.value_or(Feed{});
-    if (linear <= kTravelTolerance_mm) { return feed.rotary_deg_s; }
-    return std::min(feed.linear_mm_s * (std::hypot(linear, rotary) / linear), kMaxFeed_mm_s);
-}
-
-void GcodeInterpreter::move_to(const Point& target, bool rapid, int line) {
-    if (target == position_) { return; }
-    append(line, LinearMove{.target_mm = target, .feed_mm_s = rapid ? 0 : feed_along_path(target), .rapid = rapid});
-    position_ = target;
-}
-
-void GcodeInterpreter::append(int line, decltype(Block::action) action) {
-    if (program_.blocks.size() < kMaxProgramBlocks) {
-        program_.blocks.push_back({.line = line, .action = std::move(action)});
-        return;
-    }
-    report({line, 1, "the program has more than " + std::to_string(kMaxProgramBlocks) + " blocks; cut it in two"});
-}
-
-}  // namespace lockstep
+}  // namespace lockstep::gcode

@@ -1,65 +1,102 @@
-// The modal state of a G-code program: takes blocks one by one and appends what they come to.
+// The interpreter of G-code: takes the lines of a program one by one and hands out what they do.
+//
+// The same lines, setup and state give the same actions and the same state. Loops and subroutines are kept until their
+// end has been read; all else is done at once, so a program may be as long as it likes.
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/gcode/block.hpp"
-#include "core/gcode/gcode.hpp"
-#include "core/gcode/modal_state.hpp"
+#include "core/gcode/flow/body.hpp"
+#include "core/gcode/run/context.hpp"
+#include "core/gcode/setup.hpp"
+#include "core/gcode/state.hpp"
 
-namespace lockstep {
+namespace lockstep::gcode {
 
-/// The capital letters that call the axes; axes of longer names have none and rest, but for a G28 of all.
-std::string axis_letters(const GcodeSetup& setup);
-
-class GcodeInterpreter {
+class Interpreter : private SystemValues {
 public:
-    explicit GcodeInterpreter(const GcodeSetup& setup);
+    Interpreter(Setup setup, State state, Sink sink);
+    Interpreter(const Interpreter&) = delete;
+    Interpreter& operator=(const Interpreter&) = delete;
 
-    /// In RS274's order: feed and units, dwell, distance mode, G28 or G92, motion, stop.
-    void execute(const GcodeBlock& block, int line);
-    void report(GcodeError error) { errors_.push_back(std::move(error)); }
+    /// A line of the text, without its end. Error: the first thing wrong with it; what it did before that stays done.
+    Result take(std::string_view text, int number);
+    /// The end of the text. Error: a loop or a subroutine is not closed.
+    Result finish();
+    /// M2, M30 or the second %: lines behind it are ignored.
+    bool ended() const { return ended_; }
 
-    ModalState modal_state() const;
-    const Program& program() const { return program_; }
-    const std::vector<GcodeError>& errors() const { return errors_; }
+    const State& state() const { return state_; }
+    /// Of the last line that was done, for messages about it.
+    const Line& line() const { return line_; }
+    const Block& block() const { return block_; }
 
 private:
-    using Point = std::vector<double>;  // mm, machine coordinates, one per axis
-
-    struct Feed {
-        double linear_mm_s = 0;
-        double rotary_deg_s = 0;
+    struct Frame {
+        const Body* body = nullptr;
+        std::size_t next = 0;
+        bool is_call = false;
+        KeptModes kept;
+        std::map<std::size_t, double> repeats;  // left, by the loop's first line
     };
 
-    void set_feed(const GcodeWord& word, int line);
-    void immediate(const GcodeBlock& block, int line);
-    void park(const GcodeBlock& block, int line);
-    void set_offsets(const GcodeBlock& block);
-    void motion(const GcodeBlock& block, int line);
-    void stop(gcode::Stop stop, int line);
+    std::optional<double> numbered(int number) const override;
+    std::optional<double> named(std::string_view name) const override;
+    std::optional<double> numbered_tool(int number) const;
 
-    std::size_t axis_of(const GcodeWord& word) const;
-    bool is_rotary(std::size_t axis) const;
-    double to_mm(const GcodeWord& word) const;
-    Point target_of(const GcodeBlock& block, int line);
-    double within_travel(const GcodeWord& word, double mm, int line);
-    double feed_along_path(const Point& target) const;
-    void move_to(const Point& target, bool rapid, int line);
-    void append(int line, decltype(Block::action) action);
+    Result take_line(std::string_view text);
+    Result take_percent();
+    bool skip_head(Reader& reader) const { return skip_head(line_, reader); }
+    bool skip_head(const Line& line, Reader& reader) const;
+    Result do_plain(Reader& reader);
+    Result assign();
+    Context context();
+    Result keep(const OWord& word, std::string_view text);
+    Result do_o_word(Reader& reader, const OWord& word);
+    Result close_body();
 
-    const GcodeSetup& setup_;
-    Program program_;
-    std::vector<GcodeError> errors_;
-    Point position_;
-    Point offset_;  // machine coordinate where the program's axis reads 0
-    std::optional<gcode::Motion> motion_;
-    gcode::Units units_ = gcode::Units::Millimetres;
-    gcode::Distance distance_ = gcode::Distance::Absolute;
-    std::optional<Feed> feed_;
-    bool missing_feed_reported_ = false;  // once says it all
+    // Kept lines: loops.cpp
+    Result do_frames();
+    Result do_kept(Frame& frame, const KeptLine& line);
+    Result do_flow(Frame& frame, std::size_t at, Reader& reader);
+    Result choose_branch(Frame& frame);
+    Result go_round(Frame& frame, std::size_t at, Reader& reader);
+    Result count_lines();
+
+    // Subroutines: calls.cpp
+    Result call(Reader& reader, const OWord& word);
+    Result leave(Frame& frame, Reader& reader);
+    Result load(const OWord& word);
+    std::optional<GcodeError> keep_line_of_file(Recorder& recorder, Line& line, std::string_view text, int number,
+                                                const std::string& file);
+    void end_call();
+    void unwind();
+    std::unexpected<GcodeError> error(std::size_t place, std::string message) const;
+    Result rest_is_empty(Reader& reader) const;
+
+    Setup setup_;
+    State state_;
+    Sink sink_;
+    Parameters parameters_;
+    Line line_;
+    Block block_;
+    KeptModes kept_;  // of the program itself
+    Recorder recorder_;
+    std::map<std::string, Body, std::less<>> subroutines_;
+    std::vector<Frame> frames_;
+    int calls_ = 0;
+    std::int64_t repeated_lines_ = 0;
+    std::size_t kept_lines_ = 0;
+    double returned_ = 0;
+    bool has_returned_ = false;
+    bool begun_ = false;
+    bool ended_ = false;
 };
 
-}  // namespace lockstep
+}  // namespace lockstep::gcode

@@ -13,7 +13,7 @@ struct ModalState {
     bool inches = false;                // G20
     bool relative = false;              // G91
     std::optional<double> feed_mm_min;  // none: no F yet
-    std::vector<double> offset_mm;      // of G92: where each axis's own 0 is, machine coordinates
+    std::vector<double> offset_mm;      // where each axis's own 0 is, machine coordinates
 };
 
 /// As the text leaves it at the end of the line before `line`. Lines that are wrong are passed over.

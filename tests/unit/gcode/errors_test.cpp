@@ -37,7 +37,7 @@ TEST_P(GcodeRefused, WithPlaceValueAndRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Characters, GcodeRefused,
     testing::Values(Refusal{"G0 X1\nG0 X\xc3\xa9", 2, 5, "0xC3"}, Refusal{std::string("G0\0X1", 5), 1, 3, "0x00"},
-                    Refusal{"G0 X1\n\xef\xbb\xbfG0 X1", 2, 1, "0xEF"}, Refusal{"G0 X1\rG0 X2", 1, 6, "0x0D"},
+                    Refusal{"G0 X1\n\xef\xbb\xbfG0 X1", 2, 1, "0xEF"},
                     Refusal{"G0 X1\nG0 X2 ; a\x1b[31m", 2, 10, "0x1B is a control byte"},
                     Refusal{"G0 (across X1", 1, 4, "not closed"}, Refusal{"G0 (a (b) ) X1", 1, 7, "inside a comment"},
                     Refusal{"G0 X1 )", 1, 7, "')'"}, Refusal{"G0 X1 / Y1", 1, 7, "'/'"}, Refusal{"% G0", 1, 3, "alone"},
@@ -45,23 +45,19 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(Numbers, GcodeRefused,
                          testing::Values(Refusal{"G0 X", 1, 4, "no number"}, Refusal{"G0 X Y1", 1, 4, "no number"},
-                                         Refusal{"G0 X1.2.3", 1, 4, "'1.2.3'"}, Refusal{"G0 X--1", 1, 4, "'--1'"},
-                                         Refusal{"G0 X+-1", 1, 4, "'+-1'"}, Refusal{"G0 X.", 1, 4, "'.'"},
-                                         Refusal{"G0 X1-", 1, 4, "'1-'"}, Refusal{"G0 X1(c)0", 1, 9, "'0'"},
-                                         Refusal{"G0 X#1", 1, 4, "no number"}, Refusal{"G0 X1e2", 1, 6, "E2"},
-                                         Refusal{"G0 X2000000", 1, 4, "1000000"},
+                                         Refusal{"G0 X1.2.3", 1, 4, "'1.2.3'"}, Refusal{"G0 X.", 1, 4, "'.'"},
+                                         Refusal{"G0 X1-", 1, 6, "'-'"}, Refusal{"G0 X1(c)0", 1, 9, "'0'"},
+                                         Refusal{"G0 X1e2", 1, 6, "E2"}, Refusal{"G0 X2000000", 1, 4, "1000000"},
                                          Refusal{"G0 X1" + std::string(240, '0'), 1, 4, "out of range"}));
 
 INSTANTIATE_TEST_SUITE_P(Words, GcodeRefused,
-                         testing::Values(Refusal{"G2 X1 Y1", 1, 1, "G2 is not a code known here"},
-                                         Refusal{"G0 X1\nM3", 2, 1, "M3"}, Refusal{"G1.05 X1 F1", 1, 1, "G1.05"},
-                                         Refusal{"G-1", 1, 1, "G-1"},
-                                         Refusal{"S1000", 1, 1, "S1000 is not a word known here"},
+                         testing::Values(Refusal{"G6 X1 Y1", 1, 1, "G6 is not a code known here"},
+                                         Refusal{"G0 X1\nM150", 2, 1, "M150"}, Refusal{"G1.05 X1 F1", 1, 1, "G1.05"},
+                                         Refusal{"G-1", 1, 1, "G-1"}, Refusal{"$1000", 1, 1, "'$'"},
                                          Refusal{"G0 X1 A5", 1, 7, "no axis A; its axes are X Y Z"},
                                          Refusal{"G0 X1 X2", 1, 7, "X2 repeats X1"}, Refusal{"F1 F1", 1, 4, "repeats"},
                                          Refusal{"G0 N5 X1", 1, 4, "first"},
-                                         Refusal{"N1.5 G0 X1", 1, 1, "whole number"},
-                                         Refusal{"N-1 G0 X1", 1, 1, "whole number"}));
+                                         Refusal{"N-1 G0 X1", 1, 1, "number from 0"}));
 
 INSTANTIATE_TEST_SUITE_P(Groups, GcodeRefused,
                          testing::Values(Refusal{"G0 G1 X1 F5", 1, 4, "G1 after G0"},
@@ -71,12 +67,13 @@ INSTANTIATE_TEST_SUITE_P(Groups, GcodeRefused,
                                          Refusal{"G1 G92 X1", 1, 1, "both use"}));
 
 INSTANTIATE_TEST_SUITE_P(Values, GcodeRefused,
-                         testing::Values(Refusal{"G1 X1", 1, 4, "F, per minute"},
-                                         Refusal{"G1 X1\nX2\nX3", 1, 4, "F, per minute"},
+                         testing::Values(Refusal{"G1 X1", 1, 1, "F, per minute"},
+                                         Refusal{"G1 X1\nX2\nX3", 1, 1, "F, per minute"},
                                          Refusal{"G1 X1 F0", 1, 7, "above 0"}, Refusal{"G1 X1 F-5", 1, 7, "F-5"},
                                          Refusal{"G1 X1 F.001", 1, 7, "too slow"}, Refusal{"X1", 1, 1, "G0 or G1"},
                                          Refusal{"G4", 1, 1, "write P"}, Refusal{"G4 P-1", 1, 4, "0 to 86400 s"},
-                                         Refusal{"G4 P90000", 1, 4, "86400"}, Refusal{"G0 P1", 1, 4, "G4 alone"},
+                                         Refusal{"G4 P90000", 1, 4, "86400"},
+                                         Refusal{"G0 P1", 1, 4, "belongs to no code"},
                                          Refusal{"G92", 1, 1, "sets no axis"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -104,7 +101,7 @@ TEST(GcodeErrors, AByteOrderMarkAtTheStartIsNone) {
     EXPECT_EQ(wrong[0].column, 1) << "as an editor counts";
 }
 
-TEST(GcodeErrors, ReportsTheRestAfterAnEndInAWrongBlock) { EXPECT_EQ(errors("G7 M2\nG8\n").size(), 2U); }
+TEST(GcodeErrors, ReportsTheRestAfterAnEndInAWrongBlock) { EXPECT_EQ(errors("G7 M2\nG7\n").size(), 2U); }
 
 }  // namespace
 }  // namespace lockstep

@@ -158,7 +158,7 @@ TEST(Gcode, AxesOfLongerNamesRestWhereTheyAre) {
     setup.axes[2].name = "left";
     setup.axes[2].start_mm = 20;
     EXPECT_THAT(last_target("G0 X1\n", setup), ElementsAre(1, 0, 20));
-    EXPECT_THAT(last_target("G28\n", setup), ElementsAre(5, 5, 5));
+    EXPECT_THAT(last_target("G28\n", setup), ElementsAre(5, 5, 20));
 }
 
 }  // namespace

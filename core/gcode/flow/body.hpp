@@ -1,0 +1,68 @@
+// The lines of a loop, a branch or a subroutine, kept until its end has been read.
+#pragma once
+
+#include <cstddef>
+#include <expected>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/gcode/flow/o_word.hpp"
+
+namespace lockstep::gcode {
+
+struct KeptLine {
+    int number = 0;  // in its text
+    std::string text;
+    Keyword keyword = Keyword::None;
+    // Lines of the body, by index:
+    std::size_t begin = 0;   // of a loop, at its end and at break and continue
+    std::size_t branch = 0;  // the next elseif, else or endif, at if and elseif
+    std::size_t end = 0;     // the last line of the loop, the branches or the subroutine
+};
+
+struct Body {
+    std::string label;
+    std::string file;  // of the subroutine, where it has one of its own
+    std::vector<KeptLine> lines;
+};
+
+/// Keeps lines from an opening O-word to the one that closes it.
+class Recorder {
+public:
+    bool active() const { return !open_.empty(); }
+    /// The first line of a body, or one within it. Error: the O-word does not fit what is open.
+    std::optional<GcodeError> take(const Line& line, const OWord& word, std::string_view text);
+    /// The finished body; the recorder is then empty.
+    Body take_body() { return std::exchange(body_, {}); }
+    bool is_subroutine() const { return !body_.lines.empty() && body_.lines.front().keyword == Keyword::Sub; }
+    std::size_t lines() const { return body_.lines.size(); }
+    /// What is open at the text's end.
+    std::optional<GcodeError> unclosed() const;
+    void clear();
+
+private:
+    struct Open {
+        Keyword keyword;
+        std::string label;
+        std::size_t line;
+        std::vector<std::size_t> branches;  // lines that wait for the next branch
+        std::vector<std::size_t> exits;     // lines that wait for the end
+        bool has_else = false;
+    };
+
+    std::optional<std::string> open(const OWord& word, int number);
+    std::optional<std::string> branch(const OWord& word);
+    std::optional<std::string> close(const OWord& word);
+    std::optional<std::string> leave(const OWord& word);
+    std::optional<std::string> place(const OWord& word, int number);
+    std::string not_open(const OWord& word) const;
+
+    Body body_;
+    std::vector<Open> open_;
+    std::set<std::pair<std::string, std::string>> labels_;  // by subroutine: each opens one thing
+};
+
+}  // namespace lockstep::gcode

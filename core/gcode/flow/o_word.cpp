@@ -1,0 +1,70 @@
+#include "core/gcode/flow/o_word.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "core/gcode/text/functions.hpp"
+#include "core/number_text.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+/// A keyword that another begins with comes behind it.
+constexpr std::array kKeywords{
+    Named{"SUB", Keyword::Sub},
+    Named{"ENDSUB", Keyword::EndSub},
+    Named{"CALL", Keyword::Call},
+    Named{"RETURN", Keyword::Return},
+    Named{"IF", Keyword::If},
+    Named{"ELSEIF", Keyword::ElseIf},
+    Named{"ELSE", Keyword::Else},
+    Named{"ENDIF", Keyword::EndIf},
+    Named{"WHILE", Keyword::While},
+    Named{"ENDWHILE", Keyword::EndWhile},
+    Named{"DO", Keyword::Do},
+    Named{"REPEAT", Keyword::Repeat},
+    Named{"ENDREPEAT", Keyword::EndRepeat},
+    Named{"BREAK", Keyword::Break},
+    Named{"CONTINUE", Keyword::Continue},
+};
+
+std::string read_label(Reader& reader) {
+    if (reader.peek() == '<') { return reader.name(); }
+    const std::size_t begin = reader.place();
+    const double number = reader.value();
+    if (reader.error()) { return {}; }
+    const double whole = std::round(number);
+    if (std::abs(number - whole) > 1e-4 || whole < 0 || whole > 1e9) {
+        reader.fail(begin, "O" + number_text(number) + " is not a label; write a whole number from 0, or <name>");
+        return {};
+    }
+    return std::to_string(static_cast<long long>(whole));
+}
+
+}  // namespace
+
+std::string_view name_of(Keyword keyword) {
+    for (const auto& entry : kKeywords) {
+        if (entry.meaning == keyword) { return entry.name; }
+    }
+    return "";
+}
+
+OWord read_o_word(Reader& reader) {
+    OWord word{.label = {}, .place = reader.place()};
+    reader.next();
+    word.label = read_label(reader);
+    if (reader.error()) { return word; }
+    for (const auto& entry : kKeywords) {
+        if (reader.take(entry.name)) {
+            word.keyword = entry.meaning;
+            return word;
+        }
+    }
+    reader.fail(reader.place(),
+                "an O-word without its keyword; write sub, call, return, if, while, do, repeat, break, "
+                "continue, or what ends one of them");
+    return word;
+}
+
+}  // namespace lockstep::gcode

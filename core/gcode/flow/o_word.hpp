@@ -1,0 +1,42 @@
+// The line of an O-word: a keyword with a label, o100 if [..] or o<name> call [..].
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/gcode/text/reader.hpp"
+
+namespace lockstep::gcode {
+
+enum class Keyword : std::uint8_t {
+    None,
+    Sub,
+    EndSub,
+    Call,
+    Return,
+    If,
+    ElseIf,
+    Else,
+    EndIf,
+    While,
+    EndWhile,
+    Do,
+    Repeat,
+    EndRepeat,
+    Break,
+    Continue,
+};
+
+std::string_view name_of(Keyword keyword);
+
+struct OWord {
+    Keyword keyword = Keyword::None;
+    std::string label;      // of digits, or a name in small letters
+    std::size_t place = 0;  // of the O, in the line
+};
+
+/// Reads from the O to behind the keyword. What follows, arguments or a condition, stays to be read.
+OWord read_o_word(Reader& reader);
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,117 @@
+// Interpreter: kept lines, run by what their O-words say.
+#include <cmath>
+
+#include "core/gcode/interpreter.hpp"
+
+namespace lockstep::gcode {
+
+Result Interpreter::do_frames() {
+    while (!frames_.empty() && !ended_) {
+        Frame& frame = frames_.back();
+        if (frame.next >= frame.body->lines.size()) {
+            end_call();
+            continue;
+        }
+        const Body& body = *frame.body;
+        const KeptLine& line = body.lines[frame.next];
+        auto done = do_kept(frame, line);
+        if (!done) {
+            if (!body.file.empty()) { done.error().message += " (in " + body.file + ")"; }
+            unwind();
+            return done;
+        }
+    }
+    unwind();
+    return {};
+}
+
+Result Interpreter::count_lines() {
+    if (++repeated_lines_ <= setup_.limits.repeated_lines) { return {}; }
+    return error(0, "loops and subroutines ran more than " + std::to_string(setup_.limits.repeated_lines) +
+                        " lines, the limit repeated_lines; a loop may never end");
+}
+
+Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {
+    if (auto wrong = line_.read(kept.text, kept.number)) { return std::unexpected(*std::move(wrong)); }
+    if (auto counted = count_lines(); !counted) { return counted; }
+    const std::size_t at = frame.next++;
+    Reader reader(line_, parameters_);
+    if (!skip_head(reader) || reader.done()) { return {}; }
+    if (kept.keyword == Keyword::None) { return do_plain(reader); }
+    const OWord word = read_o_word(reader);
+    if (reader.error()) { return std::unexpected(*reader.error()); }
+    if (kept.keyword == Keyword::Call) { return call(reader, word); }
+    return do_flow(frame, at, reader);
+}
+
+Result Interpreter::rest_is_empty(Reader& reader) const {
+    while (reader.peek() == '(' && !reader.done()) { reader.skip_comment(); }
+    if (!reader.done() && !reader.error()) { reader.fail(reader.place(), "nothing may follow here; use another line"); }
+    return reader.error() ? Result(std::unexpected(*reader.error())) : Result{};
+}
+
+/// Frame::next is already the line behind.
+Result Interpreter::do_flow(Frame& frame, std::size_t at, Reader& reader) {
+    const KeptLine& line = frame.body->lines[at];
+    switch (line.keyword) {
+        case Keyword::If:
+        case Keyword::While: {
+            const bool holds = reader.expression() != 0;
+            if (auto empty = rest_is_empty(reader); !empty) { return empty; }
+            if (!holds) { frame.next = line.keyword == Keyword::If ? line.branch : line.end + 1; }
+            if (line.keyword == Keyword::While || holds) { return {}; }
+            return choose_branch(frame);
+        }
+        case Keyword::ElseIf:
+        case Keyword::Else: frame.next = line.end + 1; return {};
+        case Keyword::Repeat: {
+            const double count = std::ceil(reader.expression());
+            if (auto empty = rest_is_empty(reader); !empty) { return empty; }
+            frame.repeats[at] = count;
+            if (count < 1) { frame.next = line.end + 1; }
+            return {};
+        }
+        case Keyword::EndWhile:
+        case Keyword::EndRepeat: return go_round(frame, at, reader);
+        case Keyword::Break: frame.next = line.end + 1; return rest_is_empty(reader);
+        case Keyword::Continue:
+            frame.next = frame.body->lines[line.begin].keyword == Keyword::While ? line.begin : line.end;
+            return rest_is_empty(reader);
+        case Keyword::Return:
+        case Keyword::EndSub: return leave(frame, reader);
+        default: return rest_is_empty(reader);
+    }
+}
+
+/// At the elseif, else or endif behind an if that does not hold.
+Result Interpreter::choose_branch(Frame& frame) {
+    while (true) {
+        const KeptLine& line = frame.body->lines[frame.next];
+        if (line.keyword == Keyword::EndIf) { return {}; }
+        if (auto wrong = line_.read(line.text, line.number)) { return std::unexpected(*std::move(wrong)); }
+        ++frame.next;
+        if (line.keyword == Keyword::Else) { return {}; }
+        Reader reader(line_, parameters_);
+        (void)skip_head(reader);
+        (void)read_o_word(reader);
+        const bool holds = reader.expression() != 0;
+        if (auto empty = rest_is_empty(reader); !empty) { return empty; }
+        if (holds) { return {}; }
+        frame.next = line.branch;
+    }
+}
+
+/// At the end of a loop.
+Result Interpreter::go_round(Frame& frame, std::size_t at, Reader& reader) {
+    const std::size_t begin = frame.body->lines[at].begin;
+    bool again = true;
+    switch (frame.body->lines[begin].keyword) {
+        case Keyword::While: frame.next = begin; return rest_is_empty(reader);
+        case Keyword::Do: again = reader.expression() != 0; break;
+        default: again = --frame.repeats[begin] >= 1; break;
+    }
+    if (again) { frame.next = begin + 1; }
+    return rest_is_empty(reader);
+}
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,96 @@
+// What a G-code program does, one value for each thing: motions in machine coordinates, and events.
+//
+// Places are in mm, turning axes in degrees. Feeds are per minute: mm along the path of the linear axes; degrees where
+// only turning axes move.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace lockstep::gcode {
+
+inline constexpr std::string_view kAxisLetters = "XYZABCUVW";
+inline constexpr std::size_t kAxes = kAxisLetters.size();
+using Point = std::array<double, kAxes>;
+using Vector = std::array<double, 3>;  // of X, Y and Z
+
+constexpr bool is_turning(std::size_t axis) { return axis >= 3 && axis < 6; }
+
+struct Straight {
+    Point target{};
+    double feed = 0;  // 0: rapid
+    bool rapid = false;
+};
+
+/// An arc about a line through `centre` along `axis`; X, Y and Z go along it to the target, and the other axes evenly.
+/// Where the radius at the end differs from that at the start, it changes evenly.
+struct Arc {
+    Point target{};
+    Vector centre{};
+    Vector axis{};  // the plane's normal, of length 1
+    int turns = 1;  // of at most a whole turn each; positive: counterclockwise seen from the tip of `axis`
+    double feed = 0;
+};
+
+/// A NURBS of order `order` (its degree and 1) on clamped knots one apart: the first and the last point are on it.
+struct Spline {
+    struct Control {
+        Vector at{};
+        double weight = 1;
+    };
+    Point target{};
+    int order = 4;
+    std::vector<Control> controls;
+    double feed = 0;
+};
+
+struct Dwell {
+    double seconds = 0;
+};
+
+enum class EventKind : std::uint8_t {
+    Stop,            // M0 M60
+    OptionalStop,    // M1
+    End,             // M2 M30 %
+    ToolSelect,      // T: index
+    ToolChange,      // M6: index
+    ToolNumber,      // M61: index
+    SpindleSpeed,    // S: value
+    SpindleForward,  // M3
+    SpindleReverse,  // M4
+    SpindleStop,     // M5
+    Mist,            // M7
+    Flood,           // M8
+    CoolantOff,      // M9
+    OutputOn,        // M62 M64: index
+    OutputOff,       // M63 M65: index
+    AnalogOutput,    // M67 M68: index, value
+    InputWait,       // M66: index, value: seconds
+    FeedOverride,    // M48 to M51: value: 1 on, 0 off
+    SpeedOverride,
+    AdaptiveFeed,  // M52
+    FeedHold,      // M53
+    PathMode,      // G61 G61.1 G64: index is 610, 611 or 640; value: its P
+    Message,       // (MSG, ) (DEBUG, )
+    Print,         // (PRINT, )
+};
+
+struct Event {
+    EventKind kind = EventKind::Stop;
+    int index = 0;
+    double value = 0;
+    std::string text;
+};
+
+using Action = std::variant<Straight, Arc, Spline, Dwell, Event>;
+
+/// Takes the actions in the order of the program; `line` is that of the text, from 1.
+using Sink = std::function<void(const Action& action, int line)>;
+
+}  // namespace lockstep::gcode

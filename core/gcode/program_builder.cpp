@@ -1,0 +1,146 @@
+#include "core/gcode/program_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/axis_unit.hpp"
+#include "core/gcode/chords.hpp"
+#include "core/number_text.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+constexpr double kSecondsPerMinute = 60;
+
+std::optional<std::size_t> place_of_name(std::string_view name) {
+    if (name.size() != 1) { return std::nullopt; }
+    const char letter = name[0] >= 'a' && name[0] <= 'z' ? static_cast<char>(name[0] - 'a' + 'A') : name[0];
+    const std::size_t place = kAxisLetters.find(letter);
+    return place == std::string_view::npos ? std::nullopt : std::optional(place);
+}
+
+}  // namespace
+
+std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup) {
+    std::vector<std::optional<std::size_t>> places;
+    for (const GcodeAxis& axis : setup.axes) { places.push_back(place_of_name(axis.name)); }
+    return places;
+}
+
+std::string axis_letters(const GcodeSetup& setup) {
+    std::string letters;
+    for (const auto& place : axis_places(setup)) {
+        if (place) { letters += kAxisLetters[*place]; }
+    }
+    return letters;
+}
+
+Setup interpreter_setup(const GcodeSetup& setup) {
+    return {.axes = axis_letters(setup),
+            .skip_deletable = setup.switches.skip_deletable,
+            .limits = setup.limits,
+            .find_subroutine = setup.find_subroutine};
+}
+
+State start_state(const GcodeSetup& setup) {
+    State state;
+    Point park{};
+    const auto places = axis_places(setup);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i]) { continue; }
+        state.machine[*places[i]] = setup.axes[i].start_mm;
+        park[*places[i]] = setup.axes[i].park_mm;
+    }
+    set_place(state.parameters, kHomeParameter, park);
+    set_place(state.parameters, kSecondHomeParameter, park);
+    return state;
+}
+
+ProgramBuilder::ProgramBuilder(const GcodeSetup& setup) : setup_(setup), places_(axis_places(setup)) {
+    program_.name = setup.program_name;
+    for (const GcodeAxis& axis : setup.axes) {
+        program_.axes.push_back(axis.name);
+        program_.start_mm.push_back(axis.start_mm);
+    }
+    position_ = program_.start_mm;
+    at_ = start_state(setup).machine;
+}
+
+void ProgramBuilder::take(const Action& action, int line, const Interpreter& interpreter) {
+    if (line != line_) { outside_.clear(); }
+    line_ = line;
+    interpreter_ = &interpreter;
+    if (const auto* straight = std::get_if<Straight>(&action)) {
+        move(straight->target, straight->feed, straight->rapid);
+    } else if (const auto* arc = std::get_if<Arc>(&action)) {
+        cut(*arc, Point(at_), setup_.chord_tolerance_mm, [&](const Point& target) { move(target, arc->feed, false); });
+    } else if (const auto* spline = std::get_if<Spline>(&action)) {
+        cut(*spline, Point(at_), setup_.chord_tolerance_mm,
+            [&](const Point& target) { move(target, spline->feed, false); });
+    } else if (const auto* dwell = std::get_if<gcode::Dwell>(&action)) {
+        append(lockstep::Dwell{dwell->seconds});
+    } else if (const auto* happens = std::get_if<Event>(&action)) {
+        event(*happens);
+    }
+}
+
+/// Each axis once a line: a curve may be outside with many chords.
+void ProgramBuilder::fail(std::size_t axis, const std::string& message) {
+    if (!outside_.insert(axis).second) { return; }
+    const Line& line = interpreter_->line();
+    const char letter = kAxisLetters[*places_[axis]];
+    if (interpreter_->block().has(letter)) {
+        const std::size_t place = interpreter_->block().place(letter);
+        errors_.push_back(line.error(place, word_text(line, place) + " takes " + message));
+    } else {
+        errors_.push_back(line.error(0, "this takes " + message));
+    }
+}
+
+/// What lies outside is reported and returned as it is: the lines after are then judged by what they mean.
+double ProgramBuilder::within_travel(std::size_t i, double mm) {
+    const GcodeAxis& axis = setup_.axes[i];
+    const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);
+    if (std::abs(mm - nearest) <= kTravelTolerance_mm) { return nearest; }
+    const std::string unit(unit_of(axis.name));
+    fail(i, axis.name + " to " + number_text(mm) + " " + unit + ", outside its travel of " + number_text(axis.min_mm) +
+                " to " + number_text(axis.max_mm) + " " + unit +
+                " (machine coordinates); change the program, or the axis's " +
+                (mm < nearest ? "position_min_mm" : "position_max_mm"));
+    return mm;
+}
+
+void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
+    std::vector<double> to = position_;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (places_[i] && target[*places_[i]] != at_[*places_[i]]) { to[i] = within_travel(i, target[*places_[i]]); }
+    }
+    at_ = target;
+    if (to == position_) { return; }
+    const double along = rapid ? 0 : feed_along_path(to, feed / kSecondsPerMinute);
+    append(LinearMove{.target_mm = to, .feed_mm_s = along, .rapid = rapid});
+    position_ = std::move(to);
+}
+
+/// A program's feed is along the path of all axes; this is the one that makes the linear ones go at F.
+double ProgramBuilder::feed_along_path(const std::vector<double>& target, double feed) const {
+    double linear = 0;
+    double rotary = 0;
+    for (std::size_t i = 0; i < target.size(); ++i) {
+        double& length = is_rotary(setup_.axes[i].name) ? rotary : linear;
+        length = std::hypot(length, target[i] - position_[i]);
+    }
+    const double along = linear <= kTravelTolerance_mm ? feed : feed * (std::hypot(linear, rotary) / linear);
+    return std::min(along, kMaxFeed_mm_s);
+}
+
+void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
+    if (program_.blocks.size() < kMaxProgramBlocks) {
+        program_.blocks.push_back({.line = line_, .action = std::move(action)});
+        return;
+    }
+    errors_.push_back(
+        {line_, 1, "the program has more than " + std::to_string(kMaxProgramBlocks) + " blocks; cut it in two", true});
+}
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,85 @@
+// What is wrong with a block whatever it comes to, and which motion it runs.
+#include <algorithm>
+
+#include "core/gcode/run/steps.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+constexpr int kCancel = 800;  // G80
+constexpr std::string_view kLettersOfCodes = "DEHIJKLPQR";
+
+/// G10 G28 G30 G52 G92 use the block's axis words, and so does no motion of the block.
+bool uses_axes(int non_modal) {
+    constexpr std::array kCodes{100, 280, 300, 520, 920};
+    return std::ranges::find(kCodes, non_modal) != kCodes.end();
+}
+
+bool is_arc(int motion) { return motion == 20 || motion == 30; }
+
+std::unexpected<GcodeError> no_motion(const Context& context) {
+    const Block& block = context.block;
+    for (const char letter : kAxisLetters) {
+        if (block.has(letter)) {
+            return context.refuse(letter, " but no motion mode; write G0 or G1 before the first axis word");
+        }
+    }
+    return std::unexpected(context.line.error(0, "@ or ^ but no motion mode; write G0 or G1"));
+}
+
+std::string_view letters_of(int motion) {
+    const Code* code = motion == kNoMotion ? nullptr : find_code('G', motion);
+    return code == nullptr ? std::string_view{} : code->letters;
+}
+
+bool is_m(Group group) { return group >= Group::Stop; }
+
+bool is_used(const Context& context, char letter) {
+    if (letters_of(context.motion).contains(letter)) { return true; }
+    for (std::size_t i = 0; i < kGroups; ++i) {
+        const auto group = static_cast<Group>(i);
+        if (!context.block.has(group)) { continue; }
+        const Code* code = find_code(is_m(group) ? 'M' : 'G', context.block.code(group));
+        if (code->letters.contains(letter)) { return true; }
+    }
+    return false;
+}
+
+}  // namespace
+
+Result choose_motion(Context& context) {
+    const Block& block = context.block;
+    const int code = block.code(Group::Motion);
+    const int other = block.code(Group::NonModal);
+    const int length = block.code(Group::ToolLength);
+    const bool axes = block.has_axes();
+    const bool taken = uses_axes(other) || length == 431 || length == 432;
+    if (code != Block::kNoCode && code != kCancel) {
+        if (uses_axes(other)) {
+            return context.refuse(Group::Motion, " and " + word_text(context.line, block.place(Group::NonModal)) +
+                                                     " both use the block's axis words; use two lines");
+        }
+        context.motion = code;
+        return {};
+    }
+    if (axes && !taken) {
+        const int motion = code == kCancel ? kNoMotion : context.state.modal.motion;
+        if (motion == kNoMotion) { return no_motion(context); }
+        context.motion = motion;
+    } else if (code == Block::kNoCode && is_arc(context.state.modal.motion) && !taken && block.has_any("IJK")) {
+        context.motion = context.state.modal.motion;
+    }
+    return {};
+}
+
+Result check_letters(Context& context) {
+    for (const char letter : kLettersOfCodes) {
+        if (!context.block.has(letter) || is_used(context, letter)) { continue; }
+        return context.refuse(letter, std::string(" belongs to no code of this block; take it out, or write the code "
+                                                  "that ") +
+                                          letter + " is for");
+    }
+    return {};
+}
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,57 @@
+// What the steps of a block's execution work with.
+#pragma once
+
+#include <expected>
+#include <optional>
+#include <string>
+
+#include "core/gcode/block.hpp"
+#include "core/gcode/motion.hpp"
+#include "core/gcode/setup.hpp"
+#include "core/gcode/state.hpp"
+
+namespace lockstep::gcode {
+
+using Result = std::expected<void, GcodeError>;
+
+/// What M70 or M73 keeps, of each subroutine's call.
+struct KeptModes {
+    std::optional<Modal> modal;
+    bool restores_at_return = false;  // M73
+};
+
+struct Context {
+    const Setup& setup;
+    State& state;
+    Parameters& parameters;
+    const Sink& sink;
+    const Line& line;
+    Block& block;
+    KeptModes& kept;
+    int motion = kNoMotion;  // the motion that this block runs, times ten
+    bool ended = false;      // M2, M30
+
+    /// The word's text and what is wrong with it.
+    std::unexpected<GcodeError> refuse(char letter, const std::string& what) const;
+    std::unexpected<GcodeError> refuse(Group group, const std::string& what) const;
+    /// At the motion's word, or at the block's first axis word.
+    std::unexpected<GcodeError> refuse_motion(const std::string& what) const;
+
+    void emit(const Action& action) const { sink(action, line.number()); }
+    void event(EventKind kind, int index = 0, double value = 0) const { emit(Event{kind, index, value, {}}); }
+
+    /// Millimetres of a length, or degrees of an angle, as the program gives it.
+    double length(double value) const { return state.modal.inches ? value * kMillimetresPerInch : value; }
+    double place(std::size_t axis, double value) const { return is_turning(axis) ? value : length(value); }
+    /// The block's word for an axis, in mm or degrees.
+    std::optional<double> axis_word(std::size_t axis) const;
+    /// Where the block's axis words lead, in the program's coordinates.
+    Point target() const;
+
+    static constexpr double kMillimetresPerInch = 25.4;
+};
+
+/// A whole number that a word gives, or none.
+std::optional<int> whole(double value);
+
+}  // namespace lockstep::gcode

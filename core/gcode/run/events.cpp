@@ -1,0 +1,220 @@
+// What moves no axis: messages, spindle, tools, outputs, coolant, overrides, dwells and stops.
+#include <algorithm>
+
+#include "core/gcode/run/steps.hpp"
+#include "core/number_text.hpp"
+#include "core/program.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+std::string small(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return result;
+}
+
+/// The value of the parameter that a text begins with, behind its #; removes it from the text.
+std::string take_parameter(const Context& context, std::string_view& text) {
+    constexpr std::string_view kUnknown = "######";
+    if (text.starts_with('<')) {
+        const std::size_t end = text.find('>');
+        if (end == std::string_view::npos) { return "#"; }
+        std::string name = small(text.substr(1, end - 1));
+        std::erase_if(name, [](char c) { return c == ' ' || c == '\t'; });
+        text.remove_prefix(end + 1);
+        const auto value = context.parameters.named(name);
+        return value ? std::to_string(*value) : std::string(kUnknown);
+    }
+    int number = 0;
+    std::size_t digits = 0;
+    while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9' && number <= kMaxParameter) {
+        number = number * 10 + (text[digits++] - '0');
+    }
+    if (digits == 0) { return "#"; }
+    text.remove_prefix(digits);
+    const bool known = number >= 1 && number <= kMaxParameter;
+    return known ? std::to_string(context.parameters.numbered(number)) : std::string(kUnknown);
+}
+
+/// The index of an output: P, or E of an analog one.
+std::expected<int, GcodeError> output_index(const Context& context, char letter) {
+    if (!context.block.has(letter)) {
+        return context.refuse(Group::Output, std::string(" names no output; write ") + letter + " and its number");
+    }
+    const auto index = whole(context.block[letter]);
+    if (!index || *index < 0) {
+        return context.refuse(letter, " is not an output's number; they are whole and count from 0");
+    }
+    return *index;
+}
+
+Result analog_output(const Context& context) {
+    const auto index = output_index(context, 'E');
+    if (!index) { return std::unexpected(index.error()); }
+    if (!context.block.has('Q')) { return context.refuse(Group::Output, " gives no value; write Q and the value"); }
+    context.event(EventKind::AnalogOutput, *index, context.block['Q']);
+    return {};
+}
+
+Result wait_for_input(const Context& context) {
+    const Block& block = context.block;
+    if (block.has('P') == block.has('E')) {
+        return context.refuse(Group::Output, " waits for one input; write P or E and its number");
+    }
+    const auto index = output_index(context, block.has('P') ? 'P' : 'E');
+    if (!index) { return std::unexpected(index.error()); }
+    const int kind = whole(block.find('L').value_or(0)).value_or(-1);
+    if (kind < 0 || kind > 4) { return context.refuse('L', " is no way of waiting; it is 0 to 4"); }
+    if (kind != 0 && block.has('E')) { return context.refuse('L', " with an analog input, which is read at once: L0"); }
+    const double seconds = block.find('Q').value_or(0);
+    if (kind != 0 && !(seconds > 0)) {
+        return context.refuse(Group::Output, " waits no time; write Q and the seconds");
+    }
+    context.event(EventKind::InputWait, *index, seconds);
+    return {};
+}
+
+}  // namespace
+
+std::string message_text(const Context& context, std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const char c = text.front();
+        text.remove_prefix(1);
+        result += c == '#' ? take_parameter(context, text) : std::string(1, c);
+    }
+    return result;
+}
+
+Result comment(Context& context) {
+    if (!context.block.comment) { return {}; }
+    const std::size_t begin = *context.block.comment + 1;
+    const std::size_t end = context.line.end_of_comment(begin) - 1;
+    std::string_view text = context.line.text().substr(begin, end - begin);
+    const std::size_t comma = text.find(',');
+    if (comma == std::string_view::npos) { return {}; }
+    std::string kind = small(text.substr(0, comma));
+    std::erase_if(kind, [](char c) { return c == ' ' || c == '\t'; });
+    text.remove_prefix(comma + 1);
+    if (kind == "msg") { context.emit(Event{EventKind::Message, 0, 0, std::string(text)}); }
+    if (kind == "debug") { context.emit(Event{EventKind::Message, 0, 0, message_text(context, text)}); }
+    if (kind == "print") { context.emit(Event{EventKind::Print, 0, 0, message_text(context, text)}); }
+    return {};
+}
+
+Result spindle_speed(Context& context) {
+    const auto speed = context.block.find('S');
+    if (!speed) { return {}; }
+    if (*speed < 0) { return context.refuse('S', " is no speed; S is 0 or above, and M4 turns the other way"); }
+    context.state.modal.spindle_speed = *speed;
+    context.event(EventKind::SpindleSpeed, 0, *speed);
+    return {};
+}
+
+Result outputs(Context& context) {
+    const int code = context.block.code(Group::Output);
+    if (code == Block::kNoCode) { return {}; }
+    if (code == 660) { return wait_for_input(context); }
+    if (code == 670 || code == 680) { return analog_output(context); }
+    const auto index = output_index(context, 'P');
+    if (!index) { return std::unexpected(index.error()); }
+    context.event(code == 620 || code == 640 ? EventKind::OutputOn : EventKind::OutputOff, *index);
+    return {};
+}
+
+Result spindle(Context& context) {
+    Modal& modal = context.state.modal;
+    switch (context.block.code(Group::Spindle)) {
+        case 30:
+            modal.spindle = Turning::Forward;
+            context.event(EventKind::SpindleForward);
+            break;
+        case 40:
+            modal.spindle = Turning::Reverse;
+            context.event(EventKind::SpindleReverse);
+            break;
+        case 50:
+            modal.spindle = Turning::Stopped;
+            context.event(EventKind::SpindleStop);
+            break;
+        default: break;
+    }
+    return {};
+}
+
+Result coolant(Context& context) {
+    Modal& modal = context.state.modal;
+    switch (context.block.code(Group::Coolant)) {
+        case 70:
+            modal.mist = true;
+            context.event(EventKind::Mist);
+            break;
+        case 80:
+            modal.flood = true;
+            context.event(EventKind::Flood);
+            break;
+        case 90:
+            modal.mist = modal.flood = false;
+            context.event(EventKind::CoolantOff);
+            break;
+        default: break;
+    }
+    return {};
+}
+
+Result overrides(Context& context) {
+    Modal& modal = context.state.modal;
+    const int code = context.block.code(Group::Override);
+    if (code == Block::kNoCode) { return {}; }
+    const bool on = code == 480 || (code != 490 && context.block.find('P').value_or(1) != 0);
+    const auto set = [&](bool& value, EventKind kind) {
+        value = on;
+        context.event(kind, 0, on ? 1 : 0);
+    };
+    if (code <= 500) { set(modal.feed_override, EventKind::FeedOverride); }
+    if (code <= 490 || code == 510) { set(modal.speed_override, EventKind::SpeedOverride); }
+    if (code == 520) { set(modal.adaptive_feed, EventKind::AdaptiveFeed); }
+    if (code == 530) { set(modal.feed_hold, EventKind::FeedHold); }
+    return {};
+}
+
+Result dwell(Context& context) {
+    if (context.block.code(Group::NonModal) != 40) { return {}; }
+    const auto seconds = context.block.find('P');
+    if (!seconds) { return context.refuse(Group::NonModal, " does not say how long; write P and the seconds"); }
+    if (*seconds < 0 || *seconds > kMaxDwell_s) {
+        return context.refuse('P', " s is no dwell; it goes from 0 to " + number_text(kMaxDwell_s) + " s");
+    }
+    context.emit(Dwell{*seconds});
+    return {};
+}
+
+Result stop(Context& context) {
+    State& state = context.state;
+    switch (context.block.code(Group::Stop)) {
+        case 0:
+        case 600: context.event(EventKind::Stop); break;
+        case 10: context.event(EventKind::OptionalStop); break;
+        case 20:
+        case 300: {
+            Modal after;  // RS274, 3.6.1: what the end of a program resets
+            after.inches = state.modal.inches;
+            after.spindle_speed = state.modal.spindle_speed;
+            after.retract_to_start = state.modal.retract_to_start;
+            after.path_mode = state.modal.path_mode;
+            after.path_tolerance = state.modal.path_tolerance;
+            after.centres_absolute = state.modal.centres_absolute;
+            state.modal = after;
+            begin_system(state, 0);
+            context.event(EventKind::End);
+            context.ended = true;
+            break;
+        }
+        default: break;
+    }
+    return {};
+}
+
+}  // namespace lockstep::gcode

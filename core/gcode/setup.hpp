@@ -1,0 +1,28 @@
+// What an interpreter is given besides the text.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lockstep::gcode {
+
+/// A program that exceeds one of these is refused with its name.
+struct Limits {
+    int call_depth = 10;                       // subroutines that call each other
+    std::int64_t repeated_lines = 10'000'000;  // lines run in loops and subroutines, all together
+    std::size_t kept_lines = 100'000;          // lines of loops and subroutines, all together
+};
+
+struct Setup {
+    std::string axes = "XYZABCUVW";  // the machine's axes, of these letters
+    bool skip_deletable = true;      // block delete: lines that begin with / are not run
+    Limits limits;
+    /// The text of the file of a subroutine that the program calls but does not contain; the name is in small letters.
+    std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
+};
+
+}  // namespace lockstep::gcode

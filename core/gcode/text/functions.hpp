@@ -1,0 +1,34 @@
+// The functions and operators of expressions. Angles are in degrees.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lockstep::gcode {
+
+enum class Function : std::uint8_t { Abs, Acos, Asin, Atan, Cos, Exists, Exp, Fix, Fup, Ln, Round, Sin, Sqrt, Tan };
+enum class Operator : std::uint8_t { Power, Times, Over, Mod, Plus, Minus, Eq, Ne, Gt, Ge, Lt, Le, And, Or, Xor };
+
+/// A function or an operator that a text begins with, and its length.
+template <typename Meaning>
+struct Named {
+    std::string_view name;
+    Meaning meaning;
+};
+
+std::optional<Named<Function>> find_function(std::string_view text);
+std::optional<Named<Operator>> find_operator(std::string_view text);
+
+/// 1 binds least: AND OR XOR; then comparisons; + and -; * / MOD; ** binds most.
+int precedence(Operator op);
+
+/// Error: what is wrong with the arguments. Not for Atan, which has two, and Exists.
+std::expected<double, std::string> apply(Function function, double argument);
+std::expected<double, std::string> apply(Operator op, double left, double right);
+
+inline constexpr double kDegrees = 57.295779513082320876798154814105;  // of a radian
+
+}  // namespace lockstep::gcode

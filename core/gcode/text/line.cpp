@@ -1,0 +1,109 @@
+#include "core/gcode/text/line.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lockstep::gcode {
+namespace {
+
+enum class Kind : std::uint8_t { Kept, Blank, Small, Comment, End, Control, Foreign };
+
+constexpr Kind kind_of(unsigned char c) {
+    if (c == ' ' || c == '\t') { return Kind::Blank; }
+    if (c < ' ' || c == 0x7F) { return Kind::Control; }
+    if (c > '~') { return Kind::Foreign; }
+    if (c >= 'a' && c <= 'z') { return Kind::Small; }
+    if (c == '(') { return Kind::Comment; }
+    return c == ';' ? Kind::End : Kind::Kept;
+}
+
+constexpr std::array<Kind, 256> kKinds = [] {
+    std::array<Kind, 256> kinds{};
+    for (std::size_t c = 0; c < kinds.size(); ++c) { kinds[c] = kind_of(static_cast<unsigned char>(c)); }
+    return kinds;
+}();
+
+constexpr Kind kind(char c) { return kKinds[static_cast<unsigned char>(c)]; }
+
+std::string control_message(char c) { return shown(c) + " is a control byte, not text; take it out"; }
+
+}  // namespace
+
+std::string shown(char c) {
+    if (c >= ' ' && c <= '~') { return std::string("'") + c + "'"; }
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    return std::string("the byte 0x") + kDigits[byte / 16] + kDigits[byte % 16];
+}
+
+GcodeError Line::raw_error(std::size_t place, std::string message) const {
+    return {number_, static_cast<int>(place) + 1, std::move(message)};
+}
+
+std::optional<GcodeError> Line::read(std::string_view raw, int number) {
+    raw_ = raw;
+    number_ = number;
+    size_ = 0;
+    if (raw.size() > kMaxLineLength) {
+        return raw_error(kMaxLineLength, "the line has " + std::to_string(raw.size()) + " characters, more than " +
+                                             std::to_string(kMaxLineLength) + "; split it");
+    }
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        const char c = raw[i];
+        switch (kind(c)) {
+            case Kind::Kept: kept_[size_++] = c; break;
+            case Kind::Small: kept_[size_++] = static_cast<char>(c - 'a' + 'A'); break;
+            case Kind::Blank: break;
+            case Kind::Comment:
+                if (auto error = keep_comment(i)) { return error; }
+                break;
+            case Kind::End: {
+                const auto control = std::ranges::find(raw.substr(i), Kind::Control, kind);
+                if (control == raw.end()) { return std::nullopt; }
+                return raw_error(static_cast<std::size_t>(control - raw.begin()), control_message(*control));
+            }
+            case Kind::Control: return raw_error(i, control_message(c));
+            case Kind::Foreign:
+                return raw_error(i, shown(c) + " is not G-code; outside comments a program is printable ASCII");
+        }
+    }
+    return std::nullopt;
+}
+
+/// `from` is the comment's '(', and becomes its ')'.
+std::optional<GcodeError> Line::keep_comment(std::size_t& from) {
+    const std::size_t begin = from;
+    for (std::size_t i = begin; i < raw_.size(); ++i) {
+        const char c = raw_[i];
+        if (kind(c) == Kind::Control) { return raw_error(i, control_message(c)); }
+        if (c == '(' && i > begin) { return raw_error(i, "a comment inside a comment; take one ( away"); }
+        kept_[size_++] = c;
+        if (c == ')') {
+            from = i;
+            return std::nullopt;
+        }
+    }
+    return raw_error(begin, "the comment is not closed; write ) before the line's end");
+}
+
+std::size_t Line::end_of_comment(std::size_t place) const { return std::min(text().find(')', place), size_ - 1) + 1; }
+
+int Line::checksum() const {
+    unsigned char sum = 0;
+    for (const char c : raw_.substr(0, raw_.rfind('*'))) { sum ^= static_cast<unsigned char>(c); }
+    return sum;
+}
+
+GcodeError Line::error(std::size_t place, std::string message) const {
+    std::size_t kept = 0;
+    bool in_comment = false;
+    for (std::size_t i = 0; i < raw_.size(); ++i) {
+        in_comment = in_comment || raw_[i] == '(';
+        if (!in_comment && kind(raw_[i]) == Kind::Blank) { continue; }
+        in_comment = in_comment && raw_[i] != ')';
+        if (kept++ == place) { return raw_error(i, std::move(message)); }
+    }
+    return raw_error(raw_.size(), std::move(message));
+}
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,189 @@
+#include "core/gcode/text/reader.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "core/number_text.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+constexpr char small(char c) { return is_letter(c) ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+void Reader::fail(std::size_t place, std::string message) {
+    if (!error_) { error_ = line_.error(place, std::move(message)); }
+    at_ = line_.text().size();
+}
+
+bool Reader::take(char c) {
+    if (peek() != c || done()) { return false; }
+    ++at_;
+    return true;
+}
+
+bool Reader::take(std::string_view word) {
+    if (!line_.text().substr(std::min(at_, line_.text().size())).starts_with(word)) { return false; }
+    at_ += word.size();
+    return true;
+}
+
+double Reader::word_value(std::size_t letter_at) {
+    letter_ = letter_at;
+    const double result = value();
+    letter_.reset();
+    return result;
+}
+
+double Reader::value() {
+    const char c = peek();
+    if (is_of_number(c)) { return number(); }
+    if (c == '[') { return expression(); }
+    if (c == '#') { return parameter(); }
+    if (c == '-' || c == '+') {
+        ++at_;
+        if (++nesting_ > kMaxNesting) { fail(at_, "too many signs; write one"); }
+        const double result = value();
+        --nesting_;
+        return c == '-' ? -result : result;
+    }
+    const std::size_t begin = at_;
+    const auto function = find_function(line_.text().substr(std::min(at_, line_.text().size())));
+    if (function && line_.at(begin + function->name.size()) == '[') { return function_value(*function); }
+    const std::string found = done() ? "the line ends" : shown(c);
+    if (letter_) {
+        fail(*letter_, std::string("the word ") + line_.at(*letter_) + " has no number: " + found +
+                           " where a number, #, [ or a function is expected");
+    } else {
+        fail(begin, found + " where a number, #, [ or a function is expected");
+    }
+    return 0;
+}
+
+double Reader::number() {
+    const std::string_view text = line_.text();
+    const std::size_t begin = at_;
+    double result = 0;
+    const auto [end, error] =
+        std::from_chars(text.data() + begin, text.data() + text.size(), result, std::chars_format::fixed);
+    at_ = static_cast<std::size_t>(end - text.data());
+    if (error == std::errc::invalid_argument || is_of_number(peek())) {
+        while (is_of_number(peek())) { ++at_; }
+        const std::string_view digits = text.substr(begin, at_ - begin);
+        fail(letter_.value_or(begin), "'" + std::string(digits) + "' is not a number; write it like -12.5");
+        return 0;
+    }
+    return result;
+}
+
+int Reader::parameter_number() {
+    const std::size_t begin = at_;
+    const double number = value();
+    const double whole = std::round(number);
+    if (std::abs(number - whole) > 1e-4 || whole < 1 || whole > kMaxParameter) {
+        fail(begin, "#" + number_text(number) + " is not a parameter; their numbers go from 1 to " +
+                        std::to_string(kMaxParameter));
+        return 1;
+    }
+    return static_cast<int>(whole);
+}
+
+std::string Reader::name() {
+    const std::size_t begin = at_++;
+    std::string result;
+    while (!done() && peek() != '>') { result += small(next()); }
+    if (!take('>')) { fail(begin, "the name is not closed; write > behind it"); }
+    if (result.empty() && !error_) { fail(begin, "the name is empty; write one between < and >"); }
+    return result;
+}
+
+double Reader::parameter() {
+    const std::size_t begin = at_++;
+    if (++nesting_ > kMaxNesting) { fail(begin, "parameters of parameters are nested too deep"); }
+    double result = 0;
+    if (peek() == '<') {
+        const std::string called = name();
+        const auto found = error_ ? std::optional(0.0) : parameters_.named(called);
+        if (!found) { fail(begin, "#<" + called + "> has no value; assign one before: #<" + called + ">=0"); }
+        result = found.value_or(0);
+    } else {
+        result = parameters_.numbered(parameter_number());
+    }
+    --nesting_;
+    return result;
+}
+
+double Reader::expression() {
+    const std::size_t begin = at_;
+    if (!take('[')) {
+        fail(begin, (done() ? "the line ends" : shown(peek())) + " where [ is expected");
+        return 0;
+    }
+    if (++nesting_ > kMaxNesting) {
+        fail(begin, "brackets are nested deeper than " + std::to_string(kMaxNesting));
+        return 0;
+    }
+    const auto letter = std::exchange(letter_, std::nullopt);
+    const double result = operand_and_operators(1);
+    if (!error_ && !take(']')) {
+        fail(at_, (done() ? "the line ends" : shown(peek())) + " where ] or an operator is expected");
+    }
+    letter_ = letter;
+    --nesting_;
+    return result;
+}
+
+/// By precedence climbing; operators of one precedence go from left to right.
+double Reader::operand_and_operators(int least_precedence) {
+    double left = value();
+    while (!error_) {
+        const std::size_t begin = at_;
+        const auto op = find_operator(line_.text().substr(at_));
+        if (!op || precedence(op->meaning) < least_precedence) { return left; }
+        at_ += op->name.size();
+        const double right = operand_and_operators(precedence(op->meaning) + 1);
+        if (error_) { return 0; }
+        const auto result = apply(op->meaning, left, right);
+        if (!result || !std::isfinite(*result)) {
+            fail(begin, result ? "the result is too large" : result.error());
+            return 0;
+        }
+        left = *result;
+    }
+    return left;
+}
+
+double Reader::function_value(Named<Function> function) {
+    const std::size_t begin = at_;
+    at_ += function.name.size();
+    if (function.meaning == Function::Atan) { return arc_tangent(); }
+    if (function.meaning == Function::Exists) { return exists(); }
+    const double argument = expression();
+    if (error_) { return 0; }
+    const auto result = apply(function.meaning, argument);
+    if (!result || !std::isfinite(*result)) { fail(begin, result ? "the result is too large" : result.error()); }
+    return result.value_or(0);
+}
+
+/// ATAN[y]/[x]: from -180 to 180 degrees.
+double Reader::arc_tangent() {
+    const double y = expression();
+    if (!error_ && !take('/')) { fail(at_, "ATAN has two arguments; write ATAN[y]/[x]"); }
+    const double x = error_ ? 1 : expression();
+    return std::atan2(y, x) * kDegrees;
+}
+
+double Reader::exists() {
+    const std::size_t begin = at_++;  // value() has seen the [
+    if (!take('#') || peek() != '<') {
+        fail(begin, "EXISTS is about a named parameter; write EXISTS[#<name>]");
+        return 0;
+    }
+    const std::string called = name();
+    if (!take(']')) { fail(at_, "EXISTS is not closed; write ]"); }
+    return parameters_.named(called) ? 1 : 0;
+}
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,61 @@
+// Reads the values of a line from left to right: numbers, parameters, expressions in [ ], functions.
+//
+// The first error stays, and the reader then stands at the line's end: callers need to ask only once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/gcode/text/functions.hpp"
+#include "core/gcode/text/line.hpp"
+#include "core/gcode/text/parameters.hpp"
+
+namespace lockstep::gcode {
+
+/// Brackets and parameters of parameters may be nested so deep.
+inline constexpr int kMaxNesting = 64;
+
+class Reader {
+public:
+    Reader(const Line& line, const Parameters& parameters) : line_(line), parameters_(parameters) {}
+
+    bool done() const { return at_ >= line_.text().size(); }
+    std::size_t place() const { return at_; }
+    char peek() const { return line_.at(at_); }
+    char next() { return line_.at(at_++); }
+    bool take(char c);
+    bool take(std::string_view word);
+    void skip_comment() { at_ = line_.end_of_comment(at_); }
+    void go_to(std::size_t place) { at_ = place; }
+
+    /// The value of the word whose letter is at `letter_at`.
+    double word_value(std::size_t letter_at);
+    double value();
+    /// An expression within [ ].
+    double expression();
+    /// The name within < >, in small letters.
+    std::string name();
+    /// Behind a #: the number of a parameter.
+    int parameter_number();
+
+    void fail(std::size_t place, std::string message);
+    const std::optional<GcodeError>& error() const { return error_; }
+
+private:
+    double number();
+    double parameter();
+    double function_value(Named<Function> function);
+    double arc_tangent();
+    double exists();
+    double operand_and_operators(int least_precedence);
+
+    const Line& line_;
+    const Parameters& parameters_;
+    std::size_t at_ = 0;
+    int nesting_ = 0;
+    std::optional<std::size_t> letter_;  // of the word that the value belongs to
+    std::optional<GcodeError> error_;
+};
+
+}  // namespace lockstep::gcode

@@ -1,0 +1,123 @@
+// Parameters, expressions and O-words.
+#include <gmock/gmock.h>
+
+#include "tests/unit/gcode/actions.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::string> messages(std::string_view text, Setup setup = {}) {
+    const Ran ran = run(text, std::move(setup));
+    EXPECT_FALSE(ran.error) << ran.error->line << ":" << ran.error->column << ": " << ran.error->message;
+    return ran.messages();
+}
+
+double value(const std::string& expression) { return end_of("G0 X" + expression + "\n")[0]; }
+
+TEST(GcodeExpressions, BindAsDocumented) {
+    EXPECT_DOUBLE_EQ(value("[2+3*4-1]"), 13);
+    EXPECT_DOUBLE_EQ(value("[2**3**2]"), 64) << "from left to right";
+    EXPECT_DOUBLE_EQ(value("[1 LT 2 AND 3 GT 4]"), 0);
+    EXPECT_DOUBLE_EQ(value("[-7 MOD 3]"), 2);
+    EXPECT_DOUBLE_EQ(value("[1 EQ 1.00005]"), 1) << "nearer than 0.0001";
+    EXPECT_DOUBLE_EQ(value("-[2]"), -2);
+}
+
+TEST(GcodeExpressions, HaveFunctions) {
+    EXPECT_DOUBLE_EQ(value("ATAN[1]/[1]"), 45);
+    EXPECT_DOUBLE_EQ(value("ROUND[-2.5]"), -3);
+    EXPECT_DOUBLE_EQ(value("FIX[-2.5]"), -3);
+    EXPECT_DOUBLE_EQ(value("FUP[-2.5]"), -2);
+    EXPECT_DOUBLE_EQ(value("EXISTS[#<nothing>]"), 0);
+}
+
+TEST(GcodeParameters, TakeTheirValueBehindTheWholeLine) {
+    EXPECT_THAT(messages("#1=2 #2=#1\n(debug,#1 #2)\n"), ElementsAre("2.000000 0.000000"));
+    EXPECT_THAT(messages("#<a b>=4\n(debug,#<AB>)\n"), ElementsAre("4.000000"));
+}
+
+TEST(GcodeParameters, OfTheMachineCannotBeWritten) {
+    EXPECT_THAT(run("#5420=1\n").error->message, HasSubstr("not written"));
+    EXPECT_THAT(run("#<_x>=1\n").error->message, HasSubstr("not written"));
+}
+
+TEST(GcodeFlow, BranchesTakeTheFirstThatHolds) {
+    EXPECT_THAT(messages("o1 if [0]\n(debug,a)\no1 elseif [1]\n(debug,b)\no1 else\n(debug,c)\no1 endif\n"),
+                ElementsAre("b"));
+    EXPECT_THAT(messages("o1 if [0]\n(debug,a)\no1 elseif [0]\n(debug,b)\no1 else\n(debug,c)\no1 endif\n"),
+                ElementsAre("c"));
+    EXPECT_THAT(messages("o1 if [0]\n(debug,a)\no1 endif\n"), IsEmpty());
+}
+
+TEST(GcodeFlow, LoopsRunUntilTheirCondition) {
+    EXPECT_THAT(messages("#1=0\no1 while [#1 LT 2]\n#1=[#1+1]\n(debug,#1)\no1 endwhile\n"),
+                ElementsAre("1.000000", "2.000000"));
+    EXPECT_THAT(messages("#1=5\no1 do\n(debug,a)\no1 while [#1 LT 2]\n"), ElementsAre("a"));
+    EXPECT_THAT(messages("o1 repeat [2]\n(debug,a)\no1 endrepeat\n"), ElementsAre("a", "a"));
+}
+
+TEST(GcodeFlow, BreakAndContinueAreOfTheLoopThatTheyName) {
+    EXPECT_THAT(messages("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [#1 GT 3]\n"
+                         "o1 break\no3 endif\n(debug,#1)\no1 endwhile\n"),
+                ElementsAre("1.000000", "3.000000"));
+}
+
+TEST(GcodeFlow, SubroutinesHaveTheirOwnArgumentsAndNames) {
+    EXPECT_THAT(messages("o1 sub\n#<l>=3\n#1=[#1+1]\n#31=#1\no1 endsub [#1 * 2]\n#1=9\no1 call [4]\n"
+                         "(debug,#1 #31 #<l> #<_value>)\n"),
+                ElementsAre("9.000000 5.000000 ###### 10.000000"));
+}
+
+TEST(GcodeFlow, SubroutinesMayComeFromFiles) {
+    gcode::Setup setup;
+    setup.find_subroutine = [](std::string_view name) {
+        return name == "hole" ? std::optional<std::string>("(a file)\no<hole> sub\n(debug,#1)\no<hole> endsub\nM2\n")
+                              : std::nullopt;
+    };
+    EXPECT_THAT(messages("o<hole> call [7]\n", setup), ElementsAre("7.000000"));
+    EXPECT_THAT(run("o<other> call\n", setup).error->message, HasSubstr("other.ngc"));
+}
+
+TEST(GcodeFlow, RecursionAndEndlessLoopsMeetTheirLimits) {
+    EXPECT_THAT(run("o1 sub\no1 call\no1 endsub\no1 call\n").error->message, HasSubstr("call_depth"));
+    gcode::Setup setup;
+    setup.limits.repeated_lines = 1000;
+    EXPECT_THAT(run("o1 while [1]\no1 endwhile\n", setup).error->message, HasSubstr("repeated_lines"));
+    setup.limits.kept_lines = 2;
+    EXPECT_THAT(run("o1 sub\nG0\nG0\no1 endsub\n", setup).error->message, HasSubstr("kept_lines"));
+}
+
+TEST(GcodeFlow, OWordsThatDoNotFitAreRefusedWithTheirPlace) {
+    EXPECT_THAT(run("G0 X1\no1 endif\n").error->message, HasSubstr("nothing is open"));
+    const Ran unclosed = run("G0 X1\no1 if [1]\nG0 X2\n");
+    ASSERT_TRUE(unclosed.error);
+    EXPECT_EQ(unclosed.error->line, 2);
+    EXPECT_THAT(unclosed.error->message, HasSubstr("O1 ENDIF"));
+    EXPECT_THAT(run("o1 foo\n").error->message, HasSubstr("without its keyword"));
+    EXPECT_THAT(run("o1 if [1] G0 X1\no1 endif\n").error->message, HasSubstr("nothing may follow"));
+}
+
+TEST(GcodeFlow, M73TakesTheModesUpAtTheReturn) {
+    const Ran ran = run("o1 sub\nM73\nG20 G91\no1 endsub\no1 call\nG0 X1\nX1\n");
+    EXPECT_FALSE(ran.state.modal.inches);
+    EXPECT_DOUBLE_EQ(ran.state.machine[0], 1);
+}
+
+TEST(GcodeFlow, LineEndsAreLfCrOrBoth) {
+    for (const char* text :
+         {"G0 X1\nG91\nX1", "G0 X1\r\nG91\r\nX1\r\n", "G0 X1\r\r\nG91\r\r\nX1\r\r\n", "G0 X1\rG91\rX1"}) {
+        EXPECT_DOUBLE_EQ(end_of(text)[0], 2);
+    }
+}
+
+TEST(GcodeFlow, AChecksumIsCompared) {
+    EXPECT_DOUBLE_EQ(end_of("G0 X1*62\n")[0], 1);
+    EXPECT_THAT(run("G0 X1*55\n").error->message, HasSubstr("checksum"));
+}
+
+}  // namespace
+}  // namespace lockstep::gcode
