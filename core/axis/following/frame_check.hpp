@@ -3,17 +3,10 @@
 
 #include "core/faults.hpp"
 #include "core/machine.hpp"
-#include "core/motion/strain.hpp"
+#include "core/motion/piece_check.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
-
-/// Where a trajectory is at an instant, as it is handed from frame to frame.
-struct MotionPoint {
-    Position position;
-    double velocity = 0;  // steps per tick, as the continuous motion has it
-    Strain strain;        // what sudden changes have added up to
-};
 
 /// Checks a frame's track for one axis that follows on from `from`:
 /// - its start is bit-exactly `from.position` (FrameDiscontinuous);

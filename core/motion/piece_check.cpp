@@ -1,0 +1,64 @@
+#include "core/motion/piece_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+constexpr double kRounding = 1e-6;          // relative: what integers make of doubles
+constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: what they make of the speeds at a piece's ends
+
+/// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
+constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
+
+/// What one tick's acceleration can do where pieces meet.
+double one_tick(const AxisLimits& limits) { return 2 * std::max(limits.max_acceleration, limits.max_deceleration); }
+
+bool within_speed(double velocity, const AxisLimits& limits) {
+    return std::abs(velocity) <= limits.max_velocity * (1 + kRounding) + one_tick(limits);
+}
+
+bool within_acceleration(double before, double after, double ticks, const AxisLimits& limits) {
+    const bool speeds_up = std::abs(after) > std::abs(before);
+    const double most = speeds_up ? limits.max_acceleration : limits.max_deceleration;
+    return std::abs(after - before) <= most * ticks * (1 + kRounding) + kSpeedRounding;
+}
+
+bool within_travel(Position at, const AxisLimits& limits) {
+    return at.count() >= limits.min_steps && at.count() <= limits.max_steps;
+}
+
+bool within_strain(const Strain& strain, const AxisLimits& limits) {
+    return strain.most() <= limits.start_velocity * (1 + kRounding) + one_tick(limits);
+}
+
+}  // namespace
+
+FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, MotionPoint& point) {
+    const double steepest = std::max(limits.max_acceleration, limits.max_deceleration);
+    for (const Piece& piece : pieces) {
+        if (piece.ticks.value <= 0 || piece.ticks.value > kMaxPieceTicks) { return FaultCode::BadProgram; }
+        const double a = piece.acceleration.steps_per_tick2();
+        const double before = piece.velocity.steps_per_tick() + a / 2;
+        const auto ticks = static_cast<double>(piece.ticks.value);
+        const double after = before + a * ticks;
+        Strain strain = point.strain;
+        strain.add(before - point.velocity, 0, steepest);
+        const bool fits = within_speed(before, limits) && within_speed(after, limits) &&
+                          within_acceleration(before, after, ticks, limits) && within_strain(strain, limits);
+        if (!fits) { return FaultCode::FrameBeyondLimits; }
+        strain.add(after - before, ticks, steepest * (1 + kRounding));
+        point = {point.position + piece.covered(), after, strain};
+        if (!within_travel(point.position, limits)) { return FaultCode::FrameOutsideTravel; }
+    }
+    return FaultCode::None;
+}
+
+bool may_rest(const MotionPoint& end, const AxisLimits& limits) {
+    Strain strain = end.strain;
+    strain.add(-end.velocity, 0, 0);
+    return within_strain(strain, limits);
+}
+
+}  // namespace lockstep
