@@ -1,0 +1,155 @@
+#include "core/path/arc_cutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+constexpr double kTolerance_steps = 0.1;  // of the pieces, besides the half step of the pulses
+constexpr double kPieceError = 0.008;     // of the radius and the cube of the angle
+constexpr double kSameDirection = 1e-9;   // sine: the ends of a whole circle
+constexpr double kQuarter = 1.5707963267948966;
+
+/// A unit vector in the plane of the arc, turned as the arc turns.
+struct Direction {
+    double x = 0;
+    double y = 0;
+    Direction quarter_on() const { return {-y, x}; }
+    double dot(Direction o) const { return x * o.x + y * o.y; }
+    double cross(Direction o) const { return x * o.y - y * o.x; }
+};
+
+Direction unit(double x, double y) {
+    const double length = std::sqrt(x * x + y * y);
+    return {x / length, y / length};
+}
+
+Direction between(Direction a, Direction b) { return unit(a.x + b.x, a.y + b.y); }
+
+/// The angle from a to b, below a quarter: halved until the series of the arc sine is exact to 1e-16.
+double angle_between(Direction a, Direction b) {
+    double scale = 1;
+    for (int halvings = 0; halvings < 8; ++halvings, scale *= 2) { b = between(a, b); }
+    const double sine = a.cross(b);
+    const double square = sine * sine;
+    return scale * sine * (1 + square * (1.0 / 6 + square * (3.0 / 40)));
+}
+
+class ArcCut {
+public:
+    ArcCut(const PathSetup& setup, const PathArc& arc, const AxisVector& from, std::vector<Quadratic>& out)
+        : setup_(setup), arc_(arc), from_(from), to_(setup.to_steps(arc.to_mm)), out_(out) {}
+
+    std::expected<void, std::string> cut(const Quadratic& pattern) {
+        pattern_ = pattern;
+        const Direction begin = direction(from_, radius_begin_);
+        const Direction end = direction(to_, radius_end_);
+        if (!(radius_begin_ > 0) || !(radius_end_ > 0)) {
+            return std::unexpected(std::string("the arc's centre is one of its ends; its radius must be above 0 mm"));
+        }
+        const int quarters = quarters_between(begin, end);
+        const double part = angle_between(turned(begin, quarters), end);
+        const bool has_part = part > kSameDirection;
+        const int all = quarters + 4 * (arc_.turns - 1);
+        sweep_ = all * kQuarter + (has_part ? part : 0);
+        at_ = from_;
+        for (int k = 0; k < all; ++k) {
+            const Direction a = turned(begin, k);
+            const bool is_last = k + 1 == all && !has_part;
+            halve(a, a.quarter_on(), k * kQuarter, kQuarter, is_last);
+        }
+        if (has_part) { halve(turned(begin, quarters), end, all * kQuarter, part, true); }
+        return {};
+    }
+
+private:
+    Direction direction(const AxisVector& at, double& radius_mm) const {
+        const double x = at[arc_.first] / setup_.steps_per_mm[arc_.first] - arc_.centre_first_mm;
+        const double y = at[arc_.second] / setup_.steps_per_mm[arc_.second] - arc_.centre_second_mm;
+        radius_mm = std::sqrt(x * x + y * y);
+        return unit(x, arc_.is_clockwise ? -y : y);
+    }
+
+    static Direction turned(Direction a, int quarters) {
+        for (int k = 0; k < quarters % 4; ++k) { a = a.quarter_on(); }
+        return a;
+    }
+
+    /// Whole quarters from one direction to the other: 1 to 4 where they are the same, else 0 to 3.
+    static int quarters_between(Direction a, Direction b) {
+        if (a.dot(b) > 0 && std::abs(a.cross(b)) <= kSameDirection) { return 4; }
+        int quarters = 0;
+        while (!(a.dot(b) > 0 && a.cross(b) >= -kSameDirection)) {
+            a = a.quarter_on();
+            ++quarters;
+        }
+        return quarters;
+    }
+
+    /// The piece from direction a to b, `angle` apart, `done` behind the arc's begin; halved until it is short enough.
+    void halve(Direction a, Direction b, double done, double angle, bool is_last) {
+        const double scale = std::max(setup_.steps_per_mm[arc_.first], setup_.steps_per_mm[arc_.second]);
+        const double radius = std::max(radius_begin_, radius_end_);
+        const Direction middle = between(a, b);
+        if (kPieceError * radius * scale * angle * angle * angle > kTolerance_steps) {
+            halve(a, middle, done, angle / 2, false);
+            halve(middle, b, done + angle / 2, angle / 2, is_last);
+            return;
+        }
+        piece(place(middle, done + angle / 2), is_last ? to_ : place(b, done + angle));
+    }
+
+    AxisVector place(Direction d, double done) const {
+        const double share = done / sweep_;
+        AxisVector at = from_;
+        for (std::size_t i = 0; i < at.size(); ++i) { at[i] += (to_[i] - from_[i]) * share; }
+        const double radius = radius_begin_ + (radius_end_ - radius_begin_) * share;
+        const double y = arc_.is_clockwise ? -d.y : d.y;
+        at[arc_.first] = (arc_.centre_first_mm + radius * d.x) * setup_.steps_per_mm[arc_.first];
+        at[arc_.second] = (arc_.centre_second_mm + radius * y) * setup_.steps_per_mm[arc_.second];
+        return at;
+    }
+
+    /// The length is the chord's and what the arc is longer: 8/3 of the square of its height over the chord.
+    void piece(const AxisVector& middle, const AxisVector& end) {
+        Quadratic piece = pattern_;
+        const double chord = distance_mm(at_, end, setup_.steps_per_mm);
+        AxisVector half_way = at_;
+        for (std::size_t i = 0; i < at_.size(); ++i) { half_way[i] = (at_[i] + end[i]) / 2; }
+        const double height = distance_mm(half_way, middle, setup_.steps_per_mm);
+        piece.length = chord + 8 * height * height / (3 * chord);
+        piece.from = at_;
+        piece.slope = piece.bend = at_;
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            piece.slope[i] = (end[i] - at_[i]) / piece.length;
+            piece.bend[i] = -8 * (middle[i] - half_way[i]) / (piece.length * piece.length);
+        }
+        piece.is_straight = false;
+        at_ = end;
+        out_.push_back(piece);
+    }
+
+    const PathSetup& setup_;
+    const PathArc& arc_;
+    AxisVector from_;
+    AxisVector to_;
+    std::vector<Quadratic>& out_;
+    Quadratic pattern_;
+    double radius_begin_ = 0;  // mm
+    double radius_end_ = 0;    // mm
+    double sweep_ = 0;         // rad, of the whole arc
+    AxisVector at_;            // where the next piece begins
+};
+
+}  // namespace
+
+std::expected<void, std::string> cut_arc(const PathSetup& setup, const PathArc& arc, const AxisVector& from,
+                                         const MoveSettings& settings, std::int32_t line, std::vector<Quadratic>& out) {
+    Quadratic pattern;
+    pattern.feed_mm_per_tick = settings.feed_mm_per_tick;
+    pattern.line = line;
+    return ArcCut(setup, arc, from, out).cut(pattern);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,42 @@
+// The quadratic that follows a polyline best between two places, and whether it follows it closely enough.
+//
+// With z(u) the polyline's place from the start, D the whole way and L its length, the square of the distance is least
+// for
+//
+//     bend = (M1', M2' as integrals of z u and z u^2)  [ (M2 - L M1) / 2 + D L^3 / 24 ] 120 / L^5
+//
+// Running sums of both integrals make a bend cost the same for every length.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/path/path_point.hpp"
+#include "core/path/quadratic.hpp"
+#include "core/path/sliding_vector.hpp"
+
+namespace lockstep {
+
+class ChordFit {
+public:
+    /// A piece begins at the place `from` (steps), in place of the point with index `first`.
+    void begin(std::size_t first, const AxisVector& from);
+
+    /// The piece over `count` chords that ends at `to`. False: it deviates from the polyline by more than
+    /// `tolerance_steps` of an axis, at a vertex or the middle of a chord.
+    bool fit(const SlidingVector<PathPoint>& points, std::size_t count, const AxisVector& to,
+             std::span<const double> tolerance_steps, Quadratic& piece);
+
+private:
+    void extend(const SlidingVector<PathPoint>& points, std::size_t count);
+    void bend(std::size_t count, Quadratic& piece) const;
+    bool is_close(const SlidingVector<PathPoint>& points, std::size_t count, std::span<const double> tolerance_steps,
+                  const Quadratic& piece) const;
+
+    std::size_t first_ = 0;
+    AxisVector from_;
+    std::size_t summed_ = 0;    // chords in the sums
+    std::vector<double> sums_;  // M1 and M2 of each axis up to each vertex
+};
+
+}  // namespace lockstep

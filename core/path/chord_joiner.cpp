@@ -1,0 +1,205 @@
+#include "core/path/chord_joiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+constexpr double kCornerTurn = 0.060627287;  // 1 - cos(0.35)
+constexpr double kShift = 1.0 / 16;
+constexpr double kMostShift = 0.95;  // of the tolerance
+
+}  // namespace
+
+void ChordJoiner::begin(const AxisVector& at) {
+    points_.clear();
+    points_.push_back({.at = at});
+    end_ = start_at_ = at;
+    start_ = behind_ = ahead_ = scanned_ = needed_ = 0;
+    measured_ = found_ = guess_ = 1;
+    is_fit_begun_ = false;
+}
+
+void ChordJoiner::add(const AxisVector& to, const MoveSettings& settings, std::int32_t line,
+                      std::vector<Quadratic>& out) {
+    end_ = to;
+    const double length = distance_mm(points_.back().at, to, setup_.steps_per_mm);
+    if (length < kLeast_mm) { return; }
+    points_.push_back({.at = to, .along = points_.back().along + length, .settings = settings, .line = line});
+    join(false, out);
+}
+
+void ChordJoiner::finish(const AxisVector& end, std::vector<Quadratic>& out) {
+    const std::size_t last = points_.size() - 1;
+    if (last > start_) {
+        const double length = distance_mm(points_[last - 1].at, end, setup_.steps_per_mm);
+        if (length >= kLeast_mm) {
+            points_[last].at = end;
+            points_[last].along = points_[last - 1].along + length;
+            points_[last - 1].is_end = last - 1 > start_;
+        }
+        join(true, out);
+    }
+    begin(end);
+}
+
+void ChordJoiner::join(bool is_end, std::vector<Quadratic>& out) {
+    measure_turns(is_end);
+    find_corners(is_end);
+    while (start_ + 1 < points_.size()) {
+        const Reach limit = reach(is_end);
+        if (limit.chords == 0 || (!limit.is_decided && limit.chords < needed_)) { break; }
+        Quadratic piece;
+        const std::size_t chords = longest(limit, piece);
+        if (chords == 0) { break; }
+        piece.line = points_[start_ + 1].line;
+        piece.feed_mm_per_tick = points_[start_ + 1].settings.feed_mm_per_tick;
+        start_at_ = end_at(start_ + chords);
+        out.push_back(piece);
+        guess_ = chords;
+        start_ += chords;
+        is_fit_begun_ = false;
+        needed_ = 0;
+        drop_passed();
+    }
+}
+
+/// A turn is known when the path is known for kLook_mm behind its vertex.
+void ChordJoiner::measure_turns(bool is_end) {
+    for (; measured_ + 1 < points_.size(); ++measured_) {
+        const double along = points_[measured_].along;
+        if (!is_end && points_.back().along - along < kLook_mm) { return; }
+        while (behind_ + 1 < measured_ && along - points_[behind_ + 1].along >= kLook_mm) { ++behind_; }
+        ahead_ = std::max(ahead_, measured_ + 1);
+        while (ahead_ + 1 < points_.size() && points_[ahead_].along - along < kLook_mm) { ++ahead_; }
+        points_[measured_].turn = turn_at(measured_);
+    }
+}
+
+double ChordJoiner::turn_at(std::size_t k) const {
+    const AxisVector& a = points_[behind_].at;
+    const AxisVector& b = points_[k].at;
+    const AxisVector& c = points_[ahead_].at;
+    double dot = 0;
+    double square0 = 0;
+    double square1 = 0;
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        const double d0 = (b.begin()[i] - a.begin()[i]) / setup_.steps_per_mm[i];
+        const double d1 = (c.begin()[i] - b.begin()[i]) / setup_.steps_per_mm[i];
+        dot += d0 * d1;
+        square0 += d0 * d0;
+        square1 += d1 * d1;
+    }
+    const double product = square0 * square1;
+    return product > 0 ? 1 - dot / std::sqrt(product) : 2;
+}
+
+/// Whether a vertex is a corner is known when the turns within kLook_mm behind it are.
+void ChordJoiner::find_corners(bool is_end) {
+    for (; found_ < measured_; ++found_) {
+        if (!is_end && points_[measured_ - 1].along - points_[found_].along < kLook_mm) { return; }
+        points_[found_].is_corner = is_corner(found_);
+    }
+}
+
+bool ChordJoiner::is_corner(std::size_t k) const {
+    const PathPoint& point = points_[k];
+    if (point.turn <= kCornerTurn) { return false; }
+    for (std::size_t j = k; j-- > 1 && point.along - points_[j].along < kLook_mm;) {
+        if (points_[j].turn >= point.turn) { return false; }
+    }
+    for (std::size_t j = k + 1; j < measured_ && points_[j].along - point.along < kLook_mm; ++j) {
+        if (points_[j].turn > point.turn) { return false; }
+    }
+    return true;
+}
+
+/// To the next corner, change of settings, or the end; by single chords where the path is to be exact.
+ChordJoiner::Reach ChordJoiner::reach(bool is_end) {
+    const MoveSettings& settings = points_[start_ + 1].settings;
+    const std::size_t last = points_.size() - 1;
+    scanned_ = std::max(scanned_, start_ + 1);
+    for (;; ++scanned_) {
+        if (scanned_ == last) { return {is_end ? last - start_ : found_ - 1 - start_, is_end}; }
+        if (scanned_ >= found_) { return {found_ - 1 - start_, false}; }
+        const PathPoint& point = points_[scanned_];
+        const bool is_far = scanned_ - start_ >= kMaxChords || point.along - points_[start_].along >= kMaxLength_mm;
+        const bool is_break = point.is_corner || point.is_end || points_[scanned_ + 1].settings != settings;
+        if (is_far || is_break || settings.mode != PathMode::Blend) { return {scanned_ - start_, true}; }
+    }
+}
+
+bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
+    Quadratic piece;
+    if (!fit_.fit(points_, chords, end_at(start_ + chords), tolerance_steps_, piece)) { return false; }
+    best = piece;
+    return true;
+}
+
+/// Doubles the last piece's length until the fit fails, then bisects. 0: more points must be known for that.
+std::size_t ChordJoiner::longest(const Reach& limit, Quadratic& best) {
+    if (!is_fit_begun_) {
+        tolerance_steps_ = tolerance_of(points_[start_ + 1].settings);
+        fit_.begin(start_, start_at_);
+        is_fit_begun_ = true;
+    }
+    std::size_t good = 0;
+    std::size_t bad = limit.chords + 1;
+    for (std::size_t chords = guess_; good < limit.chords || !limit.is_decided; chords = 2 * good) {
+        if (!limit.is_decided && chords > limit.chords) {
+            needed_ = chords;
+            return 0;
+        }
+        chords = std::min(chords, limit.chords);
+        if (!try_chords(chords, best)) {
+            bad = chords;
+            break;
+        }
+        good = chords;
+    }
+    while (bad - good > 1) {
+        const std::size_t middle = (good + bad) / 2;
+        (try_chords(middle, best) ? good : bad) = middle;
+    }
+    return good;
+}
+
+/// The place of a piece's end at a vertex.
+AxisVector ChordJoiner::end_at(std::size_t k) const {
+    AxisVector at = points_[k].at;
+    if (k + 1 == points_.size() || points_[k].is_corner) { return at; }
+    const MoveSettings& settings = points_[k].settings;
+    if (settings.mode != PathMode::Blend || points_[k + 1].settings.mode != PathMode::Blend) { return at; }
+    const double before = points_[k].along - points_[k - 1].along;
+    const double after = points_[k + 1].along - points_[k].along;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const double turn = (points_[k + 1].at[i] - at[i]) / after - (at[i] - points_[k - 1].at[i]) / before;
+        const double most = kMostShift * tolerance_steps_[i];
+        at[i] += std::clamp(kShift * std::min(before, after) * turn, -most, most);
+    }
+    return at;
+}
+
+std::vector<double> ChordJoiner::tolerance_of(const MoveSettings& settings) const {
+    std::vector<double> steps;
+    for (const double per_mm : setup_.steps_per_mm) {
+        const double whole = std::max(1.0, settings.tolerance_mm * per_mm);
+        steps.push_back(whole - kPulseShare - kFitShare - kRoundingShare);
+    }
+    return steps;
+}
+
+/// Keeps what turns and corners yet to be found look back at.
+void ChordJoiner::drop_passed() {
+    const std::size_t used = std::min({start_, behind_, found_ - 1});
+    std::size_t first = 0;
+    while (first < used && points_[found_].along - points_[first + 1].along >= kLook_mm) { ++first; }
+    if (first < 64) { return; }
+    points_.drop_front(first);
+    for (std::size_t* index : {&start_, &measured_, &found_, &behind_, &ahead_, &scanned_}) {
+        *index -= std::min(*index, first);
+    }
+}
+
+}  // namespace lockstep

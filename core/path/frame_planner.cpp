@@ -1,0 +1,217 @@
+#include "core/path/frame_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+/// The first part of a piece, of so many ticks; the rest remains.
+Piece cut_front(Piece& piece, Ticks ticks) {
+    const Piece front{ticks, piece.velocity, piece.acceleration};
+    piece.velocity.raw += ticks.value * piece.acceleration.raw;
+    piece.ticks = piece.ticks - ticks;
+    return front;
+}
+
+double to_double(Ticks t) { return static_cast<double>(t.value); }
+Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(ticks - 0x1p-20))}; }
+
+}  // namespace
+
+void FramePlanner::begin(std::span<const Position> at) {
+    at_ = {};
+    for (const Position& position : at) { at_.points.push_back({position, 0, {}}); }
+    held_tail_.begin(0);
+    has_begun_ = is_done_ = is_traced_ = false;
+}
+
+/// The path in time from the cursor to behind the frame. False: it is not known so far; the next call goes on from
+/// there.
+bool FramePlanner::trace() {
+    if (!is_traced_) { path_.begin(at_.begin); }
+    is_traced_ = true;
+    const double enough = to_double(setup_.frame_ticks) + kMargin_ticks;
+    const auto& passed = path_.passages();
+    double w0 = passed.empty() ? at_.w0 : passed.back().w1;
+    std::size_t k = passed.empty() ? at_.interval : passed.back().interval + 1;
+    for (; k < window_.known() && path_.end() < enough; ++k) {
+        const Interval& part = window_.interval(k);
+        double w1 = std::min(window_.reach_behind(k), window_.bounds(part).after(w0));
+        if (at_.w1 && k == at_.interval) { w1 = *at_.w1; }
+        path_.pass(window_.shape_of(part), part, k, w0, w1);
+        w0 = w1;
+    }
+    if (path_.end() >= enough) { return true; }
+    if (!window_.is_finished()) { return false; }
+    path_.rest();
+    return true;
+}
+
+Ticks FramePlanner::end_of_frame() const {
+    return std::min(setup_.frame_ticks, std::max(rounded_up(path_.end()), Ticks{1}));
+}
+
+std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
+    if (!has_begun_) {
+        if (window_.known() == window_.first()) {
+            is_done_ = window_.is_finished();
+            return std::nullopt;
+        }
+        at_.interval = window_.first();
+        at_.w0 = window_.interval(at_.interval).reach;
+        has_begun_ = true;
+    }
+    const std::int32_t line = window_.shape_of(window_.interval(at_.interval)).line;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        if (!trace()) { return std::nullopt; }
+        PathFrame frame{.ticks = end_of_frame(), .line = line};
+        frame.last = window_.is_finished() && path_.passages().back().interval + 1 == window_.end() &&
+                     rounded_up(path_.end()) <= frame.ticks;
+        Cursor behind;
+        std::optional<FitFailure> failure = fit_body(frame, behind);
+        if (!failure && !frame.last && !fit_tail(frame, behind)) { failure = FitFailure{frame.ticks, false}; }
+        if (!failure) {
+            take(std::move(behind));
+            is_done_ = frame.last;
+            std::swap(held_tail_, tail_);
+            last_ = frame;
+            return frame;
+        }
+        slow_down(*failure, frame.ticks, attempt);
+    }
+    if (held_tail_.phases().empty()) { return std::unexpected(PathStuck{line}); }
+    return brake(line);
+}
+
+/// The tail of the last frame, piece by piece, is always a way to go on. At its end the machine rests.
+PathFrame FramePlanner::brake(std::int32_t line) {
+    PathFrame frame{.ticks = setup_.frame_ticks, .line = line, .axes = std::move(last_.axes)};
+    Cursor behind = cursor_at(held_tail_, frame.ticks, true);
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        AxisTrack& track = frame.axes[i];
+        track = {.from = at_.points[i].position, .body = {}, .tail = track.tail};
+        Ticks left = frame.ticks;
+        while (left > Ticks{} && !track.tail.empty()) {
+            const bool is_whole = track.tail[0].ticks <= left;
+            track.body.append(is_whole ? track.tail[0] : cut_front(track.tail[0], left));
+            left = left - track.body.back().ticks;
+            if (is_whole) { track.tail.erase_front(1); }
+        }
+        if (left > Ticks{}) { track.body.append({left, {}, {}}); }
+        behind.points.push_back(at_.points[i]);
+        check(check_pieces({track.body.begin(), track.body.size()}, setup_.limits[i], behind.points[i]) ==
+                  FaultCode::None,
+              "a tail keeps the limits");
+    }
+    held_tail_.shift(frame.ticks);
+    take(std::move(behind));
+    last_ = frame;
+    return frame;
+}
+
+std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next) {
+    std::vector<std::vector<Piece>> pieces(setup_.axes());
+    std::vector<MotionPoint> points = at_.points;
+    frame.axes.resize(setup_.axes());
+    for (std::size_t i = 0; i < setup_.axes(); ++i) { frame.axes[i].from = points[i].position; }
+    PieceFit fit(setup_, path_);
+    if (const auto failure = fit.fit(frame.ticks, kMaxBodyPieces, points, pieces)) { return failure; }
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        for (const Piece& piece : pieces[i]) { frame.axes[i].body.append(piece); }
+        if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
+    }
+    next = frame.last ? Cursor{.interval = window_.end()} : cursor_at(path_, frame.ticks, false);
+    next.points = std::move(points);
+    return std::nullopt;
+}
+
+/// A straight interval can be left anywhere; on a curved one the limits hold at its middle, so it is finished as
+/// planned.
+FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
+    const double at = to_double(t);
+    const auto& passages = path.passages();
+    std::size_t m = passages.size() - 1;
+    while (m > 0 && passages[m].begin > at) { --m; }
+    const Passage& passage = passages[m];
+    Cursor cursor{.interval = passage.interval, .begin = passage.begin - at, .w0 = passage.w0, .w1 = passage.w1};
+    if (!is_braking && window_.interval(passage.interval).kind != IntervalKind::Straight) { return cursor; }
+    std::size_t k = passage.first_phase;
+    const auto& phases = path.phases();
+    while (k + 1 < phases.size() && phases[k + 1].interval == passage.interval && phases[k].end() <= at) { ++k; }
+    const double speed = phases[k].speed(at);
+    cursor.begin = 0;
+    cursor.w0 = speed * speed;
+    cursor.w1.reset();
+    cursor.u = phases[k].along(at);
+    return cursor;
+}
+
+/// From the cursor the interval in progress is gone through as planned, the others as slowly as can be.
+void FramePlanner::trace_tail(const Cursor& from) {
+    tail_.begin(from.begin);
+    double w0 = from.w0;
+    for (std::size_t k = from.interval; k < window_.end(); ++k) {
+        Interval part = window_.interval(k);
+        if (part.kind == IntervalKind::Rest) { break; }
+        const Quadratic& shape = window_.shape_of(part);
+        if (k == from.interval && !from.w1) { part.from = from.u; }
+        const bool is_under_way = k == from.interval && from.w1;
+        const double w1 = is_under_way ? *from.w1 : window_.bounds(part).least_after(w0);
+        if (w1 <= 0) {
+            tail_.brake(shape, part, k, w0, w1);
+            break;
+        }
+        tail_.pass(shape, part, k, w0, w1);
+        w0 = w1;
+    }
+    tail_.rest();
+}
+
+bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
+    trace_tail(from);
+    const Ticks end = rounded_up(tail_.end());
+    if (tail_.phases().empty() || end <= Ticks{}) { return true; }
+    std::vector<std::vector<Piece>> pieces(setup_.axes());
+    std::vector<MotionPoint> points = from.points;
+    PieceFit fit(setup_, tail_);
+    if (fit.fit(end, kMaxTailPieces, points, pieces)) { return false; }
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        for (const Piece& piece : pieces[i]) { frame.axes[i].tail.append(piece); }
+        if (!may_rest(points[i], setup_.limits[i])) { return false; }
+    }
+    return true;
+}
+
+/// Lowers the speeds at the nodes before a place, but not below what the hardest braking from the frame's beginning
+/// gives. A frame that is full before its end is slowed down as a whole, by as much as it lacks.
+void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt) {
+    ++slowed_;
+    is_traced_ = false;
+    const double at = to_double(failure.at);
+    const double share = at / to_double(ticks);
+    const double slower = failure.is_full ? std::clamp(share * share, kSlowest, kSlower) : kSlower;
+    const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
+    const double to = failure.is_full ? to_double(ticks) : at;
+    double least = at_.w0;
+    std::size_t last = at_.interval;
+    for (const Passage& passage : path_.passages()) {
+        const bool is_fixed = passage.interval == at_.interval && at_.w1;
+        const Interval& part = window_.interval(passage.interval);
+        least = is_fixed ? *at_.w1 : std::max(0.0, window_.bounds(part).least_after(least));
+        last = passage.interval;
+        if (!is_fixed && passage.begin >= from) { window_.lower(last + 1, std::max(slower * passage.w1, least)); }
+        if (passage.begin > to + kMargin_ticks) { break; }
+    }
+    window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));
+}
+
+void FramePlanner::take(Cursor next) {
+    is_traced_ = false;
+    at_ = std::move(next);
+    const bool is_cut = !at_.w1 && at_.interval < window_.end();
+    if (is_cut) { window_.cut(at_.interval, at_.u, at_.w0); }
+    window_.drop_before(at_.interval);
+}
+
+}  // namespace lockstep

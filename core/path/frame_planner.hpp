@@ -1,0 +1,84 @@
+// Frames of a path: for each frame the pieces of all axes, and the tail that brings them to rest on the path.
+//
+// A frame is made when the path is known far enough (SpeedWindow::known). Where no pieces keep an axis's limits, or a
+// frame or a tail would need more pieces than it can carry, the path is slowed down before that place and the frame is
+// made again. The speed at the beginning of the frame is fixed then; no speed is asked for that braking cannot reach
+// from there.
+#pragma once
+
+#include <expected>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/path/piece_fit.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+/// What a Frame carries of the path.
+struct PathFrame {
+    Ticks ticks;
+    bool last = false;      // the path ends with it, at rest
+    std::int32_t line = 0;  // of the program, in which it begins
+    std::vector<AxisTrack> axes;
+};
+
+/// Not even from rest a frame keeps the limits: they contradict each other.
+struct PathStuck {
+    std::int32_t line = 0;
+};
+
+class FramePlanner {
+public:
+    FramePlanner(const PathSetup& setup, SpeedWindow& window) : setup_(setup), window_(window) {}
+
+    /// The axes rest at `at`, where the window's path begins.
+    void begin(std::span<const Position> at);
+    /// The next frame; nothing while too little of the path is known. Not after the last one.
+    std::expected<std::optional<PathFrame>, PathStuck> next();
+    bool is_done() const { return is_done_; }
+    /// Frames that had to be made again, slower.
+    std::int64_t slowed() const { return slowed_; }
+
+private:
+    /// Where a frame begins.
+    struct Cursor {
+        std::size_t interval = 0;
+        double begin = 0;  // of the interval, in ticks from the frame's: at most 0
+        double w0 = 0;
+        std::optional<double> w1;  // the interval is under way: it is finished as it was planned
+        double u = 0;              // Straight: where the frame begins
+        std::vector<MotionPoint> points;
+    };
+
+    bool trace();
+    Ticks end_of_frame() const;
+    std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
+    bool fit_tail(PathFrame& frame, const Cursor& from);
+    void trace_tail(const Cursor& from);
+    Cursor cursor_at(const TimedPath& path, Ticks t, bool is_braking) const;
+    void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
+    PathFrame brake(std::int32_t line);
+    void take(Cursor next);
+
+    static constexpr int kAttempts = 16;
+    static constexpr double kSlower = 0.7;             // of the square of the speed
+    static constexpr double kSlowest = 0.2;            // at once
+    static constexpr std::int64_t kSlowTicks = 8192;   // before a place without pieces the path is slowed for so long
+    static constexpr std::int64_t kMargin_ticks = 64;  // that the path must be known for behind a frame
+
+    const PathSetup& setup_;
+    SpeedWindow& window_;
+    Cursor at_;
+    TimedPath path_;
+    TimedPath tail_;
+    TimedPath held_tail_;  // of the last frame
+    PathFrame last_;
+    bool is_traced_ = false;  // path_ begins at the cursor
+    bool has_begun_ = false;
+    bool is_done_ = false;
+    std::int64_t slowed_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,84 @@
+#include "core/path/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kNothing = 1e-12;          // steps per mm: an axis that does not move
+constexpr double kCurvedSpeedShare = 0.99;  // of the greatest speed, on curves: room for the fit in time
+
+double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
+
+}  // namespace
+
+/// visit(slope - bend d, slope + bend d, 2 d a): for the axis's own bend, and for the one its joints charge.
+template <typename Visit>
+void IntervalBounds::each_axis(Visit visit) const {
+    const double d = interval_.length();
+    const double middle = (interval_.from + interval_.to) / 2;
+    for (std::size_t i = 0; i < setup_.limits.size(); ++i) {
+        const double slope = piece_.shape.slope_at(i, middle);
+        const double bend = piece_.shape.bend.begin()[i] * d;
+        const double change = 2 * d * weaker(setup_.limits[i]);
+        visit(slope - bend, slope + bend, change);
+        if (!piece_.is_charged) { continue; }
+        const double charged = piece_.charged.begin()[i] * d;
+        visit(slope - charged, slope + charged, change);
+    }
+}
+
+double IntervalBounds::before(double w1) const {
+    if (interval_.kind == IntervalKind::Rest) { return kUnbounded; }
+    if (interval_.kind == IntervalKind::Straight) { return w1 + 2 * interval_.deceleration * interval_.length(); }
+    double w0 = kUnbounded;
+    each_axis([&](double t0, double t1, double change) {
+        if (std::abs(t0) < kNothing) { return; }
+        w0 = std::min(w0, (change + w1 * (t0 > 0 ? t1 : -t1)) / std::abs(t0));
+    });
+    return std::max(w0, 0.0);
+}
+
+double IntervalBounds::after(double w0) const {
+    if (interval_.kind == IntervalKind::Rest) { return kUnbounded; }
+    if (interval_.kind == IntervalKind::Straight) { return w0 + 2 * interval_.acceleration * interval_.length(); }
+    double w1 = kUnbounded;
+    each_axis([&](double t0, double t1, double change) {
+        if (std::abs(t1) < kNothing) { return; }
+        w1 = std::min(w1, (change + w0 * (t1 > 0 ? t0 : -t0)) / std::abs(t1));
+    });
+    return std::max(w1, 0.0);
+}
+
+double IntervalBounds::least_after(double w0) const {
+    if (interval_.kind == IntervalKind::Rest) { return 0; }
+    if (interval_.kind == IntervalKind::Straight) { return w0 - 2 * interval_.deceleration * interval_.length(); }
+    double w1 = -kUnbounded;
+    each_axis([&](double t0, double t1, double change) {
+        if (std::abs(t1) < kNothing) { return; }
+        w1 = std::max(w1, (w0 * (t1 > 0 ? t0 : -t0) - change) / std::abs(t1));
+    });
+    return w1;
+}
+
+double IntervalBounds::cap() const {
+    const Quadratic& shape = piece_.shape;
+    const bool has_feed = shape.feed_mm_per_tick > 0;
+    double w = has_feed ? shape.feed_mm_per_tick * shape.feed_mm_per_tick : kUnbounded;
+    for (std::size_t i = 0; i < setup_.limits.size(); ++i) {
+        const AxisLimits& axis = setup_.limits[i];
+        const double slope =
+            std::max(std::abs(shape.slope_at(i, interval_.from)), std::abs(shape.slope_at(i, interval_.to)));
+        double bend = std::abs(shape.bend.begin()[i]);
+        if (piece_.is_charged) { bend = std::max(bend, std::abs(piece_.charged.begin()[i])); }
+        const double speed = axis.max_velocity * (shape.is_straight ? 1 : kCurvedSpeedShare);
+        if (slope > kNothing) { w = std::min(w, speed * speed / (slope * slope)); }
+        if (bend > kNothing) { w = std::min(w, weaker(axis) / bend); }
+    }
+    return w;
+}
+
+}  // namespace lockstep

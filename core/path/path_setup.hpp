@@ -1,0 +1,31 @@
+// What the path planner must know of a machine.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/path/axis_vector.hpp"
+
+namespace lockstep {
+
+struct PathSetup {
+    std::vector<AxisLimits> limits;    // of frames: frame_limits_of
+    std::vector<double> steps_per_mm;  // or per degree
+    Ticks frame_ticks;                 // a frame's length: pieces end at the edges of frames
+
+    std::size_t axes() const { return limits.size(); }
+    AxisVector to_steps(std::span<const double> mm) const {
+        AxisVector steps;
+        for (std::size_t i = 0; i < axes(); ++i) { steps.append(mm[i] * steps_per_mm[i]); }
+        return steps;
+    }
+};
+
+/// How a programmed step of deviation is shared out. Whole pulses take a half; the pieces of constant acceleration get
+/// kFitShare; the rest is for joining moves, less a little for rounding.
+inline constexpr double kPulseShare = 0.5;      // steps
+inline constexpr double kFitShare = 0.03;       // steps
+inline constexpr double kRoundingShare = 0.01;  // steps
+
+}  // namespace lockstep

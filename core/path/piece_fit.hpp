@@ -1,0 +1,63 @@
+// Fits pieces of constant acceleration, common to all axes and in whole ticks, to a timed path.
+//
+// A piece lasts as long as it can: both of its ends are on the path, its acceleration is what the velocity changes by,
+// and it stays within kFitShare of the path, its speeds near the path's. The check that each axis makes of its frames
+// (core/motion/piece_check.hpp) decides about every piece. Pieces end where the path jumps, on the nearest tick, and at
+// the end of the stretch.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/motion/piece_check.hpp"
+#include "core/path/timed_path.hpp"
+
+namespace lockstep {
+
+/// A place where no piece keeps the limits, or where the pieces no longer fit in their frame.
+struct FitFailure {
+    Ticks at;  // from the begin of the frame
+    bool is_full = false;
+};
+
+class PieceFit {
+public:
+    PieceFit(const PathSetup& setup, const TimedPath& path);
+
+    /// Pieces for the ticks [0, end), at most `most` of them, added to pieces[axis]; `points` move along.
+    std::optional<FitFailure> fit(Ticks end, std::size_t most, std::span<MotionPoint> points,
+                                  std::span<std::vector<Piece>> pieces);
+
+private:
+    struct Stretch {
+        Ticks begin;
+        Ticks end;
+        std::size_t first = 0;  // phases: the one that its first velocity is of
+        std::size_t last = 0;
+    };
+
+    Ticks next_break(Ticks now, Ticks end) const;
+    Stretch stretch(Ticks begin, Ticks end) const;
+    bool is_close(const Stretch& stretch, std::size_t axis, double from, double v0, double a) const;
+    const PathPhase& phase_at(const Stretch& stretch) const;
+    double acceleration(const Stretch& stretch, std::size_t axis) const;
+    bool try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points);
+    Ticks longest(Ticks now, Ticks limit, std::span<const MotionPoint> points);
+    Ticks longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points);
+
+    static constexpr std::int64_t kShort_ticks = 32;  // no piece leaves so little for the next one
+    static constexpr double kSpeedTolerance = 0.01;   // of the start velocity
+
+    const PathSetup& setup_;
+    const TimedPath& path_;
+    std::size_t phase_ = 0;  // the last that begins at or before now
+    Ticks guess_;
+    double tolerance_ = 1;       // times kFitShare and kSpeedTolerance
+    std::vector<Piece> pieces_;  // of the last try that succeeded
+    std::vector<MotionPoint> points_;
+    std::vector<Piece> try_pieces_;
+    std::vector<MotionPoint> try_points_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,32 @@
+// A piece of geometry: each axis is a quadratic function of the way u along the piece.
+//
+//     x(u) = from + slope u + bend u (u - length) / 2,   0 <= u <= length
+//
+// so x(length) = from + slope length exactly, whatever the bend is. u counts mm of path (the speed |dx/du| is 1 mm per
+// mm up to the square of a small angle).
+#pragma once
+
+#include <cstdint>
+
+#include "core/path/axis_vector.hpp"
+#include "core/units.hpp"
+
+namespace lockstep {
+
+struct Quadratic {
+    AxisVector from;              // steps
+    AxisVector slope;             // of the chord, steps per mm
+    AxisVector bend;              // steps per mm^2; curvature times scale
+    double length = 0;            // mm; 0: a rest
+    double feed_mm_per_tick = 0;  // 0: as fast as the axes allow
+    bool is_straight = true;      // bend is 0
+    Ticks rest;                   // where length is 0: how long
+    std::int32_t line = 0;        // of the program, in which it begins
+
+    double place(std::size_t i, double u) const {
+        return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;
+    }
+    double slope_at(std::size_t i, double u) const { return slope.begin()[i] + bend.begin()[i] * (u - length / 2); }
+};
+
+}  // namespace lockstep

@@ -1,0 +1,39 @@
+// A vector that grows at its end and shrinks at its front: what a window over a stream keeps. Memory is reused.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace lockstep {
+
+template <typename T>
+class SlidingVector {
+public:
+    std::size_t size() const { return items_.size() - first_; }
+    bool empty() const { return size() == 0; }
+    T& operator[](std::size_t i) { return items_[first_ + i]; }
+    const T& operator[](std::size_t i) const { return items_[first_ + i]; }
+    T& front() { return items_[first_]; }
+    T& back() { return items_.back(); }
+    const T& back() const { return items_.back(); }
+    void push_back(const T& value) { items_.push_back(value); }
+
+    /// Moves the others down only when half of the memory is unused: amortized constant work for each element.
+    void drop_front(std::size_t count) {
+        first_ += count;
+        if (2 * first_ < items_.size()) { return; }
+        items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(first_));
+        first_ = 0;
+    }
+    void clear() {
+        items_.clear();
+        first_ = 0;
+    }
+
+private:
+    std::vector<T> items_;
+    std::size_t first_ = 0;
+};
+
+}  // namespace lockstep

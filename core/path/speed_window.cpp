@@ -1,0 +1,216 @@
+#include "core/path/speed_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kNothing = 1e-12;        // steps per mm
+constexpr double kMost = 1e6;             // w where nothing moves
+constexpr double kStopShare = 0.8;        // of the start velocity, where the path begins or ends: joints follow
+constexpr double kRestShare = 0.4;        // where it rests for a short time: two jumps follow each other
+constexpr std::size_t kChargedParts = 4;  // a straight piece whose joints are paid for needs nodes to change speed at
+
+double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
+
+/// The angle by which a piece turns, rad.
+double turn_of(const Quadratic& piece, std::span<const double> steps_per_mm) {
+    double square = 0;
+    for (std::size_t i = 0; i < steps_per_mm.size(); ++i) {
+        const double bend = piece.bend.begin()[i] / steps_per_mm[i];
+        square += bend * bend;
+    }
+    return std::sqrt(square) * piece.length;
+}
+
+}  // namespace
+
+void SpeedWindow::add(const Quadratic& piece) {
+    if (pending_) { close_pending(&piece); }
+    pending_ = piece;
+    if (end() - final_ >= due_) { look_ahead(); }
+}
+
+void SpeedWindow::finish() {
+    if (pending_) {
+        end_cap_ = joint(&*pending_, nullptr).cap;
+        close_pending(nullptr);
+    }
+    pending_.reset();
+    is_finished_ = true;
+    look_ahead();
+    final_ = end();
+}
+
+/// Of the ends of two pieces; null: the machine rests there.
+SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* after) const {
+    Joint joint{kMost, 0};
+    const bool is_stop = before == nullptr || after == nullptr;
+    const bool is_rest = (before != nullptr && before->length == 0) || (after != nullptr && after->length == 0);
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
+        const double t1 = after == nullptr || after->length == 0 ? 0 : after->slope_at(i, 0);
+        const double jump = std::abs(t1 - t0);
+        if (jump < kNothing) { continue; }
+        const double start = setup_.limits[i].start_velocity;
+        const double share = is_rest && !is_stop ? kRestShare : is_stop ? kStopShare : kJointShare;
+        const double speed = share * start / jump;
+        joint.cap = std::min(joint.cap, speed * speed);
+        joint.turn = std::max(joint.turn, jump / start);
+    }
+    return joint;
+}
+
+/// A straight piece gone through as fast as its limits and joints allow: how it can recover jumps of speed.
+struct SpeedWindow::FastPassage {
+    double v0 = 0;  // mm per tick
+    double v1 = 0;
+    double rise = 0;  // ticks
+    double cruise = 0;
+    double fall = 0;
+    double acceleration = 0;  // mm per tick^2
+
+    FastPassage(double w0, double w1, double top, double a, double length) : v0(std::sqrt(w0)), acceleration(a) {
+        w1 = std::min(w1, w0 + 2 * a * length);
+        v1 = std::sqrt(w1);
+        const double peak = std::sqrt(std::max({std::min((w0 + w1) / 2 + a * length, top), w0, w1}));
+        rise = (peak - v0) / a;
+        fall = std::max(peak - v1, 0.0) / a;
+        cruise = std::max(0.0, length - (v0 + peak) / 2 * rise - (v1 + peak) / 2 * fall) / peak;
+    }
+
+    /// What an axis of this slope and acceleration limit recovers of jumps up (or down), in steps per tick.
+    double recovers(double slope, double limit, bool is_up) const {
+        const double along = (is_up ? slope : -slope) * acceleration;
+        return (limit - along) * rise + limit * cruise + (limit + along) * fall;
+    }
+};
+
+/// Jumps from and to rest stand alone. Of the others, each piece recovers half of those at its ends, so that they never
+/// add up to more than one. Where it is too short for that, what its joints turn counts as bend, spread over the piece.
+void SpeedWindow::charge(JoinedPiece& piece, const Joint& begin, const Joint& end, const Quadratic* next) const {
+    const Quadratic& shape = piece.shape;
+    const Interval whole{.kind = IntervalKind::Curved, .to = shape.length};
+    const double top = IntervalBounds(setup_, piece, whole).cap();
+    double path_acceleration = kUnbounded;
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        const double slope = std::abs(shape.slope.begin()[i]);
+        if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
+    }
+    const FastPassage fast(std::min(begin.cap, top), std::min(end.cap, top), top, path_acceleration, shape.length);
+    const bool follows = before_ && before_->length > 0;
+    const bool goes_on = next != nullptr && next->length > 0;
+    piece.charged = shape.bend;
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        const double turn0 = follows ? shape.slope_at(i, 0) - before_->slope_at(i, before_->length) : 0;
+        const double turn1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
+        const double jumps = (turn0 * fast.v0 + turn1 * fast.v1) / 2;
+        const double recovered =
+            shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
+        if (std::abs(jumps) > recovered) { piece.is_charged = true; }
+        piece.charged[i] += (turn0 + turn1) / (2 * shape.length);
+    }
+}
+
+void SpeedWindow::close_pending(const Quadratic* next) {
+    JoinedPiece piece{.shape = *pending_};
+    const Joint begin = joint(before_ ? &*before_ : nullptr, &*pending_);
+    if (piece.shape.length > 0) { charge(piece, begin, joint(&*pending_, next), next); }
+    cut_piece(piece, begin);
+    before_ = pending_;
+}
+
+void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin) {
+    const Quadratic& shape = piece.shape;
+    pieces_.push_back(piece);
+    Interval part{.piece = first_piece_ + pieces_.size() - 1, .turn = begin.turn};
+    double cap = begin.cap;
+    std::size_t parts = 1;
+    if (shape.length == 0) {
+        part.kind = IntervalKind::Rest;
+    } else if (shape.is_straight && !piece.is_charged) {
+        part.kind = IntervalKind::Straight;
+        part.acceleration = part.deceleration = kUnbounded;
+        for (std::size_t i = 0; i < setup_.axes(); ++i) {
+            const double slope = std::abs(shape.slope.begin()[i]);
+            if (slope <= kNothing) { continue; }
+            part.acceleration = std::min(part.acceleration, setup_.limits[i].max_acceleration / slope);
+            part.deceleration = std::min(part.deceleration, setup_.limits[i].max_deceleration / slope);
+        }
+    } else {
+        const double by_length = shape.length / kMaxInterval_mm;
+        const double by_turn = turn_of(shape, setup_.steps_per_mm) / kMaxTurn;
+        parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
+        if (shape.is_straight) { parts = std::max(parts, kChargedParts); }
+    }
+    for (std::size_t k = 0; k < parts; ++k) {
+        part.from = shape.length * static_cast<double>(k) / static_cast<double>(parts);
+        part.to =
+            k + 1 == parts ? shape.length : shape.length * static_cast<double>(k + 1) / static_cast<double>(parts);
+        part.top = part.kind == IntervalKind::Rest ? kMost : IntervalBounds(setup_, piece, part).cap();
+        part.cap = std::min(cap, part.top);
+        if (k == 0 && !intervals_.empty()) { part.cap = std::min(part.cap, intervals_.back().top); }
+        intervals_.push_back(part);
+        cap = part.top;
+        part.turn = 0;
+    }
+}
+
+double SpeedWindow::reach_behind(std::size_t number) const {
+    if (number + 1 < end()) { return interval(number + 1).reach; }
+    return is_finished_ ? std::min(end_cap_, interval(number).top) : 0;
+}
+
+std::size_t SpeedWindow::known() const {
+    if (is_finished_) { return end(); }
+    return final_ > first_ ? final_ - 1 : first_;
+}
+
+void SpeedWindow::update(std::size_t first, std::size_t last) {
+    for (std::size_t k = last + 1; k-- > first;) {
+        Interval& part = intervals_[k - first_];
+        part.reach = std::min(part.cap, bounds(part).before(reach_behind(k)));
+    }
+}
+
+/// A place whose reach is all that its own limits allow does not depend on what follows.
+void SpeedWindow::look_ahead() {
+    if (final_ < end()) { update(final_, end() - 1); }
+    std::size_t last = end();
+    while (last > final_ && interval(last - 1).reach < interval(last - 1).cap) { --last; }
+    if (end() - last >= kMaxOpen) { last = end() - kMaxOpen / 2; }
+    final_ = last;
+    due_ = std::max(2 * (end() - final_), kLeastPass);
+}
+
+void SpeedWindow::cut(std::size_t number, double u, double w) {
+    Interval& part = intervals_[number - first_];
+    part.from = u;
+    part.cap = part.reach = w;
+    part.turn = 0;
+}
+
+void SpeedWindow::lower(std::size_t number, double cap) {
+    if (number == end()) {
+        end_cap_ = std::min(end_cap_, cap);
+    } else {
+        Interval& part = intervals_[number - first_];
+        part.cap = std::min(part.cap, cap);
+    }
+}
+
+void SpeedWindow::drop_before(std::size_t number) {
+    const std::size_t piece = number < end() ? interval(number).piece : first_piece_ + pieces_.size();
+    intervals_.drop_front(number - first_);
+    while (first_piece_ < piece) {
+        pieces_.pop_front();
+        ++first_piece_;
+    }
+    first_ = number;
+    final_ = std::max(final_, first_);
+}
+
+}  // namespace lockstep

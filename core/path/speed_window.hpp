@@ -1,0 +1,85 @@
+// Look-ahead: how fast the path may be at each place, in a window that moves with the motion.
+//
+// Pieces of geometry go in at the end, and are cut into intervals. A backward pass from rest at the end of what is
+// known finds each interval's `reach`. Where it meets the limit that the place itself has, nothing behind can change
+// what is before: up to there it is final. So the result does not depend on when pieces arrived, bit for bit, and the
+// window is as long as the way to rest needs. A pass runs when what is not final has doubled: amortized constant work
+// for each piece.
+//
+// A joint of two pieces is a sudden change of each axis's speed by the difference of its slopes times the speed. It is
+// at most kJointShare of the start velocity. Joints that follow each other faster than the acceleration recovers their
+// jumps are paid for like curvature (core/motion/strain.hpp has the rule).
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/path/interval.hpp"
+#include "core/path/sliding_vector.hpp"
+
+namespace lockstep {
+
+class SpeedWindow {
+public:
+    explicit SpeedWindow(const PathSetup& setup) : setup_(setup) {}
+
+    /// A piece that begins where the last one ends; length 0: a rest.
+    void add(const Quadratic& piece);
+    /// The path ends at rest where the last piece ends. Everything is final then.
+    void finish();
+    bool is_finished() const { return is_finished_; }
+
+    /// Numbers since the beginning: intervals from first() up to end() are kept, those up to known() have a final end.
+    std::size_t first() const { return first_; }
+    std::size_t end() const { return first_ + intervals_.size(); }
+    std::size_t known() const;
+    const Interval& interval(std::size_t number) const { return intervals_[number - first_]; }
+    const JoinedPiece& piece_of(const Interval& part) const { return pieces_[part.piece - first_piece_]; }
+    const Quadratic& shape_of(const Interval& part) const { return piece_of(part).shape; }
+    IntervalBounds bounds(const Interval& part) const { return {setup_, piece_of(part), part}; }
+    /// The greatest w at the end of an interval from which all that follows can be kept.
+    double reach_behind(std::size_t number) const;
+
+    /// A straight interval begins at u from now on, at `w`.
+    void cut(std::size_t number, double u, double w);
+    /// Lowers the cap of an interval's beginning, or of the end of the path.
+    void lower(std::size_t number, double cap);
+    /// Finds reach anew for the intervals [first, last].
+    void update(std::size_t first, std::size_t last);
+    /// Forgets what is before an interval.
+    void drop_before(std::size_t number);
+
+    static constexpr double kJointShare = 0.975;  // of the start velocity
+    static constexpr double kMaxInterval_mm = 0.25;
+    static constexpr double kMaxTurn = 0.06;        // rad within an interval
+    static constexpr std::size_t kMaxOpen = 16384;  // intervals that are not final: half of more are made final
+
+private:
+    struct Joint {
+        double cap = 0;  // w
+        double turn = 0;
+    };
+    struct FastPassage;
+
+    void close_pending(const Quadratic* next);
+    Joint joint(const Quadratic* before, const Quadratic* after) const;
+    void charge(JoinedPiece& piece, const Joint& begin, const Joint& end, const Quadratic* next) const;
+    void cut_piece(const JoinedPiece& piece, const Joint& begin);
+    void look_ahead();
+
+    PathSetup setup_;
+    std::deque<JoinedPiece> pieces_;  // phases refer to them
+    SlidingVector<Interval> intervals_;
+    std::size_t first_ = 0;
+    std::size_t first_piece_ = 0;
+    std::optional<Quadratic> pending_;  // the last piece: what follows it is not known
+    std::optional<Quadratic> before_;   // the piece before that
+    std::size_t final_ = 0;             // intervals that are: all before
+    std::size_t due_ = kLeastPass;      // a pass runs when so many are not
+    double end_cap_ = 0;                // w at the end of the path, once it is finished
+    bool is_finished_ = false;
+
+    static constexpr std::size_t kLeastPass = 32;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,69 @@
+// The path in time: phases of constant du/dt^2, in ticks from the begin of a frame.
+#pragma once
+
+#include <vector>
+
+#include "core/path/speed_window.hpp"
+
+namespace lockstep {
+
+/// Constant acceleration along one piece of geometry.
+struct PathPhase {
+    const Quadratic* shape = nullptr;
+    std::size_t interval = 0;  // its number
+    double begin = 0;          // ticks
+    double ticks = 0;
+    double u = 0;         // mm, at its beginning
+    double v = 0;         // mm per tick
+    double a = 0;         // mm per tick^2
+    bool breaks = false;  // a jump of speed that no piece of constant acceleration may pass over
+
+    double end() const { return begin + ticks; }
+    /// At a time, which is taken to be within the phase: place (mm) and speed (mm per tick) along the piece.
+    double along(double t) const;
+    double speed(double t) const;
+    /// Place (steps) and velocity (steps per tick) of an axis.
+    double place(std::size_t i, double t) const { return shape->place(i, along(t)); }
+    double velocity(std::size_t i, double t) const { return shape->slope_at(i, along(t)) * speed(t); }
+};
+
+/// An interval as it is gone through.
+struct Passage {
+    std::size_t interval = 0;
+    double begin = 0;  // ticks
+    double w0 = 0;
+    double w1 = 0;
+    std::size_t first_phase = 0;
+};
+
+class TimedPath {
+public:
+    /// Begins anew, at a time.
+    void begin(double ticks);
+    /// Goes through an interval, `number`, with the speeds' squares w0 and w1 at its ends.
+    void pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1);
+    /// Brakes to rest within an interval: least_after(w0) is `w1`, below 0.
+    void brake(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1);
+    /// Times count from `ticks` on.
+    void shift(Ticks ticks);
+    /// The machine rests from the end of the last phase on.
+    void rest();
+
+    /// Behind the last interval, or when it came to rest.
+    double end() const { return end_; }
+    const std::vector<PathPhase>& phases() const { return phases_; }
+    const std::vector<Passage>& passages() const { return passages_; }
+
+private:
+    void add(const Quadratic& shape, std::size_t number, double mm, double u, double w0, double w1);
+    void add_phase(const PathPhase& phase);
+
+    static constexpr double kBreak = 0.05;  // of the start velocity: a greater jump is not passed over
+
+    std::vector<PathPhase> phases_;
+    std::vector<Passage> passages_;
+    double end_ = 0;
+    bool breaks_ = false;  // at the beginning of the next phase
+};
+
+}  // namespace lockstep

@@ -1,0 +1,137 @@
+// What every planned path keeps: the limits of the axes, the program within a step, and exact ends.
+#include "tests/property/path/path_run.hpp"
+
+namespace lockstep {
+namespace {
+
+std::vector<TestAxis> random_axes(Random& random, std::size_t count) {
+    std::vector<TestAxis> axes;
+    for (std::size_t i = 0; i < count; ++i) {
+        TestAxis axis{log_uniform(random, 20, 800), log_uniform(random, 0.5, 15), log_uniform(random, 20, 200),
+                      log_uniform(random, 200, 8000), 0};
+        axis.deceleration = random() % 2 == 0 ? axis.acceleration : log_uniform(random, 200, 8000);
+        axes.push_back(axis);
+    }
+    return axes;
+}
+
+double thousandth(double mm) { return std::round(mm * 1000) / 1000; }
+
+/// Moves in all directions, of all lengths; or a winding line of short chords.
+TestProgram random_program(Random& random, std::size_t axes, bool winds) {
+    TestProgram program;
+    Place at(axes, 0);
+    double heading = 0;
+    double feed = log_uniform(random, 5, 200);
+    for (int k = 0; k < (winds ? 1500 : 150); ++k) {
+        if (random() % 50 == 0) { feed = log_uniform(random, 5, 200); }
+        const double length = winds ? 0.03 : log_uniform(random, 0.02, 20);
+        heading += uniform(random, -0.1, 0.1);
+        for (std::size_t i = 0; i < axes; ++i) {
+            const double part = winds ? std::cos(heading + static_cast<double>(i)) : uniform(random, -1, 1);
+            at[i] = thousandth(at[i] + part * length);
+        }
+        program.add(at, feed);
+        MoveSettings& settings = program.moves.back().settings;
+        if (random() % 40 == 0) { settings.mode = PathMode::ExactStop; }
+        if (random() % 20 == 0) { settings.mode = PathMode::ExactPath; }
+        if (random() % 100 == 0) { settings.feed_mm_per_tick = 0; }
+    }
+    return program;
+}
+
+struct Case {
+    PathSetup setup;
+    TestProgram program;
+};
+
+Case random_case(std::uint64_t seed) {
+    Random random(seed);
+    const std::size_t axes = 1 + random() % 4;
+    const Ticks frame{random() % 3 == 0 ? 5'000 : 230'000};
+    const PathSetup setup = setup_of(random_axes(random, axes), frame);
+    return {setup, random_program(random, axes, random() % 2 == 0)};
+}
+
+class RandomPath : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomPath, KeepsTheLimitsOfEveryAxisInFramesAndTails) {
+    const Case c = random_case(GetParam());
+    expect_within_limits(c.setup, run_path(c.setup, c.program));
+}
+
+TEST_P(RandomPath, FollowsTheProgramWithinHalfAStepAndEndsExactly) {
+    const Case c = random_case(GetParam());
+    const PathRun run = run_path(c.setup, c.program);
+    const std::vector<Place> polyline = c.program.polyline(c.setup);
+    const std::vector<Place> places = samples_of(run, 4'000);
+    EXPECT_EQ(first_astray(places, polyline, 0.5), std::nullopt);
+    for (std::size_t i = 0; i < c.setup.axes(); ++i) {
+        EXPECT_NEAR(places.back()[i], std::round(polyline.back()[i]), 1e-6) << "axis " << i;
+    }
+}
+
+/// What pulses add is half a step more.
+TEST_P(RandomPath, ComesWithinAStepOfEveryProgrammedPlace) {
+    const Case c = random_case(GetParam());
+    EXPECT_EQ(first_astray(c.program.polyline(c.setup), samples_of(run_path(c.setup, c.program), 200), 1.0),
+              std::nullopt);
+}
+
+TEST_P(RandomPath, DoesNotDependOnWhenMovesArrive) {
+    const Case c = random_case(GetParam());
+    Random random(GetParam());
+    const PathRun one_by_one = run_path(c.setup, c.program);
+    const PathRun all = run_path(c.setup, c.program, [](std::size_t) { return false; });
+    const PathRun some = run_path(c.setup, c.program, [&](std::size_t) { return random() % 7 == 0; });
+    for (const PathRun* other : {&all, &some}) {
+        ASSERT_EQ(other->frames.size(), one_by_one.frames.size());
+        for (std::size_t k = 0; k < all.frames.size(); ++k) {
+            ASSERT_EQ(other->frames[k].ticks, one_by_one.frames[k].ticks) << "frame " << k;
+            ASSERT_EQ(other->frames[k].axes, one_by_one.frames[k].axes) << "frame " << k;
+        }
+    }
+}
+
+TEST_P(RandomPath, HasTailsThatEndOnThePath) {
+    const Case c = random_case(GetParam());
+    const PathRun run = run_path(c.setup, c.program);
+    const std::vector<Place> polyline = c.program.polyline(c.setup);
+    const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 40);
+    for (std::size_t k = 0; k < run.frames.size(); k += every) {
+        Place rest;
+        for (const AxisTrack& track : run.frames[k].axes) {
+            Position at = track.from;
+            for (const Piece& piece : track.body) { at = at + piece.covered(); }
+            for (const Piece& piece : track.tail) { at = at + piece.covered(); }
+            rest.push_back(at.as_steps());
+        }
+        double least = 1e300;
+        for (std::size_t s = 0; s + 1 < polyline.size(); ++s) {
+            least = std::min(least, distance(rest, polyline[s], polyline[s + 1]));
+        }
+        EXPECT_LE(least, 0.5) << "frame " << k;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, testing::Range<std::uint64_t>(1, 25));
+
+TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    PathRun run;
+    std::size_t waiting = 0;
+    for (int k = 1; k <= 100'000; ++k) {
+        const double angle = 0.0005 * k;
+        planner.line({{20 * std::sin(angle), 20 - 20 * std::cos(angle), 0.5 * std::sin(3 * angle)}},
+                     {.feed_mm_per_tick = 100e-6}, k);
+        run.frames.clear();
+        ASSERT_NO_FATAL_FAILURE(drain(planner, run));
+        waiting = std::max(waiting, planner.waiting());
+    }
+    EXPECT_LT(waiting, 500U);
+}
+
+}  // namespace
+}  // namespace lockstep

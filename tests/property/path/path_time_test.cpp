@@ -1,0 +1,143 @@
+// How long paths take: the same however finely they are cut, and as long as the limits ask for.
+#include <numbers>
+
+#include "tests/property/path/path_run.hpp"
+#include "tests/property/path/slow_solver.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kFeed = 100;  // mm/s
+
+double thousandth(double mm) { return std::round(mm * 1000) / 1000; }
+
+std::vector<slow::Axis> slow_axes() { return {{10, 150, 1500}, {10, 150, 1500}, {4, 25, 300}}; }
+
+double seconds_of(const TestProgram& program) {
+    const PathSetup setup = setup_of(mill());
+    const PathRun run = run_path(setup, program);
+    expect_within_limits(setup, run);
+    return run.seconds();
+}
+
+/// In chords of `mm`, places rounded as CAM programs write them.
+TestProgram cut_line(double length, double mm) {
+    TestProgram program;
+    const int parts = static_cast<int>(std::lround(length / mm));
+    for (int k = 1; k <= parts; ++k) {
+        const double s = length * k / parts;
+        program.add({thousandth(0.8 * s), thousandth(0.6 * s), 0}, kFeed);
+    }
+    return program;
+}
+
+TEST(PathTime, OfALineIsTheSameHoweverItIsCut) {
+    const double whole = seconds_of(cut_line(200, 200));
+    for (const double mm : {0.01, 0.05, 0.1, 0.2, 1.0, 7.0}) {
+        EXPECT_NEAR(seconds_of(cut_line(200, mm)), whole, 0.001 * whole) << mm << " mm";
+    }
+}
+
+/// Two turns, in chords that are `error_mm` inside at their middles.
+TestProgram cut_circle(double radius, double error_mm) {
+    TestProgram program;
+    const double all = 4 * std::numbers::pi;
+    const int parts = static_cast<int>(std::ceil(all / (2 * std::acos(1 - error_mm / radius))));
+    for (int k = 1; k <= parts; ++k) {
+        const double angle = all * k / parts;
+        program.add({thousandth(radius * std::cos(angle) - radius), thousandth(radius * std::sin(angle)), 0}, kFeed);
+    }
+    return program;
+}
+
+double seconds_of_arc(double radius) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    const PathArc arc{.first = 0, .second = 1, .centre_first_mm = -radius, .turns = 2, .to_mm = {0, 0, 0}};
+    EXPECT_TRUE(planner.arc(arc, {.feed_mm_per_tick = kFeed * 1e-6}, 1));
+    planner.finish();
+    PathRun run;
+    drain(planner, run);
+    expect_within_limits(setup, run);
+    return run.seconds();
+}
+
+TEST(PathTime, OfACircleIsTheSameFromChordsAndFromAnArc) {
+    for (const double radius : {5.0, 20.0, 60.0}) {
+        const double whole = seconds_of_arc(radius);
+        for (const double error_mm : {0.0002, 0.001, 0.005}) {
+            EXPECT_NEAR(seconds_of(cut_circle(radius, error_mm)), whole, 0.01 * whole)
+                << "radius " << radius << " error " << error_mm;
+        }
+    }
+}
+
+TEST(PathTime, OfACircleIsNearTheLeast) {
+    for (const double radius : {5.0, 20.0, 60.0}) {
+        std::vector<slow::Place> places;
+        const int parts = static_cast<int>(4 * std::numbers::pi * radius / 0.002);
+        for (int k = 0; k <= parts; ++k) {
+            const double angle = 4 * std::numbers::pi * k / parts;
+            places.push_back({radius * std::cos(angle) - radius, radius * std::sin(angle), 0});
+        }
+        const slow::Grid grid = slow::grid_of_curve(places);
+        const double least = slow::Solver(grid, slow_axes(), kFeed).seconds();
+        EXPECT_LT(seconds_of_arc(radius), 1.01 * least) << radius;
+        EXPECT_GT(seconds_of_arc(radius), 0.995 * least) << radius;
+        EXPECT_LT(seconds_of(cut_circle(radius, 0.001)), 1.01 * least) << radius;
+    }
+}
+
+slow::Place on_spline(double share) {
+    const double q = 2 * std::numbers::pi * share;
+    return {30 * std::sin(q) + 5 * std::sin(5 * q), 30 * std::cos(q) - 30 + 5 * std::sin(3 * q), 2 * std::sin(2 * q)};
+}
+
+TEST(PathTime, OfASplineIsNearTheLeast) {
+    std::vector<slow::Place> places;
+    for (int k = 0; k <= 100'000; ++k) { places.push_back(on_spline(k / 1e5)); }
+    const slow::Grid grid = slow::grid_of_curve(places);
+    const double least = slow::Solver(grid, slow_axes(), kFeed).seconds();
+    for (const int parts : {400, 4'000, 20'000}) {
+        TestProgram program;
+        for (int k = 1; k <= parts; ++k) {
+            const slow::Place at = on_spline(static_cast<double>(k) / parts);
+            program.add({thousandth(at[0]), thousandth(at[1]), thousandth(at[2])}, kFeed);
+        }
+        const double seconds = seconds_of(program);
+        EXPECT_LT(seconds, 1.01 * least) << parts;
+        EXPECT_GT(seconds, 0.99 * least) << parts;
+    }
+}
+
+TEST(PathTime, OfRandomPolylinesIsNearTheLeast) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        Random random(seed);
+        for (const double size : {3.0, 10.0, 30.0}) {
+            TestProgram program;
+            std::vector<slow::Place> corners{{0, 0, 0}};
+            for (int k = 0; k < 100; ++k) {
+                slow::Place at = corners.back();
+                for (const std::size_t i : {0U, 1U, 2U}) {
+                    at[i] = thousandth(at[i] + uniform(random, -1, 1) * size * (i == 2 ? 0.1 : 1));
+                }
+                corners.push_back(at);
+                program.add(at, kFeed);
+            }
+            const slow::Grid grid = slow::grid_of_polyline(corners, 0.002);
+            const double least = slow::Solver(grid, slow_axes(), kFeed).seconds();
+            EXPECT_LT(seconds_of(program), 1.01 * least) << "seed " << seed << " size " << size;
+            EXPECT_GT(seconds_of(program), 0.995 * least) << "seed " << seed << " size " << size;
+        }
+    }
+}
+
+TEST(PathTime, DoesNotGrowWithTheNumberOfPieces) {
+    const PathSetup setup = setup_of(mill());
+    EXPECT_LT(run_path(setup, cut_line(200, 0.01)).pieces_per_s(), 20);
+    EXPECT_LT(run_path(setup, cut_circle(20, 0.0002)).pieces_per_s(), 100);
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,93 @@
+#include "core/path/arc_cutter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace lockstep {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+PathSetup mill() { return {std::vector<AxisLimits>(3), {80, 80, 400}, Ticks{1000}}; }
+
+/// The deviation of the pieces from a helix, in mm, and their length.
+struct Shape {
+    double deviation = 0;
+    double length = 0;
+    AxisVector end;
+};
+
+Shape shape_of(const std::vector<Quadratic>& pieces, double x, double y, double radius) {
+    Shape shape;
+    for (const Quadratic& piece : pieces) {
+        for (const double share : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+            const double u = share * piece.length;
+            const double r = std::hypot(piece.place(0, u) / 80 - x, piece.place(1, u) / 80 - y);
+            shape.deviation = std::max(shape.deviation, std::abs(r - radius));
+        }
+        shape.length += piece.length;
+        shape.end = piece.from;
+        for (std::size_t i = 0; i < 3; ++i) { shape.end[i] = piece.place(i, piece.length); }
+    }
+    return shape;
+}
+
+std::vector<Quadratic> cut(const PathArc& arc, const std::vector<double>& from_mm) {
+    std::vector<Quadratic> pieces;
+    EXPECT_TRUE(cut_arc(mill(), arc, mill().to_steps(from_mm), {}, 1, pieces));
+    return pieces;
+}
+
+TEST(ArcCutter, CutsAWholeCircleThatEndsWhereItBegins) {
+    const Shape shape = shape_of(cut({.centre_first_mm = 10, .to_mm = {0, 0, 0}}, {0, 0, 0}), 10, 0, 10);
+    EXPECT_LT(shape.deviation * 80, 0.11);
+    EXPECT_NEAR(shape.length, 20 * kPi, 1e-3);
+    EXPECT_NEAR(shape.end[0], 0, 1e-9);
+}
+
+TEST(ArcCutter, TurnsEitherWay) {
+    const double to = 10 - 10 * std::cos(1.0);
+    const double side = 10 * std::sin(1.0);
+    const PathArc clockwise{.centre_first_mm = 10, .is_clockwise = true, .to_mm = {to, side, 0}};
+    EXPECT_NEAR(shape_of(cut(clockwise, {0, 0, 0}), 10, 0, 10).length, 10, 1e-3);
+    const PathArc counter{.centre_first_mm = 10, .to_mm = {to, side, 0}};
+    EXPECT_NEAR(shape_of(cut(counter, {0, 0, 0}), 10, 0, 10).length, 10 * (2 * kPi - 1), 1e-3);
+}
+
+TEST(ArcCutter, CutsAHelixOfSeveralTurns) {
+    const PathArc arc{.centre_first_mm = 5, .turns = 3, .to_mm = {0, 0, 6}};
+    const std::vector<Quadratic> pieces = cut(arc, {0, 0, 0});
+    const Shape shape = shape_of(pieces, 5, 0, 5);
+    EXPECT_LT(shape.deviation * 80, 0.11);
+    EXPECT_NEAR(shape.length, std::hypot(30 * kPi, 6), 1e-3);
+    EXPECT_NEAR(shape.end[2], 2400, 1e-9);
+    EXPECT_NEAR(pieces[pieces.size() / 2].from[2], 1200, 1e-6);
+}
+
+TEST(ArcCutter, PiecesFollowEachOtherWithoutGaps) {
+    const std::vector<Quadratic> pieces =
+        cut({.centre_first_mm = 3, .centre_second_mm = 4, .to_mm = {6, 8, 1}}, {0, 0, 0});
+    for (std::size_t k = 1; k < pieces.size(); ++k) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Quadratic& before = pieces[k - 1];
+            EXPECT_NEAR(before.place(i, before.length), pieces[k].from[i], 1e-9);
+            EXPECT_NEAR(before.slope_at(i, before.length), pieces[k].slope_at(i, 0), 0.01 * 80);
+        }
+    }
+}
+
+TEST(ArcCutter, SpiralsWhereTheRadiiDiffer) {
+    const std::vector<Quadratic> pieces = cut({.centre_first_mm = 10, .to_mm = {8, 0, 0}}, {0, 0, 0});
+    const Quadratic& last = pieces.back();
+    EXPECT_NEAR(last.place(0, last.length), 8 * 80, 1e-9);
+}
+
+TEST(ArcCutter, RefusesAnArcWithoutARadius) {
+    std::vector<Quadratic> pieces;
+    EXPECT_FALSE(cut_arc(mill(), {.to_mm = {1, 0, 0}}, mill().to_steps(std::vector<double>{0, 0, 0}), {}, 1, pieces));
+}
+
+}  // namespace
+}  // namespace lockstep

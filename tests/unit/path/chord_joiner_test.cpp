@@ -1,0 +1,99 @@
+#include "core/path/chord_joiner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+PathSetup plane() { return {std::vector<AxisLimits>(2), {80, 80}, Ticks{1000}}; }
+
+struct Chords {
+    std::vector<std::pair<double, double>> to_mm;
+    MoveSettings settings;
+};
+
+std::vector<Quadratic> join(const Chords& chords) {
+    ChordJoiner joiner(plane());
+    joiner.begin(zeros(2));
+    std::vector<Quadratic> pieces;
+    for (const auto& [x, y] : chords.to_mm) { joiner.add({x * 80, y * 80}, chords.settings, 1, pieces); }
+    joiner.finish(joiner.at(), pieces);
+    return pieces;
+}
+
+double length_of(const std::vector<Quadratic>& pieces) {
+    double mm = 0;
+    for (const Quadratic& piece : pieces) { mm += piece.length; }
+    return mm;
+}
+
+TEST(ChordJoiner, MakesALineOfItsParts) {
+    Chords chords;
+    for (int k = 1; k <= 150; ++k) { chords.to_mm.emplace_back(0.08 * k, 0.06 * k); }
+    const std::vector<Quadratic> pieces = join(chords);
+    EXPECT_LE(pieces.size(), 10U);
+    for (const Quadratic& piece : pieces) { EXPECT_TRUE(piece.is_straight); }
+    EXPECT_NEAR(length_of(pieces), 15, 1e-9);
+}
+
+TEST(ChordJoiner, KeepsCornersExactly) {
+    Chords chords;
+    for (int k = 1; k <= 50; ++k) { chords.to_mm.emplace_back(0.1 * k, 0); }
+    for (int k = 1; k <= 50; ++k) { chords.to_mm.emplace_back(5, 0.1 * k); }
+    bool has_corner = false;
+    for (const Quadratic& piece : join(chords)) {
+        has_corner = has_corner || (piece.from[0] == 5 * 80 && piece.from[1] == 0);
+    }
+    EXPECT_TRUE(has_corner);
+}
+
+TEST(ChordJoiner, MakesCurvesOfChordsWithinTheTolerance) {
+    Chords chords;
+    for (int k = 1; k <= 400; ++k) {
+        chords.to_mm.emplace_back(20 * std::sin(0.005 * k), 20 - 20 * std::cos(0.005 * k));
+    }
+    const std::vector<Quadratic> pieces = join(chords);
+    EXPECT_LE(pieces.size(), 20U);
+    for (const Quadratic& piece : pieces) {
+        for (const double share : {0.1, 0.5, 0.9}) {
+            const double x = piece.place(0, share * piece.length) / 80;
+            const double y = piece.place(1, share * piece.length) / 80;
+            EXPECT_NEAR(std::hypot(x, y - 20), 20, 0.5 / 80);
+        }
+    }
+}
+
+TEST(ChordJoiner, JoinsNothingWhereThePathIsToBeExact) {
+    Chords chords{.to_mm = {}, .settings = {.mode = PathMode::ExactPath}};
+    for (int k = 1; k <= 20; ++k) { chords.to_mm.emplace_back(0.1 * k, 0.01 * (k % 2)); }
+    const std::vector<Quadratic> pieces = join(chords);
+    ASSERT_EQ(pieces.size(), 20U);
+    for (std::size_t k = 1; k < pieces.size(); ++k) {
+        EXPECT_DOUBLE_EQ(pieces[k].from[0], chords.to_mm[k - 1].first * 80);
+        EXPECT_DOUBLE_EQ(pieces[k].from[1], chords.to_mm[k - 1].second * 80);
+    }
+}
+
+TEST(ChordJoiner, JoinsMoreWithAWiderTolerance) {
+    Chords chords;
+    for (int k = 1; k <= 100; ++k) { chords.to_mm.emplace_back(5 * std::sin(0.1 * k), 5 - 5 * std::cos(0.1 * k)); }
+    const std::size_t narrow = join(chords).size();
+    chords.settings.tolerance_mm = 0.05;
+    EXPECT_LT(join(chords).size(), narrow / 2);
+}
+
+TEST(ChordJoiner, EndsPiecesWhereTheFeedChanges) {
+    ChordJoiner joiner(plane());
+    joiner.begin(zeros(2));
+    std::vector<Quadratic> pieces;
+    for (int k = 1; k <= 40; ++k) { joiner.add({8.0 * k, 0}, {.feed_mm_per_tick = k <= 20 ? 1e-4 : 2e-4}, k, pieces); }
+    joiner.finish(joiner.at(), pieces);
+    double slow_mm = 0;
+    for (const Quadratic& piece : pieces) { slow_mm += piece.feed_mm_per_tick < 1.5e-4 ? piece.length : 0; }
+    EXPECT_NEAR(slow_mm, 2, 1e-9);
+}
+
+}  // namespace
+}  // namespace lockstep

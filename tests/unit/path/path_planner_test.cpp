@@ -1,0 +1,118 @@
+#include "core/path/path_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/property/path/path_run.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr MoveSettings kFast{.feed_mm_per_tick = 100e-6};
+
+PathRun finish(PathPlanner& planner) {
+    planner.finish();
+    PathRun run;
+    drain(planner, run);
+    EXPECT_TRUE(planner.is_done());
+    return run;
+}
+
+TEST(PathPlanner, HasNoFramesWithoutMoves) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    EXPECT_TRUE(finish(planner).frames.empty());
+}
+
+TEST(PathPlanner, RestsOnWholeStepsAtTheEnd) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    planner.line({{1.23456, 2.34567, 0.12345}}, kFast, 1);
+    const Place end = samples_of(finish(planner), 1'000).back();
+    EXPECT_NEAR(end[0], 99, 1e-9);
+    EXPECT_NEAR(end[1], 188, 1e-9);
+    EXPECT_NEAR(end[2], 49, 1e-9);
+}
+
+/// Of the ticks in which no axis moves.
+std::int64_t ticks_at_rest(const PathRun& run) {
+    std::int64_t ticks = 0;
+    for (const PathFrame& frame : run.frames) {
+        for (std::size_t p = 0; p < frame.axes[0].body.size(); ++p) {
+            bool rests = true;
+            for (const AxisTrack& track : frame.axes) {
+                rests = rests && std::abs(track.body[p].covered().as_steps()) < 1e-3;
+            }
+            ticks += rests ? frame.axes[0].body[p].ticks.value : 0;
+        }
+    }
+    return ticks;
+}
+
+TEST(PathPlanner, RestsAsLongAsADwellLasts) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    planner.line({{5, 0, 0}}, kFast, 1);
+    planner.rest(Ticks{500'000}, 2);
+    planner.line({{10, 0, 0}}, kFast, 3);
+    EXPECT_NEAR(static_cast<double>(ticks_at_rest(finish(planner))), 500'000, 2);
+}
+
+TEST(PathPlanner, RestsBehindEachMoveWhereAskedTo) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    const MoveSettings stops{.feed_mm_per_tick = 100e-6, .mode = PathMode::ExactStop};
+    for (int k = 1; k <= 5; ++k) { planner.line({{1.0 * k, 0, 0}}, stops, k); }
+    EXPECT_NEAR(static_cast<double>(ticks_at_rest(finish(planner))),
+                static_cast<double>(5 * PathPlanner::kLeastRest.value), 10);
+}
+
+TEST(PathPlanner, KeepsTheLimitsThroughRests) {
+    const PathSetup setup = setup_of(mill(), Ticks{5'000});
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    for (int k = 1; k <= 30; ++k) {
+        planner.line({{k % 2 == 0 ? 0.0 : 3.0, 0.2 * k, 0}}, kFast, k);
+        planner.rest(Ticks{k % 3 == 0 ? 100 : 7'000}, k);
+    }
+    expect_within_limits(setup, finish(planner));
+}
+
+TEST(PathPlanner, MakesNoFrameWhileTheWayToStopIsNotKnown) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    planner.line({{150, 0, 0}}, kFast, 1);
+    const auto frame = planner.next();
+    ASSERT_TRUE(frame);
+    EXPECT_FALSE(*frame);
+}
+
+TEST(PathPlanner, GoesFromALineIntoAnArcAndOn) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    planner.line({{10, 0, 0}}, kFast, 1);
+    ASSERT_TRUE(planner.arc({.centre_first_mm = 10, .centre_second_mm = 10, .to_mm = {20, 10, 0}}, kFast, 2));
+    planner.line({{20, 30, 0}}, kFast, 3);
+    const PathRun run = finish(planner);
+    expect_within_limits(setup, run);
+    EXPECT_LT(run.seconds(), (10 + 5 * 3.1416 + 20) / 100 + 0.1) << "it slows down where the arc begins";
+}
+
+TEST(PathPlanner, BeginsAnewFromWhereItRests) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    planner.line({{5, 5, 0}}, kFast, 1);
+    (void)finish(planner);
+    std::vector<Position> at{Position::steps(400), Position::steps(400), Position::steps(0)};
+    planner.begin(at);
+    planner.line({{6, 5, 0}}, kFast, 2);
+    const PathRun run = finish(planner);
+    EXPECT_EQ(run.frames.front().axes[0].from, at[0]);
+    EXPECT_NEAR(samples_of(run, 1'000).back()[0], 480, 1e-9);
+}
+
+}  // namespace
+}  // namespace lockstep
