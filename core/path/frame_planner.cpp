@@ -105,6 +105,7 @@ PathFrame FramePlanner::brake(std::int32_t line) {
               "a tail keeps the limits");
     }
     held_tail_.shift(frame.ticks);
+    ++braked_;
     take(std::move(behind));
     last_ = frame;
     return frame;

@@ -40,6 +40,8 @@ public:
     bool is_done() const { return is_done_; }
     /// Frames that had to be made again, slower.
     std::int64_t slowed() const { return slowed_; }
+    /// Frames that went along the tail of the one before.
+    std::int64_t braked() const { return braked_; }
 
 private:
     /// Where a frame begins.
@@ -79,6 +81,7 @@ private:
     bool has_begun_ = false;
     bool is_done_ = false;
     std::int64_t slowed_ = 0;
+    std::int64_t braked_ = 0;
 };
 
 }  // namespace lockstep

@@ -36,6 +36,7 @@ public:
     std::expected<std::optional<PathFrame>, PathStuck> next() { return frames_.next(); }
     bool is_done() const { return frames_.is_done(); }
     std::int64_t slowed() const { return frames_.slowed(); }
+    std::int64_t braked() const { return frames_.braked(); }
     /// Intervals that wait for their frames: what memory depends on.
     std::size_t waiting() const { return window_.end() - window_.first(); }
 

@@ -136,7 +136,10 @@ Ticks PieceFit::longest(Ticks now, Ticks limit, std::span<const MotionPoint> poi
     const auto fits = [&](std::int64_t ticks) { return try_piece(now, now + Ticks{ticks}, points); };
     std::int64_t good = 0;
     std::int64_t bad = whole.value + 1;
-    std::int64_t ticks = std::clamp<std::int64_t>(guess_.value, 1, whole.value);
+    const PathPhase& phase = path_.phases()[phase_];
+    const auto left = static_cast<std::int64_t>(std::min(phase.end() - to_double(now), to_double(whole)));
+    const bool is_parabola = phase.shape->is_straight && left > kShort_ticks;
+    std::int64_t ticks = std::clamp<std::int64_t>(is_parabola ? left : guess_.value, 1, whole.value);
     while (good == 0 && ticks >= 1) {
         (fits(ticks) ? good : bad) = ticks;
         ticks /= 2;
@@ -145,7 +148,7 @@ Ticks PieceFit::longest(Ticks now, Ticks limit, std::span<const MotionPoint> poi
         const std::int64_t more = std::min(2 * good, whole.value);
         (fits(more) ? good : bad) = more;
     }
-    while (bad - good > std::max<std::int64_t>(good / 8, 1)) {
+    while (bad - good > std::max<std::int64_t>(good / 4, 1)) {
         const std::int64_t middle = (good + bad) / 2;
         (fits(middle) ? good : bad) = middle;
     }

@@ -76,7 +76,8 @@ struct TestProgram {
 
 struct PathRun {
     std::vector<PathFrame> frames;
-    std::int64_t slowed = 0;
+    std::int64_t slowed = 0;  // frames made again
+    std::int64_t braked = 0;  // frames that go along a tail
     std::size_t most_waiting = 0;
 
     double seconds() const {
@@ -100,6 +101,7 @@ inline void drain(PathPlanner& planner, PathRun& run) {
     }
     run.most_waiting = std::max(run.most_waiting, planner.waiting());
     run.slowed = planner.slowed();
+    run.braked = planner.braked();
 }
 
 /// `drains(k)`: whether frames are taken behind move k.
@@ -144,7 +146,7 @@ public:
     }
     void at(double v) {
         const double paid = steepest_ * (1 + 1e-5) * ticks_;
-        const double slack = limits_.start_velocity * (1 + 1e-5) + 2.1 * steepest_;
+        const double slack = limits_.start_velocity * (1 + 1e-5) + kTicks * steepest_;
         ASSERT_LE(v - paid, lowest_ + slack) << "at tick " << ticks_;
         ASSERT_GE(v + paid, highest_ - slack) << "at tick " << ticks_;
         lowest_ = std::min(lowest_, v - paid);
@@ -152,6 +154,10 @@ public:
     }
 
 private:
+    /// Pieces meet at whole ticks, which axes tolerate with two ticks' acceleration; the speeds at the ends of a piece
+    /// of one tick are its mean here, which is half a tick's acceleration off at each end.
+    static constexpr double kTicks = 3;
+
     AxisLimits limits_;
     double steepest_;
     double ticks_ = 0;

@@ -116,6 +116,43 @@ TEST_P(RandomPath, HasTailsThatEndOnThePath) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, testing::Range<std::uint64_t>(1, 25));
 
+/// Random short moves of axes that accelerate fast: more pieces than a frame has room for.
+TEST(PathFrames, AreSlowedDownWhereTheyHaveNoRoomForTheirPieces) {
+    std::vector<TestAxis> axes = mill();
+    for (TestAxis& axis : axes) {
+        axis.start_velocity = 1;
+        axis.acceleration = axis.deceleration = 15'000;
+    }
+    const PathSetup setup = setup_of(axes);
+    Random random(1);
+    TestProgram program;
+    double heading = 0;
+    Place at(3, 0);
+    for (int k = 0; k < 1'000; ++k) {
+        const double length = uniform(random, 0.05, 1);
+        heading += uniform(random, -0.4, 0.4);
+        at = {at[0] + length * std::cos(heading), at[1] + length * std::sin(heading), 0};
+        program.add(at, 100);
+    }
+    const PathRun run = run_path(setup, program);
+    std::size_t most = 0;
+    for (const PathFrame& frame : run.frames) { most = std::max(most, frame.axes[0].body.size()); }
+    EXPECT_GT(run.slowed, 0);
+    EXPECT_LE(most, kMaxBodyPieces);
+    EXPECT_GT(most, kMaxBodyPieces / 2);
+    expect_within_limits(setup, run);
+}
+
+/// The frames of this case are so short that slowing down comes too late in a few of them.
+TEST(PathFrames, GoAlongTheTailBeforeWhereNothingElseKeepsTheLimits) {
+    Case c = random_case(22);
+    c.setup.frame_ticks = Ticks{5'000};
+    const PathRun run = run_path(c.setup, c.program);
+    EXPECT_GT(run.braked, 0);
+    expect_within_limits(c.setup, run);
+    EXPECT_EQ(first_astray(samples_of(run, 4'000), c.program.polyline(c.setup), 0.5), std::nullopt);
+}
+
 TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
     const PathSetup setup = setup_of(mill());
     PathPlanner planner(setup);
