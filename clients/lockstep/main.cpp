@@ -27,6 +27,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_interrupts(app, action);
     add_override(app, action);
     add_down(app, action);
+    add_check(app, action);
     add_plan(app, action);
     add_simulate(app, action);
     add_analyze(app, action);

@@ -14,6 +14,7 @@ namespace lockstep {
 /// The action of the parsed command line; the verb sets it.
 using Action = std::function<ExitCode()>;
 
+void add_check(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);
 void add_simulate(CLI::App& app, Action& action);
 void add_analyze(CLI::App& app, Action& action);

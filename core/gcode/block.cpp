@@ -55,7 +55,7 @@ private:
             return reader_.fail(place, word_text(line_, place) + " repeats " + word_text(line_, block_.place(letter)) +
                                            "; a block has each word once");
         }
-        if (std::abs(value) > kMaxNumber) { return refuse_size(place); }
+        if (std::abs(value) > kMaxNumber && letter != 'F' && letter != 'S') { return refuse_size(place); }
         block_.set(letter, value, place);
     }
 

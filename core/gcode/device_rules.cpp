@@ -8,9 +8,11 @@ void ProgramBuilder::note(const std::string& kind, const std::string& text) {
 }
 
 void ProgramBuilder::unassigned(Unassigned rule, const std::string& what) {
-    if (rule == Unassigned::Ignore) { return note(what, what + " is not configured: its words are passed over"); }
+    if (rule == Unassigned::Ignore || setup_.switches.ignore_unassigned) {
+        return note(what, what + " is not configured: its words are passed over");
+    }
     errors_.push_back(interpreter_->line().error(
-        0, what + " is not configured on this machine; take the word out, or set `unassigned: IGNORE` for it"));
+        0, what + " is not configured on this machine; take the word out, or pass --ignore-unassigned"));
 }
 
 void ProgramBuilder::event(const Event& event) {

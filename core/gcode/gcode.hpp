@@ -39,8 +39,9 @@ struct GcodeAxis {
 };
 
 struct GcodeSwitches {
-    bool pause_at_m1 = false;    // optional stop
-    bool skip_deletable = true;  // block delete: lines that begin with / are not run
+    bool pause_at_m1 = false;        // optional stop
+    bool skip_deletable = true;      // block delete: lines that begin with / are not run
+    bool ignore_unassigned = false;  // words for devices that the machine does not have are passed over
 };
 
 /// What happens to a word for a device that is not configured.

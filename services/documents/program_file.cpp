@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/axis_unit.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/files/text_file.hpp"
 
@@ -21,17 +22,33 @@ bool is_start_of(const MachineConfig& machine, const std::vector<double>& start_
     return start_mm.size() == machine.axes.size() && std::ranges::all_of(start_mm, is_place);
 }
 
+/// Names with anything else could lead out of the directory.
+bool is_file_name(std::string_view name) {
+    return std::ranges::all_of(
+        name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
+}
+
+/// Half a step of the finest linear axis: a chord then leaves its curve by less than the steps do.
+double chord_tolerance(const MachineConfig& machine) {
+    double finest = 1;
+    for (const AxisConfig& axis : machine.axes) {
+        if (!is_rotary(axis.name)) { finest = std::max(finest, axis.steps_per_mm); }
+    }
+    return 0.5 / finest;
+}
+
+}  // namespace
+
 Diagnostics to_diagnostics(const std::vector<GcodeError>& errors) {
     Diagnostics diagnostics;
     for (const GcodeError& error : errors) { diagnostics.push_back({error.line, error.column, error.message}); }
     return diagnostics;
 }
 
-}  // namespace
-
 GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& start_mm, std::string program_name,
                        GcodeSwitches switches) {
     GcodeSetup setup{.program_name = std::move(program_name), .axes = {}, .switches = switches};
+    setup.chord_tolerance_mm = chord_tolerance(machine);
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];
         setup.axes.push_back({.name = axis.name,
@@ -43,17 +60,31 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     return setup;
 }
 
-std::expected<Program, Diagnostics> load_gcode_file(const std::filesystem::path& path, const MachineConfig& machine,
-                                                    const std::vector<double>& start_mm, GcodeSwitches switches) {
+std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
+                                                          const MachineConfig& machine,
+                                                          const std::vector<double>& start_mm, GcodeSwitches switches) {
     if (!is_start_of(machine, start_mm)) {
         return std::unexpected(Diagnostics{{.message = "the start is not one place in mm for each of the machine's " +
                                                        std::to_string(machine.axes.size()) + " axes"}});
     }
-    const auto text = read_text_file(path);
+    auto text = read_text_file(path);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
-    auto program = parse_gcode(*text, gcode_setup(machine, start_mm, printable(path.filename().string()), switches));
-    if (!program) { return std::unexpected(to_diagnostics(program.error())); }
-    return *std::move(program);
+    GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
+    setup.find_subroutine = [directory = path.parent_path()](std::string_view name) -> std::optional<std::string> {
+        if (!is_file_name(name)) { return std::nullopt; }
+        auto found = read_text_file(directory / (std::string(name) + ".ngc"));
+        return found ? std::optional(*std::move(found)) : std::nullopt;
+    };
+    auto reading = read_gcode(*text, setup);
+    if (!reading) { return std::unexpected(to_diagnostics(reading.error())); }
+    return ProgramFile{*std::move(text), std::move(setup), *std::move(reading)};
+}
+
+std::expected<Program, Diagnostics> load_gcode_file(const std::filesystem::path& path, const MachineConfig& machine,
+                                                    const std::vector<double>& start_mm, GcodeSwitches switches) {
+    auto file = read_program_file(path, machine, start_mm, switches);
+    if (!file) { return std::unexpected(file.error()); }
+    return std::move(file->reading.program);
 }
 
 }  // namespace lockstep

@@ -17,6 +17,21 @@ namespace lockstep {
 GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& start_mm, std::string program_name,
                        GcodeSwitches switches = {});
 
+/// A program's file, read for a machine: the text, what it was read with, and the result.
+struct ProgramFile {
+    std::string text;
+    GcodeSetup setup;
+    GcodeReading reading;
+};
+
+/// As load_gcode_file, with the words that were passed over and the program's messages. Subroutines that the text calls
+/// but does not contain are read from files name.ngc of its directory.
+std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
+                                                          const MachineConfig& machine,
+                                                          const std::vector<double>& start_mm,
+                                                          GcodeSwitches switches = {});
+Diagnostics to_diagnostics(const std::vector<GcodeError>& errors);
+
 /// `start_mm` is the position of each axis when the program begins, one number per axis of the machine. The program
 /// gets the file's name.
 std::expected<Program, Diagnostics> load_gcode_file(const std::filesystem::path& path, const MachineConfig& machine,

@@ -48,18 +48,21 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
 
 /// The whole program, for the machine's position; with --from-line, for the position at its first run.
 std::expected<Program, Failure> read(const RunOptions& options, const MachineConfig& machine,
-                                     const std::vector<double>& stands_mm) {
+                                     const std::vector<double>& stands_mm, Output& output) {
     const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
     if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
-    auto program = load_gcode_file(options.file, machine, *started, options.switches);
-    if (!program) { return std::unexpected(bad_file(options.file, program.error())); }
-    return *std::move(program);
+    auto file = read_program_file(options.file, machine, *started, options.switches);
+    if (!file) { return std::unexpected(bad_file(options.file, file.error())); }
+    for (const GcodeNote& note : file->reading.notes) {
+        output.warn("line " + std::to_string(note.line) + ": " + note.text);
+    }
+    return std::move(file->reading.program);
 }
 
 /// The program to run: all of it, or an approach and the rest, which is printed.
 std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
                                     const std::vector<double>& stands_mm, Output& output) {
-    auto program = read(options, machine, stands_mm);
+    auto program = read(options, machine, stands_mm, output);
     if (!program) { return std::unexpected(program.error()); }
     if (!options.is_restart()) { return Rest{*std::move(program), {}, {}}; }
     const GcodeSetup setup = gcode_setup(machine, program->start_mm, program->name, options.switches);
@@ -140,6 +143,8 @@ void add_run(CLI::App& app, Action& action) {
     add_restart_options(*verb, *options);
     add_detach(*verb, options->detach);
     verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
+    verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
+                   "pass over words for devices that the machine does not have, instead of refusing them");
     add_live_options(*verb, *options);
     verb->footer(kInterrupted +
                  footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"

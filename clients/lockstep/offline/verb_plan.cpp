@@ -5,10 +5,12 @@
 
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/figure_files.hpp"
+#include "clients/lockstep/offline/moves_csv.hpp"
 #include "clients/lockstep/offline/plan_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/planning/plan_figures.hpp"
 #include "clients/text/output.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -18,13 +20,20 @@ struct PlanOptions {
     std::string machine_file;
     std::string start;
     std::string svg_dir;
+    std::string moves;
+    GcodeSwitches switches;
     bool json = false;
 };
 
 ExitCode plan(const PlanOptions& options) {
     Output output(options.json);
-    const auto input = read_program(options.file, options.machine_file, options.start);
+    const auto input = read_program(options.file, options.machine_file, options.start, options.switches);
     if (!input) { return output.fail(input.error()); }
+    warn(*input, output);
+    if (!options.moves.empty()) {
+        const auto written = write_text_file(options.moves, moves_csv(*input));
+        if (!written) { return output.fail(bad_input("--moves: " + written.error())); }
+    }
     if (!options.svg_dir.empty()) {
         const auto drawn =
             write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input->machine, input->plan)},
@@ -48,10 +57,16 @@ void add_plan(CLI::App& app, Action& action) {
     verb->add_option("--start", options->start,
                      "the start position in mm: X=10,Y=5; axes not named are at their park positions");
     verb->add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
+    verb->add_option("--moves", options->moves,
+                     "write every motion into this CSV file, arcs as arcs: line, kind, the end by axes in machine "
+                     "coordinates, feed, centre");
+    verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
+                   "pass over words for devices that the machine does not have, instead of refusing them");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         footer("  lockstep plan plate.gcode --machine mill.textproto\n"
-               "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"));
+               "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"
+               "  lockstep plan plate.gcode --moves moves.csv\n"));
     verb->callback([&action, options] { action = [options] { return plan(*options); }; });
 }
 

@@ -135,7 +135,8 @@ private:
             case 860: stop_for_retract(); break;
             default: break;
         }
-        if (context_.motion == 850 || context_.motion == 890) { go(cycle_.clear, feed); }
+        if (context_.motion == 850) { go(cycle_.clear, feed); }
+        if (context_.motion == 890) { go(cycle_.retract, feed); }
     }
 
     void peck(double feed) {

@@ -2,6 +2,19 @@
 #include "core/gcode/run/steps.hpp"
 
 namespace lockstep::gcode {
+namespace {
+
+/// Where X and Y are turned, X alone goes along the turned X: Y keeps its place in the program's coordinates.
+Point turned_home(const Context& context, const Point& home) {
+    const State& state = context.state;
+    Point target = to_program(state.offsets, home);
+    for (const std::size_t axis : {0U, 1U}) {
+        if (!context.block.has(kAxisLetters[axis])) { target[axis] = state.program[axis]; }
+    }
+    return to_machine(state.offsets, target);
+}
+
+}  // namespace
 
 Result go_home(Context& context) {
     State& state = context.state;
@@ -16,9 +29,11 @@ Result go_home(Context& context) {
     }
     move(context, context.target(), 0);
     Point machine = state.machine;
-    const Point home = place_of(state.parameters, first);
+    Point home = place_of(state.parameters, first);
+    if (state.offsets.rotation != 0 && context.block.has_axes()) { home = turned_home(context, home); }
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-        const bool named = context.block.has(kAxisLetters[axis]) || !context.block.has_axes();
+        const bool turned = axis < 2 && state.offsets.rotation != 0 && context.block.has_any("XY");
+        const bool named = context.block.has(kAxisLetters[axis]) || !context.block.has_axes() || turned;
         const bool exists = context.setup.axes.contains(kAxisLetters[axis]);
         if (named && exists) { machine[axis] = home[axis]; }
     }

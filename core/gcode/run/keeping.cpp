@@ -38,6 +38,7 @@ void restore(Context& context, const Modal& modal) {
     State& state = context.state;
     const Modal before = state.modal;
     state.modal = modal;
+    state.modal.motion = before.motion;
     state.modal.side = before.side;
     state.modal.tool_radius = before.tool_radius;
     if (modal.system != before.system) { begin_system(state, modal.system); }

@@ -61,7 +61,7 @@ std::expected<std::size_t, GcodeError> system_of(const Context& context) {
     return *number == 0 ? context.state.modal.system : static_cast<std::size_t>(*number) - 1;
 }
 
-/// L20: the origin that makes the axis's place read as the word says.
+/// L20: the origin that makes the axis's place read as the word says. Where X and Y are turned, both belong together.
 void origin_by_place(const Context& context, std::size_t system, Point& origin) {
     const State& state = context.state;
     Offsets offsets = state.offsets;
@@ -70,8 +70,9 @@ void origin_by_place(const Context& context, std::size_t system, Point& origin) 
     Point wanted = to_program(state.offsets, state.machine);
     for (std::size_t axis = 0; axis < kAxes; ++axis) { wanted[axis] = context.axis_word(axis).value_or(wanted[axis]); }
     const Point without = to_machine(offsets, wanted);
+    const bool both = offsets.rotation != 0 && (context.block.has('X') || context.block.has('Y'));
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-        if (context.axis_word(axis)) { origin[axis] = state.machine[axis] - without[axis]; }
+        if (context.axis_word(axis) || (both && axis < 2)) { origin[axis] = state.machine[axis] - without[axis]; }
     }
 }
 

@@ -48,11 +48,18 @@ Result resolve_polar(Context& context) {
     if (block.has('X') || block.has('Y')) {
         return context.refuse(block.has('X') ? 'X' : 'Y', " beside @ or ^, which give X and Y; write one or the other");
     }
+    if (context.state.modal.plane != Plane::XY) {
+        return std::unexpected(context.line.error(0, "@ and ^ are in the plane of X and Y; write G17 before them"));
+    }
     const Point& at = context.state.program;
     const double unit = context.length(1);
     const double before = std::hypot(at[0], at[1]) / unit;
     const double before_degrees = std::atan2(at[1], at[0]) * kDegrees;
     const bool relative = context.state.modal.relative;
+    if (before == 0 && relative) {
+        return std::unexpected(
+            context.line.error(0, "@ or ^ in G91 at the program's zero has no direction to begin with; write G90"));
+    }
     if (before == 0 && !block.angle) {
         return std::unexpected(context.line.error(0, "@ without ^ at the program's zero has no direction; write ^"));
     }

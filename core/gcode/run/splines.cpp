@@ -137,9 +137,7 @@ Result nurbs(Context& context) {
     const double weight = block.find('P').value_or(block.has(Group::Motion) ? 1 : 0);
     if (!(weight > 0)) { return context.refuse_motion(" needs the weight of each point; write P, above 0"); }
     SplineWords& words = context.state.spline;
-    const Point from = std::exchange(context.state.program, words.end);
-    const Point end = context.target();
-    context.state.program = from;
+    const Point end = context.target();  // in G91 from where the curve began
     words.end = end;
     words.nurbs->controls.push_back(control_at(context, {end[0], end[1]}, weight));
     return {};

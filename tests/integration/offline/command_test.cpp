@@ -84,6 +84,31 @@ TEST_F(Command, PicturesAndTables) {
     }
 }
 
+constexpr const char* kMachine = " --machine deploy/examples/three-axis.textproto";
+
+TEST_F(Command, MovesAreListedBeforeArcsAreCut) {
+    const std::string file = (directory / "arc.ngc").string();
+    const std::string moves = (directory / "moves.csv").string();
+    std::ofstream(file) << "G0 X20 Y20\nG2 X40 I10 F600\nG4 P1\nM8\n";
+    EXPECT_EQ(run("plan " + file + kMachine + " --start X=0,Y=0,Z=5 --moves " + moves).exit, 0);
+    std::ifstream in(moves);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_EQ(text,
+              "line,kind,X,Y,Z,feed_mm_min,i,j,k\n1,rapid,20,20,5,,,,\n2,arc_cw,40,20,5,600,30,20,5\n"
+              "3,dwell,40,20,5,,,,\n");
+}
+
+TEST_F(Command, CheckReportsErrorsAndWordsThatArePassedOver) {
+    const std::string file = (directory / "words.ngc").string();
+    std::ofstream(file) << "G0 X20 Y20\nM3 S100\n";
+    const auto refused = run("check " + file + kMachine + " 2>&1");
+    EXPECT_EQ(refused.exit, 2);
+    EXPECT_NE(refused.out.find("--ignore-unassigned"), std::string::npos) << refused.out;
+    const auto passed = run("check " + file + kMachine + " --ignore-unassigned 2>&1");
+    EXPECT_EQ(passed.exit, 0);
+    EXPECT_NE(passed.out.find("line 2: the spindle is not configured"), std::string::npos) << passed.out;
+}
+
 TEST_F(Command, ALogThatLacksItsEndDoesNotVerify) {
     ASSERT_EQ(run("simulate " + plate + " --log " + log).exit, 0);
     std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);

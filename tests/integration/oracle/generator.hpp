@@ -1,0 +1,14 @@
+// Random programs over the whole language, by seed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lockstep::oracle {
+
+/// A program that is right, as far as the generator knows; it ends with M2.
+std::string valid_program(std::uint32_t seed);
+/// The same with one line that a random word makes wrong, or not.
+std::string odd_program(std::uint32_t seed);
+
+}  // namespace lockstep::oracle

@@ -1,0 +1,61 @@
+// Random lines of G-code that are right, mostly: it keeps in mind what the lines before have set.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace lockstep::oracle {
+
+class LineMaker {
+public:
+    explicit LineMaker(std::uint32_t seed) : random_(seed), rotates_(one_in(3)), changes_units_(one_in(3)) {}
+
+    /// A block without its line's end.
+    std::string block();
+    /// What the axes' places are by the program's own words.
+    static std::string report() { return "(debug,#5420 #5421 #5422 #5423 #5424 #5425)"; }
+    /// A word in the middle of a line that it may not fit.
+    std::string odd_word();
+    /// Within a loop or a branch a line may run again or not at all: nothing then that the lines behind rely on.
+    bool changes_units() const { return changes_units_; }
+    void set_nested(bool nested) { nested_ = nested; }
+
+    int below(int limit) { return static_cast<int>(random_() % static_cast<std::uint32_t>(limit)); }
+    bool one_in(int count) { return below(count) == 0; }
+    std::string value(double from, double to);
+
+private:
+    std::string number(double value);
+    double drawn(double from, double to);
+    std::string feed();
+    std::string straight();
+    std::string axis_words(const std::string& letters, double reach);
+    std::string arc();
+    std::string centre_word(char letter, int axis, double offset);
+    std::string end_word(char letter, int axis, double offset);
+    std::string arc_by_radius();
+    std::string cycle();
+    std::string spline();
+    std::string mode();
+    std::string offset();
+    std::string rotation();
+    std::string tool();
+    std::string event();
+    std::string assignment();
+    std::string home();
+
+    std::mt19937 random_;
+    bool rotates_;
+    bool changes_units_;
+    bool nested_ = false;
+    bool relative_ = false;
+    bool inches_ = false;
+    bool centres_absolute_ = false;
+    bool inverse_time_ = false;
+    bool has_feed_ = false;
+    int plane_ = 0;
+};
+
+}  // namespace lockstep::oracle

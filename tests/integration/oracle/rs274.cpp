@@ -1,0 +1,126 @@
+#include "tests/integration/oracle/rs274.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/gcode/interpreter.hpp"
+#include "core/gcode/text_lines.hpp"
+
+namespace lockstep::oracle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMillimetresPerInch = 25.4;
+
+/// Removed with all that is in it.
+class TemporaryDirectory {
+public:
+    TemporaryDirectory() {
+        std::string name = (fs::temp_directory_path() / "oracle.XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) { std::abort(); }
+        path_ = name;
+    }
+    TemporaryDirectory(const TemporaryDirectory&) = delete;
+    TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+    ~TemporaryDirectory() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    std::string file(const char* name) const { return (path_ / name).string(); }
+
+private:
+    fs::path path_;
+};
+
+std::string text_of(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+void write(const std::string& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+/// rs274 by itself is an inch machine: its files are in inches.
+std::string tool_table() {
+    std::ostringstream text;
+    text.precision(17);
+    for (const auto& [number, tool] : tools()) {
+        text << "T" << number << " P" << tool.pocket << " Z" << tool.offset[2] / kMillimetresPerInch << " D"
+             << tool.diameter / kMillimetresPerInch << " ;\n";
+    }
+    return text.str();
+}
+
+/// The first line of its complaint, and the line that it is about.
+void read_complaint(const std::string& text, Reading& reading) {
+    std::istringstream lines(text);
+    std::string line;
+    while (std::getline(lines, line)) {
+        if (line == "executing" || line.empty()) { continue; }
+        if (reading.message.empty()) {
+            reading.message = line;
+        } else {
+            reading.refused = line;
+        }
+    }
+}
+
+}  // namespace
+
+bool is_rs274_installed() { return fs::exists("/usr/bin/rs274"); }
+
+std::map<int, gcode::Tool> tools() {
+    gcode::State state;
+    state.tools[1] = {.pocket = 1, .offset = {0, 0, 2.5}, .diameter = 3};
+    state.tools[2] = {.pocket = 2, .offset = {0, 0, 5.25}, .diameter = 1};
+    state.tools[3] = {.pocket = 3, .offset = {0, 0, -1}, .diameter = 0.5};
+    return state.tools;
+}
+
+Reading read_with_rs274(const std::string& text) {
+    const TemporaryDirectory directory;
+    write(directory.file("program.ngc"), text);
+    write(directory.file("tool.tbl"), tool_table());
+    write(directory.file("parameters.var"), "");
+    // It keeps its tools in a file of the home directory.
+    const std::string command = "cd " + directory.file("") +
+                                " && HOME=. timeout 5 /usr/bin/rs274 -g -t tool.tbl -v parameters.var program.ngc "
+                                "</dev/null >output 2>errors";
+    Reading reading;
+    const int status = std::system(command.c_str());
+    reading.taken = status == 0;
+    reading.calls = without_rests(calls_of_output(text_of(directory.file("output"))));
+    constexpr int kTimedOut = 124;
+    reading.ended = WEXITSTATUS(status) != kTimedOut;
+    if (!reading.taken) { read_complaint(text_of(directory.file("errors")), reading); }
+    return reading;
+}
+
+Reading read_with_ours(const std::string& text) {
+    gcode::State state;
+    state.tools = tools();
+    CallList list;
+    gcode::Interpreter interpreter({.axes = "XYZABC", .skip_deletable = false, .limits = {}, .find_subroutine = {}},
+                                   std::move(state),
+                                   [&](const gcode::Action& action, int line) { list.take(action, line); });
+    Reading reading{.calls = {}, .taken = true, .message = {}, .refused = {}, .line = 0, .ended = true};
+    gcode::for_each_line(text, [&](std::string_view line, int number) {
+        const auto done = interpreter.take(line, number);
+        if (!done) {
+            reading.taken = false;
+            reading.message = done.error().message;
+            reading.line = done.error().line;
+        }
+        return reading.taken && !interpreter.ended();
+    });
+    reading.calls = without_rests(list.calls());
+    return reading;
+}
+
+}  // namespace lockstep::oracle
