@@ -22,6 +22,7 @@ void TimedPath::begin(double ticks) {
     passages_.clear();
     end_ = ticks;
     breaks_ = false;
+    stop_ = {};
 }
 
 void TimedPath::add_phase(const PathPhase& phase) {
@@ -44,6 +45,7 @@ void TimedPath::add(const Quadratic& shape, std::size_t number, double mm, doubl
 
 void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, w1, phases_.size()});
+    stop_ = {.shape = &shape, .interval = number, .ticks = 0x1p40, .u = part.to};
     breaks_ = part.turn * std::sqrt(w0) > kBreak || part.kind == IntervalKind::Rest;
     if (part.kind == IntervalKind::Rest) {
         add_phase({.shape = &shape, .interval = number, .ticks = static_cast<double>(shape.rest.value)});
@@ -66,7 +68,9 @@ void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t n
 void TimedPath::brake(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, 0, phases_.size()});
     breaks_ = part.turn * std::sqrt(w0) > kBreak;
-    add(shape, number, part.length() * w0 / (w0 - w1), part.from, w0, 0);
+    const double mm = w0 > 0 ? part.length() * w0 / (w0 - w1) : 0;
+    stop_ = {.shape = &shape, .interval = number, .ticks = 0x1p40, .u = part.from + mm};
+    add(shape, number, mm, part.from, w0, 0);
 }
 
 void TimedPath::shift(Ticks ticks) {
@@ -76,11 +80,10 @@ void TimedPath::shift(Ticks ticks) {
 }
 
 void TimedPath::rest() {
-    if (phases_.empty()) { return; }
-    const PathPhase last = phases_.back();
+    if (stop_.shape == nullptr) { return; }
     breaks_ = true;
     const double end = end_;
-    add_phase({.shape = last.shape, .interval = last.interval, .ticks = 0x1p40, .u = last.along(last.end())});
+    add_phase(stop_);
     end_ = end;
 }
 

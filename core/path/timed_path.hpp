@@ -63,6 +63,7 @@ private:
     std::vector<PathPhase> phases_;
     std::vector<Passage> passages_;
     double end_ = 0;
+    PathPhase stop_;       // at the end of the last interval
     bool breaks_ = false;  // at the beginning of the next phase
 };
 
