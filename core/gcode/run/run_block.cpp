@@ -48,6 +48,7 @@ Result resolve_polar(Context& context) {
     if (block.has('X') || block.has('Y')) {
         return context.refuse(block.has('X') ? 'X' : 'Y', " beside @ or ^, which give X and Y; write one or the other");
     }
+    if (block.code(Group::NonModal) == 530) { return context.refuse(Group::NonModal, " beside @ or ^; write X and Y"); }
     if (context.state.modal.plane != Plane::XY) {
         return std::unexpected(context.line.error(0, "@ and ^ are in the plane of X and Y; write G17 before them"));
     }

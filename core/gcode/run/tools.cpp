@@ -40,6 +40,9 @@ void set_words(const Context& context, Point& offset) {
 /// G43.2: added to the offset in use.
 Result add_offset(Context& context) {
     const Block& block = context.block;
+    if (block.has('H') && block.has_axes()) {
+        return context.refuse('H', " beside axis words; write one or the other");
+    }
     if (block.has('H')) {
         const auto added = tool_offset(context);
         if (!added) { return std::unexpected(added.error()); }

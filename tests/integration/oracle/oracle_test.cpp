@@ -14,6 +14,7 @@
 // - continue in a do loop leaves the loops behind it alone. rs274 repeats the next repeat loop again, or for ever.
 // - #<a>=[#<a>+1] with an #<a> that has no value is refused. rs274 takes 0.
 // - M66 to M68 want whole numbers of outputs from 0, and M67 and M68 a Q. rs274 rounds and guesses.
+// - G53 beside G92.1 in a block is refused: each is a non-modal word. rs274 takes it.
 // - A % may stand behind blanks; a line has 256 characters. Labels of O-words are checked where the body ends, not
 // where
 //   the program does: rs274 takes an if without endif.
