@@ -1,20 +1,23 @@
 /* What each rule is for: the model without it, in which a promise must break. */
 
 #ifdef WITHOUT_VETO
-#undef RULE_VETO_WHEN_FAILED
-#define RULE_VETO_WHEN_FAILED(k) NO_VETO
-#undef RULE_VETO_WHEN_TOO_LATE
-#define RULE_VETO_WHEN_TOO_LATE(k) NO_VETO
+#define VETO_WHEN_FAILED skip
+#else
+#define VETO_WHEN_FAILED LOWEST(axis[i].veto, k)
+#endif
+#if defined(WITHOUT_VETO)
+#define VETO_WHEN_TOO_LATE k = NO_VETO
+#elif defined(TOO_LATE_VETOES_THE_FRAME_ITSELF)
+#define VETO_WHEN_TOO_LATE skip
+#elif defined(TOO_LATE_VETOES_THE_NEXT)
+#define VETO_WHEN_TOO_LATE k++
+#else
+#define VETO_WHEN_TOO_LATE lowest_open(RULE_AXIS_MAY_VETO(CLOCK(i), START(k)))
 #endif
 
 #ifdef WITHOUT_TWO_WHOLE_HOPS /* and so V is one slot less */
 #undef RULE_LAST_CHECK
 #define RULE_LAST_CHECK (2 * RULE_HOP - 1)
-#endif
-
-#ifdef WITHOUT_TOO_LATE_VETOES_THE_NEXT
-#undef RULE_VETO_WHEN_TOO_LATE
-#define RULE_VETO_WHEN_TOO_LATE(k) (k)
 #endif
 
 #ifdef WITHOUT_ENOUGH_FRESHNESS
@@ -25,9 +28,9 @@
 #define EVALUATES_SILENCE_AGAIN
 #endif
 
-#ifdef WITHOUT_EARLY_STOPS /* the coordinator vetoes until the first axis decides */
+#ifdef LATER_STOPS /* the coordinator vetoes what an axis may have armed by then */
 #undef RULE_COORDINATOR_MAY_VETO
-#define RULE_COORDINATOR_MAY_VETO(now, start, v, m) RULE_IS_EARLY(now, start, v)
+#define RULE_COORDINATOR_MAY_VETO(now, start, v, m) ((now) <= RULE_FIRST_EVIDENCE(start, v, m) + 1)
 #endif
 
 #ifdef LAST_CHECK_EARLIER_BY

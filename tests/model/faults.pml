@@ -27,7 +27,11 @@ inline set_clocks() { skip }
 
 /* ---- promises ---- */
 
-#define BESIDE(a, b) ((a) <= (b) + 1 && (b) <= (a) + 1)
+/* The device of an axis that crashes or stalls has been told of what starts within the next slots, or it has not. */
+#ifndef APART
+#define APART ((3 + FRAME - 1) / FRAME)
+#endif
+#define BESIDE(a, b) ((a) <= (b) + APART && (b) <= (a) + APART)
 #if N == 2
 #define OTHERS_RUN_THE_SAME 1
 #define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames))
@@ -35,13 +39,15 @@ inline set_clocks() { skip }
 #define OTHERS_RUN_THE_SAME (axis[1].ran == axis[2].ran)
 #define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames) && axis[2].ran == (frames))
 #endif
-#define P ALL_RUN(axis[0].ran)
+/* No frame runs that the coordinator has vetoed. */
+#define STOPPED (axis[1].ran < coordinator_veto)
+#define P (ALL_RUN(axis[0].ran) && STOPPED)
 #ifdef STOP
 #define Q P
 #else
 #define Q ALL_RUN(FRAMES)
 #endif
-#define P_BUT_FOR_THE_VICTIM (OTHERS_RUN_THE_SAME && BESIDE(axis[0].ran, axis[1].ran))
+#define P_BUT_FOR_THE_VICTIM (OTHERS_RUN_THE_SAME && BESIDE(axis[0].ran, axis[1].ran) && STOPPED)
 
 /* ---- classes ---- */
 
@@ -224,7 +230,9 @@ inline meet_fault() {
 /* ---- stalls: decisions take effect late ---- */
 
 inline send_late(message) {
+    message.evidence = message.evidence | late.evidence;
     message.frames = message.frames | late.frames;
+    late.evidence = 0;
     late.frames = 0;
     late.veto = 0;
     kept = 0
@@ -234,7 +242,7 @@ inline send_late(message) {
 inline act() {
     if
     :: i == 0 && mid_step ->
-        late.frames = axis[i].now.frames;
+        late.evidence = axis[i].now.evidence;
         late.veto = axis[i].now.veto;
         kept = 1;
         send_nothing()
@@ -269,7 +277,9 @@ inline stand_still() { send_nothing() }
 inline resend_late() {
 #ifdef COORDINATOR_STALLS
     if
-    :: mid_step -> late.frames = coordinator_now.frames
+    :: mid_step ->
+        late.evidence = coordinator_now.evidence;
+        late.frames = coordinator_now.frames
     :: !stalled -> send_late(coordinator_now)
     :: else
     fi
@@ -279,11 +289,6 @@ inline resend_late() {
 }
 
 /* ---- vetoes without a fault ---- */
-
-inline lowest_open(may_veto) {
-    k = 1;
-    do :: k <= FRAMES && !(may_veto) -> k++ :: else -> break od
-}
 
 /* An axis that cannot continue, or an axis whose device has not begun the frame that it armed. */
 #if defined(OWN_REASONS)

@@ -1,4 +1,4 @@
-/* The setpoint protocol (hold, arm, veto) for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
+/* The setpoint protocol, hold, arm, veto, for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
  *
  * The processes decide by core/protocol/rules.inc, the same file as the code. Each receiver uses a message in the slot
  * after the one in which it was sent, or in the next one (up to DELAY); the search tries both. One fault class is
@@ -15,6 +15,9 @@
 #ifndef S
 #define S 1
 #endif
+#ifndef E
+#define E 0
+#endif
 #ifndef DELAY
 #define DELAY RULE_HOP
 #endif
@@ -26,13 +29,13 @@
 #define M RULE_LEAST_FRESHNESS(S)
 #endif
 #ifndef V
-#define V RULE_CHECK_AHEAD(S)
+#define V RULE_CHECK_AHEAD(E)
 #endif
 #ifndef A
 #define A RULE_LEAST_SEND_AHEAD(V, M, S)
 #endif
 #ifndef FRAME
-#define FRAME RULE_LEAST_FRAME(M, S)
+#define FRAME 2
 #endif
 #define START(k) (A + 2 + ((k) - 1) * FRAME)
 #define END (START(FRAMES) + 2) /* every device has decided on every frame, also on a clock one slot behind */
@@ -40,9 +43,10 @@
 #define NO_VETO (FRAMES + 1)
 #define BIT(k) (1 << ((k) - 1)) /* sets of frames */
 
-/* The message of one slot. An axis's state is reduced to the frames that it is evidence for, and its veto. */
+/* The message of one slot. A state is reduced to the frames that it is evidence for, and its veto. */
 typedef Message {
-    byte frames; /* a set: an axis's evidence, the coordinator's frames */
+    byte evidence; /* a set */
+    byte frames;   /* a set, of the coordinator: what it sends */
     byte veto
 };
 
@@ -51,8 +55,11 @@ typedef Axis {
     bit open;  /* it follows the epoch: it has taken frame 1 */
     byte checked;
     byte veto;
-    byte received[N]; /* evidence: the frames that each other axis is known to hold, by stamp */
-    byte cleared;  /* the highest frame whose check succeeded */
+    byte received[N + 1]; /* evidence received of each other axis and, at N, of the coordinator */
+    byte cleared;      /* the highest frame that it has decided to arm */
+#if E > 0
+    byte waited; /* slots by which its decision is late now */
+#endif
     byte armed, device_veto, ran; /* the device: its commands, and the highest frame that it has begun */
     Message now, sent[2]          /* sent in this slot, in the last one, and in the one before */
 };
@@ -71,6 +78,9 @@ byte i, j, k; /* scratch, zero between slots */
 
 #define SENDS(k) \
     (slot >= RULE_FIRST_SEND(START(k), A) && RULE_MAY_SEND(slot, START(k), V, M) && !RULE_IS_VETOED(k, coordinator_veto))
+
+#define EVIDENCE_AT(stamp, k, veto) \
+    (RULE_IS_EVIDENCE(stamp, START(k), V, M) && !RULE_IS_VETOED(k, veto) -> BIT(k) : 0)
 
 /* The coordinator repeats the lowest veto that it received. */
 inline coordinator_receives() {
@@ -94,12 +104,14 @@ inline coordinator_receives() {
 
 inline coordinator_sends() {
     coordinator_receives();
+    coordinator_now.evidence = 0;
     coordinator_now.frames = 0;
     coordinator_now.veto = NO_VETO;
     if
     :: COORDINATOR_RUNS ->
         may_stop();
         for (k : 1 .. FRAMES) {
+            coordinator_now.evidence = coordinator_now.evidence | EVIDENCE_AT(slot, k, coordinator_veto);
             if :: SENDS(k) -> coordinator_now.frames = coordinator_now.frames | BIT(k) :: else fi
         }
         coordinator_now.veto = coordinator_veto
@@ -110,11 +122,11 @@ inline coordinator_sends() {
 
 /* ---- an axis: SetpointFollower::hear, offer, decide, and the state it publishes ---- */
 
-#define UNKNOWN(message, i, j) ((message.frames & ~axis[i].received[j]) >> axis[i].checked)
+#define UNKNOWN(message, i, j) ((message.evidence & ~axis[i].received[j]) >> axis[i].checked)
 #define NEWS(message, i, j) (UNKNOWN(message, i, j) || (axis[i].open && RULE_VETO_WINS(message.veto, axis[i].veto)))
 
 inline receive(message) { /* i receives the message of j */
-    axis[i].received[j] = axis[i].received[j] | message.frames;
+    axis[i].received[j] = axis[i].received[j] | message.evidence;
     if :: axis[i].open -> LOWEST(axis[i].veto, message.veto) :: else fi
 }
 
@@ -136,12 +148,13 @@ inline take(message) { /* frames are taken in order */
 }
 
 inline take_coordinator_message(message) {
+    axis[i].received[N] = axis[i].received[N] | message.evidence;
     if :: axis[i].open -> LOWEST(axis[i].veto, message.veto) :: else fi;
     take(message)
 }
 
 #define COORDINATOR_NEWS(message) \
-    ((message.frames >> axis[i].held) || (axis[i].open && RULE_VETO_WINS(message.veto, axis[i].veto)))
+    ((message.frames >> axis[i].held) || UNKNOWN(message, i, N) || (axis[i].open && RULE_VETO_WINS(message.veto, axis[i].veto)))
 
 inline receive_from_coordinator() {
     if
@@ -162,40 +175,74 @@ inline receive_all() {
     receive_from_coordinator()
 }
 
-#define OTHER_HOLDS(j, k) ((j) == i || (axis[i].received[j] & BIT(k)))
-#if N == 2
-#define OTHERS_HOLD(k) (OTHER_HOLDS(0, k) && OTHER_HOLDS(1, k))
+#define HOLDS(j, k) ((j) == i || (axis[i].received[j] & BIT(k)))
+#ifdef WITHOUT_THE_COORDINATORS_EVIDENCE
+#define COORDINATOR_HOLDS(k) 1
 #else
-#define OTHERS_HOLD(k) (OTHER_HOLDS(0, k) && OTHER_HOLDS(1, k) && OTHER_HOLDS(2, k))
+#define COORDINATOR_HOLDS(k) HOLDS(N, k)
+#endif
+#if N == 2
+#define ALL_HOLD(k) (HOLDS(0, k) && HOLDS(1, k) && COORDINATOR_HOLDS(k))
+#else
+#define ALL_HOLD(k) (HOLDS(0, k) && HOLDS(1, k) && HOLDS(2, k) && COORDINATOR_HOLDS(k))
+#endif
+#ifdef WITHOUT_EARLY_ARMING
+#define MAY_ARM(k) (!RULE_IS_EARLY(CLOCK(i), START(k), V) && RULE_MAY_ARM(k, axis[i].held, axis[i].veto, ALL_HOLD(k)))
+#else
+#define MAY_ARM(k) RULE_MAY_ARM(k, axis[i].held, axis[i].veto, ALL_HOLD(k))
 #endif
 
-inline check() {
-    axis[i].checked = k;
+inline lowest_open(may_veto) {
+    k = 1;
+    do :: k <= FRAMES && !(may_veto) -> k++ :: else -> break od
+}
+
+/* Arms the next frame as soon as it may, vetoes it at its check, or finds that it is too late for it. */
+inline decide_next() {
+    k = axis[i].checked + 1;
     if
-    :: RULE_IS_TOO_LATE(CLOCK(i), START(k)) -> LOWEST(axis[i].veto, RULE_VETO_WHEN_TOO_LATE(k))
+    :: RULE_IS_TOO_LATE(CLOCK(i), START(k)) ->
+        axis[i].checked = k;
+        VETO_WHEN_TOO_LATE;
+        LOWEST(axis[i].veto, k)
     :: else ->
         if
-        :: RULE_MAY_ARM(k, axis[i].held, axis[i].veto, OTHERS_HOLD(k)) -> axis[i].cleared = k
-        :: else -> LOWEST(axis[i].veto, RULE_VETO_WHEN_FAILED(k))
+        :: MAY_ARM(k) ->
+            axis[i].checked = k;
+            axis[i].cleared = k
+        :: else ->
+            if
+            :: RULE_IS_EARLY(CLOCK(i), START(k), V) -> break
+            :: else ->
+                axis[i].checked = k;
+                VETO_WHEN_FAILED
+            fi
         fi
     fi
 }
 
-/* Every check that is due is made, or delayed to a later slot that is still in time. */
-inline decide() {
+inline decide_all() {
     do
-    :: axis[i].checked < FRAMES && axis[i].checked <= axis[i].held &&
-           !RULE_IS_EARLY(CLOCK(i), START(axis[i].checked + 1), V) ->
-        k = axis[i].checked + 1;
-        if
-        :: check()
-        :: MAY_WAIT(i) && !RULE_IS_TOO_LATE(CLOCK(i) + 1, START(k)) -> break
-        fi
+    :: axis[i].checked < FRAMES && axis[i].checked <= axis[i].held -> decide_next()
     :: else -> break
     od
 }
 
-#define EVIDENCE(k) (axis[i].held >= (k) && RULE_IS_EVIDENCE(CLOCK(i), START(k), V, M) -> BIT(k) : 0)
+/* Every decision may come up to E slots late. */
+inline decide() {
+#if E > 0
+    if
+    :: MAY_WAIT(i) && axis[i].waited < E -> axis[i].waited++
+    :: true ->
+        axis[i].waited = 0;
+        decide_all()
+    fi
+#else
+    decide_all()
+#endif
+}
+
+#define EVIDENCE(k) (axis[i].held >= (k) -> EVIDENCE_AT(CLOCK(i), k, axis[i].veto) : 0)
 
 #ifdef EVALUATES_SILENCE_AGAIN
 #define MARKS_STILL_THERE(k) BIT(FRAMES + (k))
@@ -218,18 +265,18 @@ inline evaluate_silence() { skip }
 #endif
 
 inline publish() {
-    axis[i].now.frames = 0;
+    axis[i].now.evidence = 0;
     axis[i].now.veto = NO_VETO;
     if
     :: axis[i].open ->
-        for (k : 1 .. FRAMES) { axis[i].now.frames = axis[i].now.frames | EVIDENCE(k) | STILL_THERE(k) }
+        for (k : 1 .. FRAMES) { axis[i].now.evidence = axis[i].now.evidence | EVIDENCE(k) | STILL_THERE(k) }
         axis[i].now.veto = axis[i].veto
     :: else
     fi
 }
 
 inline forget() { /* evidence for decided frames is not needed */
-    for (j : 0 .. N - 1) { axis[i].received[j] = (axis[i].received[j] >> axis[i].checked) << axis[i].checked }
+    for (j : 0 .. N) { axis[i].received[j] = (axis[i].received[j] >> axis[i].checked) << axis[i].checked }
 }
 
 inline update_device() {
@@ -238,7 +285,7 @@ inline update_device() {
 }
 
 inline send_nothing() {
-    axis[i].now.frames = 0;
+    axis[i].now.evidence = 0;
     axis[i].now.veto = NO_VETO
 }
 
@@ -269,17 +316,20 @@ inline device_steps() {
 
 inline next_slot() {
     for (i : 0 .. N - 1) {
-        axis[i].sent[1].frames = axis[i].sent[0].frames;
+        axis[i].sent[1].evidence = axis[i].sent[0].evidence;
         axis[i].sent[1].veto = axis[i].sent[0].veto;
-        axis[i].sent[0].frames = axis[i].now.frames;
+        axis[i].sent[0].evidence = axis[i].now.evidence;
         axis[i].sent[0].veto = axis[i].now.veto;
-        axis[i].now.frames = 0;
+        axis[i].now.evidence = 0;
         axis[i].now.veto = 0
     }
+    coordinator_sent[1].evidence = coordinator_sent[0].evidence;
     coordinator_sent[1].frames = coordinator_sent[0].frames;
     coordinator_sent[1].veto = coordinator_sent[0].veto;
+    coordinator_sent[0].evidence = coordinator_now.evidence;
     coordinator_sent[0].frames = coordinator_now.frames;
     coordinator_sent[0].veto = coordinator_now.veto;
+    coordinator_now.evidence = 0;
     coordinator_now.frames = 0;
     coordinator_now.veto = 0;
     i = 0;
@@ -290,13 +340,13 @@ inline next_slot() {
 
 /* The output of a counterexample for each slot. */
 inline print_slot() {
-    printf("slot %d, fault since %d, coordinator: frames %d veto %d\n", slot, since, coordinator_now.frames,
-           coordinator_now.veto);
+    printf("slot %d, fault since %d, coordinator: frames %d evidence %d veto %d\n", slot, since,
+           coordinator_now.frames, coordinator_now.evidence, coordinator_now.veto);
     for (i : 0 .. N - 1) {
         printf("    axis %d: held %d checked %d armed %d vetoes %d ran %d, received", i, axis[i].held, axis[i].checked,
                axis[i].armed, axis[i].veto, axis[i].ran);
-        for (j : 0 .. N - 1) { printf(" %d", axis[i].received[j]) }
-        printf(", sends: frames %d veto %d\n", axis[i].now.frames, axis[i].now.veto)
+        for (j : 0 .. N) { printf(" %d", axis[i].received[j]) }
+        printf(", sends: evidence %d veto %d\n", axis[i].now.evidence, axis[i].now.veto)
     }
 }
 
