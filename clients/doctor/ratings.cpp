@@ -18,6 +18,7 @@ std::string milliseconds(double us) {
 
 std::string text_of(const ProtocolTiming& t) {
     return "timing { slot_us: " + std::to_string(t.slot_us) + " stall_slots: " + std::to_string(t.stall_slots) +
+           " late_check_slots: " + std::to_string(t.late_check_slots) +
            " freshness_slots: " + std::to_string(t.freshness_slots) +
            " send_ahead_slots: " + std::to_string(t.send_ahead_slots) +
            " frame_slots: " + std::to_string(t.frame_slots) + " }";
@@ -118,9 +119,10 @@ ProtocolTiming timing_for(const StallFacts& facts) {
     const auto slot = std::ranges::find_if(kSlots_us, fits);
     ProtocolTiming timing{.slot_us = slot == kSlots_us.end() ? kSlots_us.back() : *slot};
     timing.stall_slots = std::max(1, static_cast<int>(std::ceil(stall / static_cast<double>(timing.slot_us))));
+    timing.late_check_slots = std::min(timing.late_check_slots, timing.stall_slots);
     timing.freshness_slots = RULE_LEAST_FRESHNESS(timing.stall_slots);
     timing.send_ahead_slots = RULE_LEAST_SEND_AHEAD(timing.check_slots(), timing.freshness_slots, timing.stall_slots);
-    timing.frame_slots = RULE_LEAST_FRAME(timing.freshness_slots, timing.stall_slots);
+    timing.frame_slots = std::max(timing.frame_slots, least_frame_slots(timing));
     return timing;
 }
 
@@ -132,7 +134,7 @@ Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
                               milliseconds(facts.p99_us) + " in one of 100; the timing allows " + milliseconds(may_us);
     if (facts.worst_us > may_us) { return {Rating::Bad, "stalls", found, text_of(better)}; }
     if (2 * facts.worst_us > may_us) { return {Rating::Doubtful, "stalls", found, text_of(better)}; }
-    const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * t.send_ahead_slots; };
+    const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * (t.lease_slots() + t.frame_slots); };
     const bool slack = 2 * reaction(better) < reaction(timing);
     return {Rating::Good, "stalls", found + (slack ? "; a hold could come sooner with " + text_of(better) : ""), ""};
 }

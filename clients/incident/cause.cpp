@@ -70,6 +70,7 @@ std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& sympt
         case VetoReason::TooLate:
         case VetoReason::Own: return {self};
         case VetoReason::NotHeld: return {kFlightCoordinator, self};
+        case VetoReason::NoCoordinator: return {kFlightCoordinator};
         case VetoReason::NoEvidence: break;
     }
     std::vector<FlightPeer> lacking;

@@ -24,6 +24,7 @@ std::string veto_text(const Incident& incident, const FlightEvent& event) {
         case VetoReason::TooLate: return "its own check was too late";
         case VetoReason::NotHeld: return "it does not hold it";
         case VetoReason::Own: return "it is in Fault or stopped";
+        case VetoReason::NoCoordinator: return "it has received no recent state of the coordinator";
         case VetoReason::NoEvidence:
             return "no recent state of " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
                    " reports that it is held";

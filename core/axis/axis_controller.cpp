@@ -18,7 +18,8 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
 
 const AxisOutputs& AxisController::step(const AxisInputs& inputs) {
     out_.clear();
-    AxisLoop loop{inputs.now, rules::slot_of(inputs.now, slot_), condition_, device_, out_};
+    const Slot slot = rules::slot_of(inputs.now, slot_);
+    AxisLoop loop{inputs.now, slot, gate_.next(slot), condition_, device_, out_};
     owner_.forgive(gate_.missed(loop.slot));
     look(inputs, loop);
     receive(inputs, loop);

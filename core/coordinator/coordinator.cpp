@@ -18,7 +18,8 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
 CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     CoordinatorOutputs out;
     const Slot slot = rules::slot_of(inputs.now, slot_);
-    CoordinatorLoop loop{machine_, axes_, orders_, programs_, condition_, out, inputs.now, slot, ownership_.term()};
+    CoordinatorLoop loop{machine_, axes_,      orders_, programs_,        condition_,
+                         out,      inputs.now, slot,    gate_.next(slot), ownership_.term()};
     axes_.forgive(gate_.missed(slot), slot);
     receive(inputs, loop);
     change_owner(loop);

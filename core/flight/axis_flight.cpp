@@ -28,7 +28,8 @@ FlightKind kind_of(AxisNotice::Kind kind) {
 
 VetoReason reason_of(const FailedCheck& check) {
     if (check.too_late) { return VetoReason::TooLate; }
-    return check.held ? VetoReason::NoEvidence : VetoReason::NotHeld;
+    if (!check.held) { return VetoReason::NotHeld; }
+    return check.lacking != 0 ? VetoReason::NoEvidence : VetoReason::NoCoordinator;
 }
 
 }  // namespace

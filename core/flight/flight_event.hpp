@@ -76,10 +76,11 @@ std::optional<FlightKind> flight_kind(std::string_view name);
 
 /// Why an axis does not arm a frame. The first that applies.
 enum class VetoReason : std::uint8_t {
-    TooLate,     // it looked too late to say anything of this frame any more
-    NotHeld,     // it has not got it
-    NoEvidence,  // of some other axis it has heard nothing fresh that says it holds it
-    Own          // it is at fault or stopped, which it says by itself
+    TooLate,       // it looked too late to say anything of this frame any more
+    NotHeld,       // it has not got it
+    NoEvidence,    // of some other axis it has heard nothing fresh that says it holds it
+    Own,           // it is at fault or stopped, which it says by itself
+    NoCoordinator  // the coordinator has published nothing that is evidence for it
 };
 
 enum class IncidentReason : std::uint8_t {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/motion/corners.hpp"
-#include "core/protocol/messages.hpp"
+#include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
 namespace {
@@ -171,9 +171,9 @@ bool is_last_fall(const Path& path, std::size_t i, Subticks t) {
 
 PathBounds bounds_of(const MachineConfig& machine) {
     // Each move is three phases and the tick of its corner, in a tail one phase and that tick; and what the edges cut.
-    constexpr std::int64_t kMovesPerFrame = kMaxBodyPieces / 4 - 4;
+    const std::int64_t moves_per_frame = body_pieces(machine.timing) / 4 - 4;
     constexpr std::size_t kMovesPerTail = kMaxTailPieces / 2 - 2;
-    return {{machine.frame_ticks().value / kMovesPerFrame + 1}, kMovesPerTail, machine.frame_ticks()};
+    return {{machine.frame_ticks().value / moves_per_frame + 1}, kMovesPerTail, machine.frame_ticks()};
 }
 
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,

@@ -1,8 +1,8 @@
-// What an axis has heard of one other axis, by stamp: the evidence of the check instant.
+// Evidence that another process holds a frame.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <limits>
 
 #include "core/protocol/rules.hpp"
 
@@ -14,37 +14,26 @@ inline constexpr int kMaxStallSlots = 200;
 inline constexpr std::size_t kStatesKept = 256;
 static_assert(kStatesKept > kMaxStallSlots);
 
+/// Its newest state decides: within an epoch no process gives up a frame that it holds.
 class PeerEvidence {
 public:
-    /// States may come late, twice or out of order; only their stamps count.
-    void hear(const AxisState& state) {
-        Entry& entry = entries_[index(state.stamp)];
-        if (entry.heard && entry.stamp >= state.stamp) { return; }
-        entry = {true, state.stamp, state.epoch, state.held};
+    /// States may be received late, twice or out of order; only their stamps count. `held`: every frame up to this one.
+    void receive(Slot stamp, Epoch epoch, FrameNumber held) {
+        if (stamp >= stamp_) { *this = {stamp, epoch, held}; }
     }
 
-    /// Whether a state stamped in the window of the frame that starts at `start` says that it holds k of `epoch`.
+    /// Whether the process holds k, by a state that is evidence for a frame of `epoch` that starts at `start`.
     bool holds(Epoch epoch, FrameNumber k, Slot start, const ProtocolTiming& timing) const {
-        const Slot last = rules::last_evidence_slot(start, timing);
-        for (Slot stamp = rules::first_evidence_slot(start, timing); stamp <= last; ++stamp) {
-            const Entry& e = entries_[index(stamp)];
-            if (e.heard && e.stamp == stamp && e.epoch == epoch && e.held >= k) { return true; }
-        }
-        return false;
+        return rules::is_evidence(stamp_, start, timing) && epoch_ == epoch && held_ >= k;
     }
 
-    /// Longest memory in slots: a configuration's m + V must stay below.
-    static constexpr Slot kMemory = 512;
+    PeerEvidence() = default;
 
 private:
-    struct Entry {
-        bool heard = false;
-        Slot stamp = 0;
-        Epoch epoch = 0;
-        FrameNumber held = 0;
-    };
-    static constexpr std::size_t index(Slot stamp) { return static_cast<std::size_t>(stamp) % kMemory; }
-    std::array<Entry, kMemory> entries_{};
+    PeerEvidence(Slot stamp, Epoch epoch, FrameNumber held) : stamp_(stamp), epoch_(epoch), held_(held) {}
+    Slot stamp_ = std::numeric_limits<Slot>::min();
+    Epoch epoch_ = 0;
+    FrameNumber held_ = 0;
 };
 
 }  // namespace lockstep

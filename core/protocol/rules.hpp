@@ -1,11 +1,12 @@
 // The setpoint protocol's rules in one table: hold, arm, veto. Both sides decide by these functions alone.
 //
-// There is no commit message. The coordinator publishes frames, each axis decides from what it hears of all others.
-// Every slot every axis says which frames it holds and which it vetoes. At the check instant Y(k) = start(k) - V an
-// axis arms its device for frame k if it holds k, knows no veto of k or before, and has from every other axis a state
-// stamped in [Y-1-m, Y-1] that holds k; else it vetoes k. The device runs k at start(k) if it is armed, k-1 was run
-// and no veto came since; else it runs the tail of k-1 by itself. Nobody has to notice anything for the machine to
-// stop.
+// There is no commit message. The coordinator publishes frames, and each axis decides from the states of all others.
+// In every slot every axis publishes which frames it holds and which it vetoes, and the coordinator which it vetoes. A
+// state is evidence for frame k if it holds k, vetoes nothing up to k, and is stamped at start(k) - lease or later; the
+// coordinator's state holds every frame that it does not veto. An axis arms its device for k as soon as it holds k and
+// has evidence from the coordinator and every other axis. At start(k) - V it vetoes k if it has not armed it. The
+// device runs k at start(k) if k is armed, k-1 was run, and no veto came since; otherwise it runs the tail of k-1 by
+// itself. No process has to act for the machine to stop.
 //
 // The rules themselves stand in rules.inc, which the protocol's model (tests/model) reads too: what is searched
 // exhaustively there is what runs here.
@@ -43,48 +44,41 @@ inline constexpr Slot kLastCheckSlots = RULE_LAST_CHECK;
 constexpr Slot slot_of(Tick tick, Ticks slot) { return tick.value / slot.value; }
 constexpr Tick start_of(Slot number, Ticks slot) { return {number * slot.value}; }
 
-/// Y(k): when an axis decides, from a frame's start.
+/// The slot in which an axis vetoes a frame that it has not armed, from the frame's start.
 constexpr Slot check_slot(Slot start, const ProtocolTiming& t) { return RULE_CHECK_SLOT(start, t.check_slots()); }
 
 enum class CheckTime { Early, Due, TooLate };
 
-/// Whether a frame that starts at `start` is to be checked at `now`. A late check decides as a punctual one would,
-/// since the evidence is fixed by its stamps.
+/// Early: a frame that starts at `start` may still wait for evidence. TooLate: it may neither be armed nor vetoed.
 constexpr CheckTime check_time(Slot now, Slot start, const ProtocolTiming& t) {
     if (RULE_IS_EARLY(now, start, t.check_slots())) { return CheckTime::Early; }
     return RULE_IS_TOO_LATE(now, start) ? CheckTime::TooLate : CheckTime::Due;
 }
 
-/// The stamps between which, both included, a state is evidence for a frame that starts at `start`.
+/// The first stamp with which a state is evidence for a frame that starts at `start`.
 constexpr Slot first_evidence_slot(Slot start, const ProtocolTiming& t) {
     return RULE_FIRST_EVIDENCE(start, t.check_slots(), t.freshness_slots);
-}
-constexpr Slot last_evidence_slot(Slot start, const ProtocolTiming& t) {
-    return RULE_LAST_EVIDENCE(start, t.check_slots());
 }
 constexpr bool is_evidence(Slot stamp, Slot start, const ProtocolTiming& t) {
     return RULE_IS_EVIDENCE(stamp, start, t.check_slots(), t.freshness_slots);
 }
 
-/// Whether frame k may be armed for all this axis knows: the check itself.
+/// Whether an axis may arm frame k.
 struct Evidence {
     FrameNumber held = 0;             // by this axis
     std::optional<FrameNumber> veto;  // the lowest known
-    bool every_other_holds = false;   // evidence from every other axis that it holds k
+    bool all_hold = false;            // evidence from the coordinator and every other axis
 };
 constexpr bool may_arm(FrameNumber k, const Evidence& e) {
     constexpr FrameNumber kBeyondEveryFrame = std::numeric_limits<FrameNumber>::max();
-    return RULE_MAY_ARM(k, e.held, e.veto.value_or(kBeyondEveryFrame), e.every_other_holds);
+    return RULE_MAY_ARM(k, e.held, e.veto.value_or(kBeyondEveryFrame), e.all_hold);
 }
 
-/// What is vetoed when k fails its check in time, and when its check comes too late: a late veto of k itself would
-/// reach only some.
-constexpr FrameNumber veto_when_failed(FrameNumber k) { return RULE_VETO_WHEN_FAILED(k); }
-constexpr FrameNumber veto_when_too_late(FrameNumber k) { return RULE_VETO_WHEN_TOO_LATE(k); }
-
-/// Whether an axis may still veto a frame that starts at `start` for reasons of its own (a switch, a fault).
+/// Whether an axis may veto a frame that starts at `start` by the state it publishes in slot `now`: every axis still
+/// receives it in time.
 constexpr bool axis_may_veto(Slot now, Slot start) { return RULE_AXIS_MAY_VETO(now, start); }
-/// Whether the coordinator may veto it (a stop, a hold): as long as it could send it.
+/// Whether the coordinator may veto it by the state it publishes in slot `now` (a stop, a hold): no axis can have armed
+/// it.
 constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) {
     return RULE_COORDINATOR_MAY_VETO(now, start, t.check_slots(), t.freshness_slots);
 }

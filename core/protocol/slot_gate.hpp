@@ -16,6 +16,8 @@ public:
         last_ = slot;
         return true;
     }
+    /// The slot of the next entry, if it is this one that is still to be entered; otherwise the one after.
+    Slot next(Slot slot) const { return last_ ? std::max(slot, *last_ + 1) : slot; }
     /// Slots since the last one entered in which no loop ran: the process stalled.
     Slot missed(Slot slot) const { return last_ ? std::max<Slot>(0, slot - *last_ - 1) : 0; }
 

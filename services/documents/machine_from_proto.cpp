@@ -44,6 +44,7 @@ ProtocolTiming read_timing(const proto::Timing& message) {
     ProtocolTiming timing{
         .slot_us = message.has_slot_us() ? message.slot_us() : preset.slot_us,
         .stall_slots = message.has_stall_slots() ? message.stall_slots() : preset.stall_slots,
+        .late_check_slots = message.has_late_check_slots() ? message.late_check_slots() : preset.late_check_slots,
         .freshness_slots = message.has_freshness_slots() ? message.freshness_slots() : preset.freshness_slots,
         .send_ahead_slots = message.has_send_ahead_slots() ? message.send_ahead_slots() : preset.send_ahead_slots,
         .frame_slots = message.has_frame_slots() ? message.frame_slots() : preset.frame_slots,

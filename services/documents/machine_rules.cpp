@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/coordinator/path/lai_path.hpp"
+#include "core/protocol/frame_room.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "core/protocol/rules.inc"
 #include "services/documents/names.hpp"
@@ -40,13 +41,17 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     const int s = t.stall_slots;
     const int m = t.freshness_slots;
     require("timing.freshness_slots", m, RULE_LEAST_FRESHNESS(s), "stall_slots + 1");
-    require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(RULE_CHECK_AHEAD(s), m, s),
-            "freshness_slots + 2 x stall_slots + 8");
-    require("timing.frame_slots", t.frame_slots, RULE_LEAST_FRAME(m, s), "freshness_slots + stall_slots + 2");
-    // The device's segment ring holds three frames of maximum length ahead of the one in progress.
-    problems.require_between({"timing.send_ahead_slots", "timing.frame_slots"}, t.send_ahead_slots < 3 * t.frame_slots,
-                             "timing.send_ahead_slots is " + std::to_string(t.send_ahead_slots) +
-                                 "; below 3 x frame_slots, " + std::to_string(3 * t.frame_slots));
+    problems.require_between({"timing.late_check_slots", "timing.stall_slots"},
+                             t.late_check_slots >= 0 && t.late_check_slots <= s,
+                             "timing.late_check_slots is " + std::to_string(t.late_check_slots) +
+                                 "; 0 to stall_slots, " + std::to_string(s));
+    require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(t.check_slots(), m, s),
+            "freshness_slots + stall_slots + late_check_slots + 8");
+    const int least = t.send_ahead_slots > 0 && t.send_ahead_slots <= kMaxSlots ? least_frame_slots(t) : 1;
+    problems.require_between({"timing.frame_slots", "timing.send_ahead_slots"}, t.frame_slots >= least,
+                             "timing.frame_slots is " + std::to_string(t.frame_slots) + "; at least " +
+                                 std::to_string(least) + ", so that a device has room for all frames that are sent " +
+                                 std::to_string(t.send_ahead_slots) + " slots ahead (send_ahead_slots)");
 }
 
 /// The setpoint protocol's allowance for clocks: a hop must cover twice their error, besides the network's delay.

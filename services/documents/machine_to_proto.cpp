@@ -8,6 +8,7 @@ namespace {
 void write_timing(const ProtocolTiming& timing, proto::Timing& message) {
     message.set_slot_us(timing.slot_us);
     message.set_stall_slots(timing.stall_slots);
+    message.set_late_check_slots(timing.late_check_slots);
     message.set_freshness_slots(timing.freshness_slots);
     message.set_send_ahead_slots(timing.send_ahead_slots);
     message.set_frame_slots(timing.frame_slots);

@@ -10,6 +10,10 @@ void EpochFollowing::take(const AxisState& peer, Slot now) {
     if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
 }
 
+void EpochFollowing::take(const MachineState& owner, Slot now) {
+    if (owner.stamp <= now + rules::kHopSlots) { follower_.hear(owner); }
+}
+
 void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop) {
     const bool was_open = is_open();
     const FrameNumber held = was_open ? follower_.held() : 0;
@@ -37,14 +41,14 @@ void EpochFollowing::refuse(const Frame& frame, FaultCode why, AxisLoop& loop) {
 void EpochFollowing::check(AxisLoop& loop) {
     if (!is_open()) { return; }
     const auto veto_before = follower_.veto();
-    for (const DeviceOrder& order : follower_.decide(loop.slot)) { loop.out.orders.push_back(order); }
+    for (const DeviceOrder& order : follower_.decide(loop.slot, loop.publishes())) { loop.out.orders.push_back(order); }
     if (follower_.veto() == veto_before) { return; }
     loop.notice({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto(), follower_.failed_check()});
 }
 
 void EpochFollowing::veto(AxisLoop& loop) {
     const auto veto_before = follower_.veto();
-    follower_.veto_for_own_reasons(loop.slot);
+    follower_.veto_for_own_reasons(loop.next_state);
     if (follower_.veto() == veto_before) { return; }
     loop.notice({AxisNotice::Kind::Vetoed, FaultCode::None, *follower_.veto()});
 }

@@ -25,7 +25,7 @@ public:
 
     // Messages. A peer's state stamped later than any clock error explains is ignored.
     void take(const AxisState& peer, Slot now);
-    void take(const MachineState& owner) { follower_.hear(owner); }
+    void take(const MachineState& owner, Slot now);
     /// From the owner. `rest`: where the axis rests, if it may begin an epoch.
     void take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop);
 

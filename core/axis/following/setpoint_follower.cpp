@@ -1,5 +1,7 @@
 #include "core/axis/following/setpoint_follower.hpp"
 
+#include <limits>
+
 #include "core/motion/frame_limits.hpp"
 
 namespace lockstep {
@@ -23,12 +25,14 @@ SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machin
 
 void SetpointFollower::hear(const AxisState& peer) {
     if (peer.axis >= axes_ || peer.axis == axis_) { return; }
-    peers_[peer.axis].hear(peer);
+    peers_[peer.axis].receive(peer.stamp, peer.epoch, peer.held);
     if (open_ && peer.epoch == epoch_) { add_veto(peer.veto); }
 }
 
 void SetpointFollower::hear(const MachineState& coordinator) {
     named_ = coordinator.epoch;
+    coordinator_.receive(coordinator.stamp, coordinator.epoch,
+                         coordinator.veto ? *coordinator.veto - 1 : std::numeric_limits<FrameNumber>::max());
     if (open_ && coordinator.epoch == epoch_) { add_veto(coordinator.veto); }
 }
 
@@ -37,7 +41,7 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     const AxisTrack& track = frame.axes[axis_];
     const bool first = !open_ && rest && frame.epoch > epoch_ && frame.epoch == named_ && frame.number == 1;
     const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_;
-    if ((!first && !next) || frames_.size() == kMaxFrames) { return FaultCode::None; }
+    if ((!first && !next) || frames_.size() == kMaxFramesKept) { return FaultCode::None; }
     const bool follows = first ? is_epoch_of(frame.epoch, frame.term) : frame.start == end_tick_;
     if (!follows) { return FaultCode::FrameDiscontinuous; }
     if (frame.start.value % slot_.value != 0 || frame.ticks.value <= 0) { return FaultCode::BadProgram; }
@@ -78,30 +82,34 @@ AxisSet SetpointFollower::lacking(FrameNumber k, Slot start) const {
     return lacking;
 }
 
+bool SetpointFollower::coordinator_holds(FrameNumber k, Slot start) const {
+    return coordinator_.holds(epoch_, k, start, timing_);
+}
+
 void SetpointFollower::refuse(FrameNumber veto, const FailedCheck& check) {
     if (!veto_ || veto < *veto_) { failed_check_ = check; }
     add_veto(veto);
 }
 
-const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now) {
+const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now, bool publishes) {
     orders_.clear();
     std::optional<FrameNumber> unarmed;  // never to be armed, though others may run it
-    for (FrameNumber k = checked_ + 1; open_; ++k) {
+    for (FrameNumber k = checked_ + 1; open_ && k <= held_ + 1; ++k) {
         const std::optional<Slot> start = start_slot(k);
         if (!start) { break; }
         const rules::CheckTime time = rules::check_time(now, *start, timing_);
-        if (time == rules::CheckTime::Early) { break; }
-        checked_ = k;
-        const FailedCheck check{time == rules::CheckTime::TooLate, held_ >= k, lacking(k, *start)};
-        if (check.too_late) {
-            refuse(rules::veto_when_too_late(k), check);
-            unarmed = rules::merge(unarmed, k);
-        } else if (rules::may_arm(k, {held_, veto_, check.lacking == 0})) {
+        const bool too_late = time == rules::CheckTime::TooLate;
+        const FailedCheck check{too_late, held_ >= k, lacking(k, *start), !coordinator_holds(k, *start)};
+        const bool all_hold = check.lacking == 0 && !check.no_coordinator;
+        if (!too_late && rules::may_arm(k, {held_, veto_, all_hold})) {
             orders_.emplace_back(device::Arm{k});
+        } else if (time == rules::CheckTime::Early || !publishes) {
+            break;
         } else {
-            refuse(rules::veto_when_failed(k), check);
+            refuse(too_late ? first_open(now) : k, check);
+            if (too_late) { unarmed = rules::merge(unarmed, k); }
         }
-        if (k > held_) { break; }
+        checked_ = k;
     }
     const auto veto = rules::merge(rules::merge(veto_, unarmed), device_veto_);
     if (veto != device_veto_) {
@@ -111,14 +119,20 @@ const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now) {
     return orders_;
 }
 
-void SetpointFollower::veto_for_own_reasons(Slot now) {
-    if (!open_) { return; }
+/// The first frame that every axis still learns of in time when it is vetoed by the state published in slot `next`.
+/// Frames that this axis lacks are as long as all but the last are.
+FrameNumber SetpointFollower::first_open(Slot next) const {
     FrameNumber k = frames_.empty() ? held_ + 1 : frames_.front().number;
-    for (; k <= held_ + 1; ++k) {
-        const std::optional<Slot> start = start_slot(k);
-        if (start && rules::axis_may_veto(now, *start)) { break; }
+    for (; k <= held_; ++k) {
+        if (rules::axis_may_veto(next, *start_slot(k))) { return k; }
     }
-    add_veto(k);
+    Slot start = rules::slot_of(end_tick_, slot_);
+    for (; !last_held_ && !rules::axis_may_veto(next, start); ++k) { start += timing_.frame_slots; }
+    return k;
+}
+
+void SetpointFollower::veto_for_own_reasons(Slot next) {
+    if (open_) { add_veto(first_open(next)); }
 }
 
 }  // namespace lockstep

@@ -9,6 +9,7 @@
 #include "core/axis/following/frame_check.hpp"
 #include "core/axis/state/axis_io.hpp"
 #include "core/machine.hpp"
+#include "core/protocol/frame_room.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "core/protocol/rules.hpp"
 
@@ -30,11 +31,13 @@ public:
     /// Otherwise the frame is held (held() says so), or the fault says why not.
     FaultCode offer(const Frame& frame, std::optional<Position> rest);
 
-    /// Makes the checks that are due. Returns what the device is to be told, in order; valid until the next call.
-    const std::vector<DeviceOrder>& decide(Slot now);
+    /// Arms what it may, and vetoes what it has not armed in time, in the loop that `publishes` this slot's state: a veto
+    /// reaches the others in time only from then on. Returns the device's orders in order; valid until the next call.
+    const std::vector<DeviceOrder>& decide(Slot now, bool publishes);
 
-    /// Casts the lowest veto that still reaches everyone: this axis cannot go on.
-    void veto_for_own_reasons(Slot now);
+    /// Vetoes the first frame of which every axis still learns in time by the state published in slot `next`: this axis
+    /// cannot go on.
+    void veto_for_own_reasons(Slot next);
 
     /// The device has ended the run of this epoch: nothing more of it is held or checked.
     void close() { open_ = false; }
@@ -54,11 +57,11 @@ public:
 private:
     void begin(Epoch epoch);
     AxisSet lacking(FrameNumber k, Slot start) const;
+    bool coordinator_holds(FrameNumber k, Slot start) const;
+    FrameNumber first_open(Slot next) const;
     void refuse(FrameNumber veto, const FailedCheck& check);
     std::optional<Slot> start_slot(FrameNumber k) const;
     void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }
-
-    static constexpr std::size_t kMaxFrames = 16;
 
     std::size_t axis_;
     std::size_t axes_;
@@ -66,6 +69,7 @@ private:
     Ticks slot_;
     AxisLimits limits_;
     std::vector<PeerEvidence> peers_;
+    PeerEvidence coordinator_;
 
     bool open_ = false;
     Epoch epoch_ = 0;
@@ -78,7 +82,7 @@ private:
     MotionPoint end_;                         // of the last body held
     Tick end_tick_;
     bool last_held_ = false;
-    HeldFrames frames_{kMaxFrames};
+    HeldFrames frames_{kMaxFramesKept};
     std::vector<DeviceOrder> orders_;  // of one call
 };
 

@@ -24,10 +24,12 @@ struct AxisCondition {
 struct AxisLoop {
     Tick now;
     Slot slot;
+    Slot next_state;  // the slot of the next state that it publishes
     AxisCondition& condition;
     DeviceView& device;
     AxisOutputs& out;
 
+    bool publishes() const { return next_state == slot; }
     void notice(const AxisNotice& notice) { out.notices.push_back(notice); }
 
     /// The open order fails too.

@@ -92,7 +92,7 @@ CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
         return refuse(FaultCode::Busy, "the machine is stopping, and drops the job");
     }
     intent_ = std::max(intent_, intent);
-    path_.stop(loop.slot);
+    path_.stop(loop.next_state);
     loop.enter(MachinePhase::Stopping);
     return {};
 }

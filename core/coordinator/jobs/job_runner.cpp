@@ -123,7 +123,7 @@ void JobRunner::fail(FaultCode fault, std::size_t axis, CoordinatorLoop& loop) {
     if (!loop.condition.latch(fault, axis, loop.out.notices)) { return; }
     if (in_motion()) {
         intent_ = Intent::Abort;
-        path_.is_moving() ? path_.stop(loop.slot) : halt_alone(loop);
+        path_.is_moving() ? path_.stop(loop.next_state) : halt_alone(loop);
         return loop.enter(MachinePhase::Stopping);
     }
     doubt_inherited(loop);

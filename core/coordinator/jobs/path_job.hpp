@@ -42,7 +42,8 @@ public:
     /// No stop is waited for without end.
     bool is_overdue() const { return runner_.is_overdue(); }
     /// The epoch in progress comes to rest.
-    void stop(Slot slot) { runner_.stop(slot); }
+    /// By the state published in slot `next`.
+    void stop(Slot next) { runner_.stop(next); }
     void end_epoch(const EpochEnd& end, const MachineConfig& machine);
     void give_up_epoch() { is_moving_ = false; }
     /// All axes rest together on the path, proved by their counts. False: too many epochs in a row have run no frame.

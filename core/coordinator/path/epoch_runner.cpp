@@ -112,11 +112,11 @@ EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
     return ending;
 }
 
-void EpochRunner::stop(Slot now) {
+void EpochRunner::stop(Slot next) {
     ended_ = true;
     if (veto_) { return; }
     const auto undecided = std::find_if(in_flight_.begin(), in_flight_.end(), [&](const Frame& frame) {
-        return rules::coordinator_may_veto(now, rules::slot_of(frame.start, slot_), machine_.timing);
+        return rules::coordinator_may_veto(next, rules::slot_of(frame.start, slot_), machine_.timing);
     });
     veto_ = undecided == in_flight_.end() ? sent_ + 1 : undecided->number;
 }

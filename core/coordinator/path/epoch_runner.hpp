@@ -53,8 +53,8 @@ public:
     };
     std::optional<Turn> take_turn() { return std::exchange(taken_, std::nullopt); }
 
-    /// No more frames; the lowest frame that nobody can have decided on yet is vetoed.
-    void stop(Slot now);
+    /// No more frames; the lowest frame that no axis can have armed yet is vetoed, by the state published in slot `next`.
+    void stop(Slot next);
 
     /// Nothing while anybody may still move. Axes not present are left out of the judgement.
     std::optional<EpochEnd> judge(Slot now, std::span<const AxisView> axes) const;

@@ -22,7 +22,8 @@ struct CoordinatorLoop {
     CoordinatorOutputs& out;
     Tick now;
     Slot slot = 0;
-    Term term;  // the coordinator's own, where it owns the machine
+    Slot next_state = 0;  // the slot of the next state that it publishes
+    Term term;            // the coordinator's own, where it owns the machine
 
     void notice(const CoordinatorNotice& notice) { out.notices.push_back(notice); }
     void enter(MachinePhase phase) { condition.enter(phase, out.notices); }

@@ -27,8 +27,12 @@ inline Scenario two_axes() {
     Scenario scenario{.seed = 7};
     scenario.machine.name = "two";
     scenario.machine.axes = {checked_axis("X"), checked_axis("Y")};
-    scenario.machine.timing = {
-        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 6};
+    scenario.machine.timing = {.slot_us = 1000,
+                               .stall_slots = 1,
+                               .late_check_slots = 0,
+                               .freshness_slots = 2,
+                               .send_ahead_slots = 12,
+                               .frame_slots = 6};
     Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {}, .blocks = {}};
     program.blocks = {{1, LinearMove{{18, 14}, 0, true}}, {2, LinearMove{{18, 20}, 0, true}}};
     scenario.tasks = {{program, {}, {}, {}}};

@@ -66,7 +66,7 @@ TEST_F(Owner, OnStandbyIsNoOwner) {
 class Peers : public ControllerRig {
 protected:
     static constexpr Slot kStart = 100;
-    static constexpr Slot kCheck = 95;  // V = 5
+    static constexpr Slot kCheck = 96;  // V = 4
 
     Peers() {
         owned(60, 79, kEpoch);
@@ -90,13 +90,14 @@ protected:
 TEST_F(Peers, WhoHoldTheFrameLetItBeArmed) {
     EXPECT_EQ(state.held, 1u);
     peer_reports(94);
-    loop(94);
-    EXPECT_EQ(orders_of<device::Arm>(loop(kCheck)).size(), 1u);
+    owner_reports(94, kEpoch);
+    EXPECT_EQ(orders_of<device::Arm>(loop(95)).size(), 1u);
 }
 
 TEST_F(Peers, AreNotBelievedInTheFuture) {
     peer_reports(94);
     loop(91);  // three slots before the stamp: no clock is so far off
+    owner_reports(94, kEpoch);
     EXPECT_TRUE(orders_of<device::Arm>(loop(kCheck)).empty());
     EXPECT_EQ(state.veto, 1u);
 }
@@ -104,6 +105,7 @@ TEST_F(Peers, AreNotBelievedInTheFuture) {
 TEST_F(Peers, AreBelievedUpToAHopAhead) {
     peer_reports(94);
     loop(92);
+    owner_reports(94, kEpoch);
     EXPECT_EQ(orders_of<device::Arm>(loop(kCheck)).size(), 1u);
     EXPECT_FALSE(state.veto.has_value());
 }

@@ -13,7 +13,12 @@ class AxisParts : public testing::Test {
 protected:
     static MachineConfig machine() {
         MachineConfig m{.name = "pair"};
-        m.timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+        m.timing = {.slot_us = 1000,
+                    .stall_slots = 1,
+                    .late_check_slots = 0,
+                    .freshness_slots = 2,
+                    .send_ahead_slots = 12,
+                    .frame_slots = 5};
         const AxisConfig axis{.name = "X",
                               .steps_per_mm = 100,
                               .start_velocity_mm_s = 10,
@@ -46,7 +51,7 @@ protected:
     }
     AxisLoop loop() {
         out = {};
-        return {now, now.value / 1000, condition, device, out};
+        return {now, now.value / 1000, now.value / 1000, condition, device, out};
     }
     template <typename Order>
     std::ptrdiff_t ordered() const {

@@ -27,10 +27,13 @@ protected:
                         .position_min_mm = -100,
                         .position_max_mm = 100};
         axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
-        MachineConfig m{
-            .name = "pair",
-            .timing = {
-                .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5}};
+        MachineConfig m{.name = "pair",
+                        .timing = {.slot_us = 1000,
+                                   .stall_slots = 1,
+                                   .late_check_slots = 0,
+                                   .freshness_slots = 2,
+                                   .send_ahead_slots = 12,
+                                   .frame_slots = 5}};
         m.axes = {axis, axis};
         m.axes[1].name = "Y";
         return m;

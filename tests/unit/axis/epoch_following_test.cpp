@@ -14,7 +14,7 @@ protected:
     Following() {
         show(at_rest(), true);
         make_ready();
-        following.take(MachineState{.epoch = kEpoch});
+        following.take(MachineState{.epoch = kEpoch}, 100);
     }
     static Frame frame(FrameNumber k) {
         Frame f{.term = kTerm,
@@ -62,7 +62,7 @@ TEST_F(Following, ReportsARepeatedRefusalOnceAndCountsEach) {
 
 TEST_F(Following, VetoesAFrameThatAPeerDoesNotReport) {
     receive(frame(1));
-    now = {115'000};  // the check instant
+    now = {116'000};  // the check: frame 1 starts at 120
     AxisLoop l = loop();
     following.check(l);
     EXPECT_TRUE(noticed(AxisNotice::Kind::Vetoed));

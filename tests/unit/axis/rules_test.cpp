@@ -1,4 +1,5 @@
-// The setpoint protocol's rules, one example each. The configuration is the quiet LAN's: s = 1, m = 2, V = 5, A = 12.
+// The setpoint protocol's rules, one example each. The configuration is the quiet LAN's: s = 1, e = 0, m = 2, so V = 4,
+// the lease is 7, A = 12.
 #include "core/protocol/rules.hpp"
 
 #include <gtest/gtest.h>
@@ -8,54 +9,51 @@
 namespace lockstep {
 namespace {
 
-constexpr ProtocolTiming kTiming{
-    .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
-constexpr Slot kStart = 100;  // of frame k; Y(k) = 95
+constexpr ProtocolTiming kTiming{.slot_us = 1000,
+                                 .stall_slots = 1,
+                                 .late_check_slots = 0,
+                                 .freshness_slots = 2,
+                                 .send_ahead_slots = 12,
+                                 .frame_slots = 5};
+constexpr Slot kStart = 100;  // of frame k
 
-TEST(Rules, TheCheckInstantLiesVSlotsBeforeTheStart) {
-    EXPECT_EQ(kTiming.check_slots(), 5);
-    EXPECT_EQ(rules::check_slot(kStart, kTiming), 95);
+TEST(Rules, TheCheckIsFourSlotsAndTheLateOnesBeforeTheStart) {
+    EXPECT_EQ(kTiming.check_slots(), 4);
+    EXPECT_EQ(rules::check_slot(kStart, kTiming), 96);
+    ProtocolTiming late = kTiming;
+    late.late_check_slots = 1;
+    EXPECT_EQ(rules::check_slot(kStart, late), 95);
 }
 
-TEST(Rules, ACheckIsMadeFromYUntilFourSlotsBeforeTheStart) {
-    EXPECT_EQ(rules::check_time(94, kStart, kTiming), rules::CheckTime::Early);
-    EXPECT_EQ(rules::check_time(95, kStart, kTiming), rules::CheckTime::Due);
-    EXPECT_EQ(rules::check_time(96, kStart, kTiming), rules::CheckTime::Due);
-    EXPECT_EQ(rules::check_time(97, kStart, kTiming), rules::CheckTime::TooLate);
+TEST(Rules, ACheckIsMadeUntilFourSlotsBeforeTheStart) {
+    ProtocolTiming late = kTiming;
+    late.late_check_slots = 1;
+    EXPECT_EQ(rules::check_time(94, kStart, late), rules::CheckTime::Early);
+    EXPECT_EQ(rules::check_time(95, kStart, late), rules::CheckTime::Due);
+    EXPECT_EQ(rules::check_time(96, kStart, late), rules::CheckTime::Due);
+    EXPECT_EQ(rules::check_time(97, kStart, late), rules::CheckTime::TooLate);
 }
 
-TEST(Rules, EvidenceIsFixedByItsStampNotByWhenItIsLookedAt) {
-    EXPECT_FALSE(rules::is_evidence(91, kStart, kTiming));
-    EXPECT_TRUE(rules::is_evidence(92, kStart, kTiming));  // Y - 1 - m
-    EXPECT_TRUE(rules::is_evidence(94, kStart, kTiming));  // Y - 1
-    EXPECT_FALSE(rules::is_evidence(95, kStart, kTiming));
-}
-
-TEST(Rules, TheWindowOfEvidenceEndsOneSlotBeforeTheCheck) {
-    EXPECT_EQ(rules::first_evidence_slot(kStart, kTiming), 92);  // Y - 1 - m
-    EXPECT_EQ(rules::last_evidence_slot(kStart, kTiming), 94);   // Y - 1
+TEST(Rules, EvidenceIsStampedNoEarlierThanTheLease) {
+    EXPECT_EQ(kTiming.lease_slots(), 7);
+    EXPECT_EQ(rules::first_evidence_slot(kStart, kTiming), 93);
     for (Slot stamp = 80; stamp < 110; ++stamp) {
-        EXPECT_EQ(rules::is_evidence(stamp, kStart, kTiming), stamp >= 92 && stamp <= 94) << stamp;
+        EXPECT_EQ(rules::is_evidence(stamp, kStart, kTiming), stamp >= 93) << stamp;
     }
 }
 
 TEST(Rules, AFrameIsArmedOnlyIfHeldByAllAndVetoedByNone) {
-    EXPECT_TRUE(rules::may_arm(3, {.held = 3, .veto = std::nullopt, .every_other_holds = true}));
-    EXPECT_TRUE(rules::may_arm(3, {.held = 4, .veto = 4, .every_other_holds = true}));
-    EXPECT_FALSE(rules::may_arm(3, {.held = 2, .veto = std::nullopt, .every_other_holds = true}));
-    EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = 3, .every_other_holds = true}));
-    EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = 1, .every_other_holds = true}));
-    EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = std::nullopt, .every_other_holds = false}));
+    EXPECT_TRUE(rules::may_arm(3, {.held = 3, .veto = std::nullopt, .all_hold = true}));
+    EXPECT_TRUE(rules::may_arm(3, {.held = 4, .veto = 4, .all_hold = true}));
+    EXPECT_FALSE(rules::may_arm(3, {.held = 2, .veto = std::nullopt, .all_hold = true}));
+    EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = 3, .all_hold = true}));
+    EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = 1, .all_hold = true}));
+    EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = std::nullopt, .all_hold = false}));
 }
 
-TEST(Rules, TooLateToVetoAFrameVetoesTheNext) {
-    EXPECT_EQ(rules::veto_when_failed(7), 7u);
-    EXPECT_EQ(rules::veto_when_too_late(7), 8u);
-}
-
-TEST(Rules, TheCoordinatorVetoesOnlyWhatItCouldStillSend) {
-    EXPECT_TRUE(rules::coordinator_may_veto(90, kStart, kTiming));
-    EXPECT_FALSE(rules::coordinator_may_veto(91, kStart, kTiming));
+TEST(Rules, TheCoordinatorVetoesOnlyWhatNoAxisCanHaveArmed) {
+    EXPECT_TRUE(rules::coordinator_may_veto(93, kStart, kTiming));
+    EXPECT_FALSE(rules::coordinator_may_veto(94, kStart, kTiming));
 }
 
 TEST(Rules, AnAxisVetoesOnlyWhatStillReachesEveryone) {
@@ -65,8 +63,8 @@ TEST(Rules, AnAxisVetoesOnlyWhatStillReachesEveryone) {
 
 TEST(Rules, AFrameIsSentFromAOnAndNeverPastItsDeadline) {
     EXPECT_EQ(rules::first_send_slot(kStart, kTiming), 88);
-    EXPECT_TRUE(rules::may_send(90, kStart, kTiming));  // V + m + 3 = 10 slots before
-    EXPECT_FALSE(rules::may_send(91, kStart, kTiming));
+    EXPECT_TRUE(rules::may_send(91, kStart, kTiming));  // two slots before the lease
+    EXPECT_FALSE(rules::may_send(92, kStart, kTiming));
 }
 
 TEST(Rules, TheLowestVetoWins) {
@@ -78,40 +76,35 @@ TEST(Rules, TheLowestVetoWins) {
 
 constexpr Epoch kEpoch = 7;
 
-AxisState says_held(Slot stamp, FrameNumber held, Epoch epoch = kEpoch) {
-    return {.stamp = stamp, .epoch = epoch, .held = held};
-}
-
-TEST(PeerEvidence, OneStateInTheWindowIsEnough) {
+TEST(PeerEvidence, IsAStateWithinTheLease) {
     for (Slot stamp = 80; stamp < 110; ++stamp) {
         PeerEvidence peer;
-        peer.hear(says_held(stamp, 3));
+        peer.receive(stamp, kEpoch, 3);
         EXPECT_EQ(peer.holds(kEpoch, 3, kStart, kTiming), rules::is_evidence(stamp, kStart, kTiming)) << stamp;
     }
 }
 
-TEST(PeerEvidence, AFrameIsHeldWithAllBeforeIt) {
+TEST(PeerEvidence, HoldsAFrameWithAllBeforeIt) {
     PeerEvidence peer;
-    peer.hear(says_held(93, 3));
+    peer.receive(93, kEpoch, 3);
     EXPECT_TRUE(peer.holds(kEpoch, 2, kStart, kTiming));
     EXPECT_FALSE(peer.holds(kEpoch, 4, kStart, kTiming));
 }
 
-TEST(PeerEvidence, AnotherEpochIsEvidenceOfNothing) {
+TEST(PeerEvidence, IsNoneFromAnotherEpoch) {
     PeerEvidence peer;
-    peer.hear(says_held(93, 3, kEpoch - 1));
+    peer.receive(93, kEpoch - 1, 3);
     EXPECT_FALSE(peer.holds(kEpoch, 3, kStart, kTiming));
 }
 
-TEST(PeerEvidence, LateDoubledOrOutOfOrderStatesCountByTheirStamps) {
+TEST(PeerEvidence, IsNoneBeforeTheFirstState) { EXPECT_FALSE(PeerEvidence().holds(0, 0, kStart, kTiming)); }
+
+TEST(PeerEvidence, CountsLateDoubledOrOutOfOrderStatesByTheirStamps) {
     PeerEvidence peer;
-    peer.hear(says_held(99, 3));
-    peer.hear(says_held(93, 3));
-    peer.hear(says_held(93, 3));
+    peer.receive(99, kEpoch, 3);
+    peer.receive(93, kEpoch, 2);
+    peer.receive(93, kEpoch, 2);
     EXPECT_TRUE(peer.holds(kEpoch, 3, kStart, kTiming));
-    peer.hear(says_held(93 + PeerEvidence::kMemory, 4));  // in the same place of the memory
-    peer.hear(says_held(93, 3));
-    EXPECT_FALSE(peer.holds(kEpoch, 3, kStart, kTiming));
 }
 
 }  // namespace

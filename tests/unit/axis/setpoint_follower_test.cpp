@@ -12,9 +12,13 @@ constexpr Term kTerm{1, 1};
 constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
 
 MachineConfig machine() {
-    MachineConfig m{
-        .name = "pair",
-        .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5}};
+    MachineConfig m{.name = "pair",
+                    .timing = {.slot_us = 1000,
+                               .stall_slots = 1,
+                               .late_check_slots = 0,
+                               .freshness_slots = 2,
+                               .send_ahead_slots = 12,
+                               .frame_slots = 5}};
     const AxisConfig axis{.name = "X",
                           .steps_per_mm = 100,
                           .start_velocity_mm_s = 10,
@@ -51,6 +55,10 @@ AxisState peer(Slot stamp, FrameNumber held, std::optional<FrameNumber> veto = s
     return {.identity = 2, .axis = 1, .stamp = stamp, .epoch = kEpoch, .held = held, .veto = veto};
 }
 
+MachineState coordinator(Slot stamp, std::optional<FrameNumber> veto = std::nullopt) {
+    return {.stamp = stamp, .epoch = kEpoch, .veto = veto};
+}
+
 const Position kHome = Position::steps(0);
 
 /// Axis 0 of two, which has heard of the epoch.
@@ -65,7 +73,7 @@ protected:
     SetpointFollower follower = informed();
 
     bool armed_at(Slot now, FrameNumber k) {
-        for (const DeviceOrder& order : follower.decide(now)) {
+        for (const DeviceOrder& order : follower.decide(now, true)) {
             const auto* arm = std::get_if<device::Arm>(&order);
             if (arm != nullptr && arm->number == k) { return true; }
         }
@@ -73,78 +81,118 @@ protected:
     }
 };
 
-TEST_F(Follower, ArmsWhatEveryoneHolds) {
+TEST_F(Follower, ArmsAsSoonAsAllHold) {
     EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
     EXPECT_EQ(follower.held(), 1u);
-    follower.hear(peer(94, 1));
-    EXPECT_FALSE(armed_at(94, 1)) << "before the check instant";
-    EXPECT_TRUE(armed_at(95, 1));
+    follower.hear(peer(93, 1));
+    EXPECT_FALSE(armed_at(94, 1)) << "the coordinator's evidence is missing";
+    follower.hear(coordinator(93));
+    EXPECT_TRUE(armed_at(94, 1));
     EXPECT_FALSE(follower.veto().has_value());
 }
 
-TEST_F(Follower, ALateCheckDecidesAsAPunctualOne) {
+TEST_F(Follower, ArmsUntilFourSlotsBeforeTheStart) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 1));
+    follower.hear(peer(93, 1));
+    follower.hear(coordinator(93));
     EXPECT_TRUE(armed_at(96, 1));
 }
 
-TEST_F(Follower, VetoesWhatAPeerHasNotSaidItHolds) {
+TEST_F(Follower, VetoesAtTheCheckWhatAPeerDoesNotHold) {
     (void)follower.offer(frame(1, kHome), kHome);
     follower.hear(peer(94, 0));
+    follower.hear(coordinator(94));
     EXPECT_FALSE(armed_at(95, 1));
+    EXPECT_FALSE(follower.veto().has_value()) << "evidence may still arrive";
+    EXPECT_FALSE(armed_at(96, 1));
     EXPECT_EQ(follower.veto(), 1u);
+    EXPECT_EQ(follower.failed_check().lacking, axis_bit(1));
 }
 
-TEST_F(Follower, StaleOrPrematureEvidenceIsNone) {
+TEST_F(Follower, VetoesAtTheCheckWithoutTheCoordinator) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(91, 1));
-    follower.hear(peer(95, 1));
-    EXPECT_FALSE(armed_at(95, 1));
+    follower.hear(peer(94, 1));
+    follower.hear(coordinator(92));
+    EXPECT_FALSE(armed_at(96, 1));
+    EXPECT_EQ(follower.veto(), 1u);
+    EXPECT_TRUE(follower.failed_check().no_coordinator);
+}
+
+TEST_F(Follower, LeavesAVetoToTheLoopThatPublishesIt) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    EXPECT_TRUE(follower.decide(96, false).empty());
+    EXPECT_FALSE(follower.veto().has_value());
+    (void)follower.decide(97, true);
+    EXPECT_EQ(follower.veto(), 2u);
+}
+
+TEST_F(Follower, IgnoresEvidenceFromBeforeTheLease) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(92, 1));
+    follower.hear(coordinator(94));
+    EXPECT_FALSE(armed_at(96, 1));
     EXPECT_EQ(follower.veto(), 1u);
 }
 
-TEST_F(Follower, EvidenceOfAnotherEpochIsNone) {
+TEST_F(Follower, IgnoresEvidenceOfAnotherEpoch) {
     (void)follower.offer(frame(1, kHome), kHome);
     AxisState other = peer(94, 1);
     other.epoch = kEpoch - 1;
     follower.hear(other);
+    follower.hear(coordinator(94));
     EXPECT_FALSE(armed_at(95, 1));
 }
 
-TEST_F(Follower, TooLateMeansTheNextFrameIsVetoed) {
+TEST_F(Follower, VetoesTheFirstFrameFourSlotsAheadWhenTooLate) {
     (void)follower.offer(frame(1, kHome), kHome);
     follower.hear(peer(94, 1));
-    const auto orders = follower.decide(97);
+    follower.hear(coordinator(94));
+    const auto orders = follower.decide(97, true);
     EXPECT_EQ(follower.veto(), 2u) << "the others may run frame 1";
     ASSERT_EQ(orders.size(), 1u);
     EXPECT_EQ(std::get<device::Veto>(orders[0]).number, 1u) << "but its own device does not";
+    SetpointFollower later = informed();
+    (void)later.offer(frame(1, kHome), kHome);
+    (void)later.decide(102, true);
+    EXPECT_EQ(later.veto(), 3u) << "frame 2 starts at 105";
 }
 
-TEST_F(Follower, APeersVetoReachesTheDeviceAndIsRepeated) {
+TEST_F(Follower, RepeatsAPeersVetoAndTellsTheDevice) {
     (void)follower.offer(frame(1, kHome), kHome);
     follower.hear(peer(94, 1));
+    follower.hear(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
     follower.hear(peer(96, 1, 1));
-    const auto orders = follower.decide(97);
+    const auto orders = follower.decide(97, false);
     ASSERT_EQ(orders.size(), 1u);
     EXPECT_EQ(std::get<device::Veto>(orders[0]).number, 1u);
     EXPECT_EQ(follower.veto(), 1u);
 }
 
-TEST_F(Follower, AFrameThatDoesNotComeIsVetoedAtItsCheck) {
+TEST_F(Follower, DoesNotArmWhatTheCoordinatorVetoes) {
     (void)follower.offer(frame(1, kHome), kHome);
     follower.hear(peer(94, 1));
+    follower.hear(coordinator(94, 1));
+    EXPECT_FALSE(armed_at(95, 1));
+    EXPECT_EQ(follower.veto(), 1u);
+}
+
+TEST_F(Follower, VetoesAFrameThatIsNotReceivedByItsCheck) {
+    (void)follower.offer(frame(1, kHome), kHome);
+    follower.hear(peer(94, 1));
+    follower.hear(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
     follower.hear(peer(99, 1));
-    (void)follower.decide(100);  // Y(2)
+    (void)follower.decide(101, true);  // V before frame 2
     EXPECT_EQ(follower.veto(), 2u);
 }
 
-TEST_F(Follower, NothingIsExpectedAfterTheLastFrame) {
+TEST_F(Follower, ExpectsNothingAfterTheLastFrame) {
     (void)follower.offer(frame(1, kHome, kSlow, true), kHome);
     follower.hear(peer(94, 1));
+    follower.hear(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
-    (void)follower.decide(120);
+    (void)follower.decide(120, true);
     EXPECT_FALSE(follower.veto().has_value());
 }
 

@@ -12,8 +12,12 @@ namespace {
 
 MachineConfig one_slow_axis() {
     MachineConfig machine{.name = "slow"};
-    machine.timing = {
-        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+    machine.timing = {.slot_us = 1000,
+                      .stall_slots = 1,
+                      .late_check_slots = 0,
+                      .freshness_slots = 2,
+                      .send_ahead_slots = 12,
+                      .frame_slots = 5};
     machine.axes.push_back({.name = "X",
                             .steps_per_mm = 100,
                             .start_velocity_mm_s = 1,

@@ -6,8 +6,12 @@
 namespace lockstep {
 namespace {
 
-constexpr ProtocolTiming kTiming{
-    .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+constexpr ProtocolTiming kTiming{.slot_us = 1000,
+                                 .stall_slots = 1,
+                                 .late_check_slots = 0,
+                                 .freshness_slots = 2,
+                                 .send_ahead_slots = 12,
+                                 .frame_slots = 5};
 constexpr Slot kNow = 1000;
 constexpr int kProof = SecondProcess::kStatesThatProve;
 

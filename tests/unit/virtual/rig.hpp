@@ -24,9 +24,13 @@ inline MachineConfig small_machine() {
     axis.homing = {
         .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
     axis.plant = {.start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
-    MachineConfig machine{
-        .name = "rig",
-        .timing = {.slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5}};
+    MachineConfig machine{.name = "rig",
+                          .timing = {.slot_us = 1000,
+                                     .stall_slots = 1,
+                                     .late_check_slots = 0,
+                                     .freshness_slots = 2,
+                                     .send_ahead_slots = 12,
+                                     .frame_slots = 5}};
     machine.axes = {axis, axis};
     machine.axes[1].name = "Y";
     return machine;

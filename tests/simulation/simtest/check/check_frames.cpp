@@ -108,7 +108,7 @@ private:
         if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
     }
 
-    /// All axes ran the same frames, except those that a fault may have separated; and never by more than one frame.
+    /// All axes ran the same frames, except those that a fault may have separated; and never by more than most_apart().
     void check_same() {
         for (const auto& [number, runs] : epoch_runs(recording_)) {
             if (!runs.apart) { continue; }
@@ -134,7 +134,21 @@ private:
             least = std::min(least, runs.last[i].high);
             most = std::max(most, runs.last[i].low);
         }
-        if (most > 0 && most > least + 1) { object({}, runs.parted, "axes more than one frame apart"); }
+        if (most > 0 && most > least + most_apart()) {
+            object({}, runs.parted, "axes more than " + text(most_apart()) + " frames apart");
+        }
+    }
+
+    /// An axis whose device stops vetoes what begins four slots after its next state, a slot or two later. While it
+    /// stalls as well, the others run what they have evidence for, up to the lease.
+    FrameNumber most_apart() const {
+        using Kind = VirtualFault::Kind;
+        const ProtocolTiming& t = recording_.machine.timing;
+        const bool stalls = std::ranges::any_of(recording_.faults, [](const VirtualFault& fault) {
+            return fault.kind == Kind::Freeze || fault.kind == Kind::StopDevice;
+        });
+        const Slot slots = stalls ? t.lease_slots() : rules::kLastCheckSlots + 1;
+        return static_cast<FrameNumber>(1 + slots / t.frame_slots);
     }
 
     /// If axes ran different frames, their coordinator enters Fault before it begins another epoch.

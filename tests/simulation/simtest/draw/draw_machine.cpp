@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/protocol/frame_room.hpp"
+
 namespace lockstep::simtest {
 namespace {
 
@@ -12,9 +14,10 @@ ProtocolTiming draw_timing(Draw& draw) {
     t.slot_us = draw.any_of<std::int64_t>({500, 1000, 2000, 2000, 5000, 5000, 10'000, 10'000});
     const auto slots = [&draw](std::int64_t low, std::int64_t high) { return static_cast<int>(draw.whole(low, high)); };
     t.stall_slots = slots(1, t.slot_us < 2000 ? 12 : 5);
-    t.freshness_slots = t.stall_slots + slots(1, 3);
-    t.frame_slots = t.freshness_slots + t.stall_slots + 2 + slots(0, 8);
-    t.send_ahead_slots = std::min(2 * t.stall_slots + t.freshness_slots + 8 + slots(0, 4), 3 * t.frame_slots - 1);
+    t.late_check_slots = slots(0, t.stall_slots);
+    t.freshness_slots = RULE_LEAST_FRESHNESS(t.stall_slots) + slots(0, 2);
+    t.send_ahead_slots = RULE_LEAST_SEND_AHEAD(t.check_slots(), t.freshness_slots, t.stall_slots) + slots(0, 4);
+    t.frame_slots = least_frame_slots(t) + (draw.chance(0.5) ? slots(0, 4) : slots(0, 30));
     return t;
 }
 

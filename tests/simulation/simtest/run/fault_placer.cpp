@@ -61,7 +61,7 @@ double FaultPlacer::frame_slots(const PlannedFault& planned) const {
     const double start = static_cast<double>(planned.frame - 1) * t.frame_slots;
     switch (planned.edge) {
         case Edge::FirstSend: return start - t.send_ahead_slots;
-        case Edge::Evidence: return start - t.check_slots() - 1 - t.freshness_slots;
+        case Edge::Evidence: return start - t.lease_slots();
         case Edge::Check: return start - t.check_slots();
         case Edge::LastCheck: return start - rules::kLastCheckSlots;
         default: return start;

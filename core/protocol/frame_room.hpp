@@ -1,0 +1,39 @@
+// How many frames a machine's timing keeps ahead, and how many pieces each may therefore have.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/protocol/messages.hpp"
+#include "core/protocol/timing.hpp"
+
+namespace lockstep {
+
+/// Entries of a device's segment ring (sim_fpga/registers.json).
+inline constexpr int kDeviceRingEntries = 1024;
+/// The most frames that an axis keeps.
+inline constexpr std::size_t kMaxFramesKept = 16;
+/// Fewer pieces in a frame are not worth a configuration.
+inline constexpr int kLeastBodyPieces = 32;
+
+/// How many frames have been sent and have not begun, at most.
+constexpr int frames_ahead(const ProtocolTiming& t) {
+    return (t.send_ahead_slots + t.frame_slots - 1) / t.frame_slots + 1;
+}
+
+/// How many pieces the body of a frame may have for each axis, so that all frames ahead, with their tails and the piece
+/// more that each may need for its device, have room in the device's ring. Below kLeastBodyPieces: too many are ahead.
+constexpr int body_pieces(const ProtocolTiming& t) {
+    const int room = kDeviceRingEntries / frames_ahead(t) - static_cast<int>(kMaxTailPieces) - 2;
+    return std::min(room, static_cast<int>(kMaxBodyPieces));
+}
+
+/// The shortest frame for a send-ahead.
+constexpr int least_frame_slots(ProtocolTiming t) {
+    for (t.frame_slots = 1; body_pieces(t) < kLeastBodyPieces || frames_ahead(t) + 2 > int{kMaxFramesKept};) {
+        ++t.frame_slots;
+    }
+    return t.frame_slots;
+}
+
+}  // namespace lockstep
