@@ -34,9 +34,12 @@ inline set_clocks() { skip }
 #define BESIDE(a, b) ((a) <= (b) + APART && (b) <= (a) + APART)
 #if N == 2
 #define OTHERS_RUN_THE_SAME 1
+#define ALL_BESIDE BESIDE(axis[0].ran, axis[1].ran)
 #define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames))
 #else
 #define OTHERS_RUN_THE_SAME (axis[1].ran == axis[2].ran)
+#define ALL_BESIDE \
+    (BESIDE(axis[0].ran, axis[1].ran) && BESIDE(axis[0].ran, axis[2].ran) && BESIDE(axis[1].ran, axis[2].ran))
 #define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames) && axis[2].ran == (frames))
 #endif
 /* No frame runs that the coordinator has vetoed. */
@@ -88,6 +91,16 @@ inline set_clocks() { skip }
 #elif defined(AXIS_TO_COORDINATOR)
 #define HIT_TO_COORDINATOR(j) ((j) == 0)
 
+#elif defined(COORDINATOR_MUTE)
+#define HIT_FROM_COORDINATOR(i) 1
+
+#elif defined(COORDINATOR_DEAF)
+#define HIT_TO_COORDINATOR(j) 1
+
+#elif defined(COORDINATOR_CUT_OFF)
+#define HIT_FROM_COORDINATOR(i) 1
+#define HIT_TO_COORDINATOR(j) 1
+
 #elif defined(AXIS_LINK)
 #define HIT(j, i) ((j) + (i) == 1)
 
@@ -134,6 +147,16 @@ inline set_clocks() { skip }
 #elif defined(COORDINATOR_LONG_STALL)
 #define COORDINATOR_STALLS
 
+#elif defined(ALL_STALL) /* a host that stands still: all its processes, for the same slots */
+#define ALL_STALL_TOGETHER
+#define LONGEST_STALL S
+#define MAY_WAIT(i) 0 /* a late check is a stall, too */
+#define PROMISE Q
+
+#elif defined(ALL_LONG_STALL)
+#define ALL_STALL_TOGETHER
+#define PROMISE ALL_BESIDE
+
 #elif defined(AXIS_VETO) /* for reasons of its own */
 #define OWN_REASONS
 
@@ -141,6 +164,10 @@ inline set_clocks() { skip }
 #error "name a fault class"
 #endif
 
+#ifdef ALL_STALL_TOGETHER
+#define AXIS_RUNS(i) (!stalled)
+#define COORDINATOR_RUNS (!stalled)
+#endif
 #ifdef AXIS_STALLS
 #define AXIS_RUNS(i) ((i) != 0 || !stalled || mid_step)
 #endif
@@ -198,6 +225,9 @@ inline set_clocks() { skip }
 
 inline begin_fault() {
     since = 0;
+#ifdef ALL_STALL_TOGETHER
+    stalled = 1;
+#endif
 #if defined(AXIS_STALLS) || defined(COORDINATOR_STALLS)
     stalled = 1;
     if :: mid_step = 1 :: skip fi

@@ -1,4 +1,4 @@
-/* The setpoint protocol, hold, arm, veto, for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
+/* The setpoint protocol (lease, arm, veto) for exhaustive search: a coordinator, N axes, FRAMES frames, one slot a step.
  *
  * The processes decide by core/protocol/rules.inc, the same file as the code. Each receiver uses a message in the slot
  * after the one in which it was sent, or in the next one (up to DELAY); the search tries both. One fault class is
@@ -17,6 +17,11 @@
 #endif
 #ifndef E
 #define E 0
+#endif
+#ifdef LATER_CHECKS
+#define LATEST_CHECK (E + 1)
+#else
+#define LATEST_CHECK E
 #endif
 #ifndef DELAY
 #define DELAY RULE_HOP
@@ -57,7 +62,7 @@ typedef Axis {
     byte veto;
     byte received[N + 1]; /* evidence received of each other axis and, at N, of the coordinator */
     byte cleared;      /* the highest frame that it has decided to arm */
-#if E > 0
+#if LATEST_CHECK > 0
     byte waited; /* slots by which its decision is late now */
 #endif
     byte armed, device_veto, ran; /* the device: its commands, and the highest frame that it has begun */
@@ -228,11 +233,11 @@ inline decide_all() {
     od
 }
 
-/* Every decision may come up to E slots late. */
+/* Every decision may come up to LATEST_CHECK slots late: E, unless a search asks for more. */
 inline decide() {
-#if E > 0
+#if LATEST_CHECK > 0
     if
-    :: MAY_WAIT(i) && axis[i].waited < E -> axis[i].waited++
+    :: MAY_WAIT(i) && axis[i].waited < LATEST_CHECK -> axis[i].waited++
     :: true ->
         axis[i].waited = 0;
         decide_all()

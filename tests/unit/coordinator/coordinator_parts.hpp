@@ -35,7 +35,7 @@ protected:
     }
     CoordinatorLoop loop() {
         out = {};
-        return {machine, axes, orders, programs, condition, out, Tick{slot * 1000}, slot, term};
+        return {machine, axes, orders, programs, condition, out, Tick{slot * 1000}, slot, slot, term};
     }
     void accept(std::uint64_t id, double x_mm, double y_mm) {
         programs.accept(
