@@ -17,8 +17,8 @@ def machine_text(options, keys):
     security = f'security {{ directory: "{keys}" }}\n' if options.security else ""
     real_time = "real_time { priority: 1 }\n" if options.real_time else ""
     return (f'name: "{NAME}"\n{security}{real_time}'
-            f"timing {{ slot_us: {round(options.slot_ms * 1000)} stall_slots: 10 freshness_slots: 11 "
-            "send_ahead_slots: 39 frame_slots: 23 }\n"
+            f"timing {{ slot_us: {round(options.slot_ms * 1000)} stall_slots: 10 late_check_slots: 5 "
+            "freshness_slots: 11 send_ahead_slots: 34 frame_slots: 5 }\n"
             'network { interface: "lo" domain: 9 }\n' + "".join(axis.format(name=name) for name in AXES))
 
 

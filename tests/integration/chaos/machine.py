@@ -20,7 +20,7 @@ def machine_text(name):
   plant {{ start_position_mm: 4 travel_margin_mm: 2 max_torque_accel_mm_s2: 2250 max_jump_mm_s: 30 }} }}
 """
     return (f'name: "{name}"\n'
-            "timing { slot_us: 20000 stall_slots: 10 freshness_slots: 11 send_ahead_slots: 39 frame_slots: 23 }\n"
+            "timing { slot_us: 20000 stall_slots: 10 late_check_slots: 5 freshness_slots: 11 send_ahead_slots: 34 frame_slots: 5 }\n"
             f'network {{ interface: "eth0" domain: 7 lcm_url: "{LCM_URL}" }}\n'
             + "".join(axis.format(name=axis_name, travel=TRAVEL_MM) for axis_name in AXES))
 

@@ -20,9 +20,10 @@ TEST(MachineFile, AbsentKeysHaveTheDocumentedDefaults) {
     EXPECT_EQ(machine.tick_ns, 1000);
     EXPECT_EQ(machine.timing.slot_us, 10'000);
     EXPECT_EQ(machine.timing.stall_slots, 10);
+    EXPECT_EQ(machine.timing.late_check_slots, 2);
     EXPECT_EQ(machine.timing.freshness_slots, 11);
-    EXPECT_EQ(machine.timing.send_ahead_slots, 39);
-    EXPECT_EQ(machine.timing.frame_slots, 23);
+    EXPECT_EQ(machine.timing.send_ahead_slots, 31);
+    EXPECT_EQ(machine.timing.frame_slots, 5);
     EXPECT_EQ(machine.network.interface, "lo");
     EXPECT_EQ(machine.network.domain, 0U);
     EXPECT_EQ(machine.network.lcm_url, "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304");
