@@ -48,7 +48,7 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "check that coordinator and axes run the same configuration", in_order(Remedy::Reset)) \
     X(FrameOutsideTravel, 106, "frame-outside-travel", "a frame would leave an axis's travel", \
       "check that coordinator and axes run the same configuration", in_order(Remedy::Reset)) \
-    X(AxisMissing, 107, "axis-missing", "an axis is not heard", \
+    X(AxisMissing, 107, "axis-missing", "an axis is not received", \
       "start its lockstep-axis, or check the network", in_order(Remedy::Again)) \
     X(AxisLost, 108, "axis-lost", "an axis fell silent while moving", \
       "see its log, and start it where it does not run", in_order(Remedy::Reset, Remedy::Home)) \
@@ -76,7 +76,7 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "send it again", {}) \
     X(SecondCoordinator, 120, "second-coordinator", "another coordinator runs this machine", \
       "stop one of them", {}) \
-    X(FollowingError, 121, "following-error", "the encoder says that steps were lost", \
+    X(FollowingError, 121, "following-error", "the encoder shows that steps were lost", \
       "lower the axis's speed or acceleration", in_order(Remedy::Reset, Remedy::Home)) \
     X(FrameLate, 122, "frame-late", "a frame came too late to be armed", \
       "give the slots more time in the configuration if it happens often", in_order(Remedy::Reset)) \
@@ -94,13 +94,13 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "see its log", in_order(Remedy::Home)) \
     X(PositionForeign, 129, "position-foreign", "the kept position is of another machine or axis", \
       "give each machine a position_directory of its own", in_order(Remedy::Home)) \
-    X(PositionRescaled, 130, "position-rescaled", "steps_per_mm or the home switch have been configured anew since the position was kept", \
+    X(PositionRescaled, 130, "position-rescaled", "steps_per_mm or the home switch have changed in the configuration since the position was kept", \
       "", in_order(Remedy::Home)) \
     X(DevicePoweredUp, 131, "device-powered-up", "the axis's device was powered up after the position was kept", \
       "", in_order(Remedy::Home)) \
     X(DeviceHasRun, 132, "device-has-run", "the device has run, or was about to, since the axis's position was kept", \
       "", in_order(Remedy::Home)) \
-    X(PositionPushed, 133, "position-pushed", "the encoder says that the axis was moved without pulses", \
+    X(PositionPushed, 133, "position-pushed", "the encoder shows that the axis was moved without pulses", \
       "", in_order(Remedy::Home)) \
     X(HomeSwitchUnsteady, 134, "home-switch-unsteady", "the home switch closed at another place with every touch", \
       "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm", in_order(Remedy::Reset, Remedy::Home)) \

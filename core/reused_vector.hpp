@@ -1,4 +1,4 @@
-// A vector that keeps its elements, and what they hold of memory, when it is cleared: a loop that fills it anew each
+// A vector that keeps its elements, and what they hold of memory, when it is cleared: a loop that fills it again each
 // time allocates nothing once it has been full.
 #pragma once
 

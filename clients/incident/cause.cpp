@@ -43,7 +43,7 @@ bool has_healed(const Incident& incident, const Entry& symptom, Tick by) {
     return std::ranges::any_of(incident.timeline, [&](const Entry& entry) {
         const FlightKind kind = entry.event.kind;
         const bool is_back =
-            kind == FlightKind::PeerHeard || kind == FlightKind::PeerRestarted || kind == FlightKind::AxisSeen;
+            kind == FlightKind::PeerReceived || kind == FlightKind::PeerRestarted || kind == FlightKind::AxisSeen;
         return is_back && entry.event.about == symptom.event.about && entry.tick >= symptom.tick && entry.tick < by;
     });
 }

@@ -52,15 +52,15 @@ std::string reception_text(const Incident& incident, const FlightEvent& event) {
     const double lasts = incident.seconds(event.lasts);
     switch (event.kind) {
         case Kind::PeerSilent: return fmt::format("has received nothing from {} for {}", who, duration(lasts));
-        case Kind::PeerHeard:
+        case Kind::PeerReceived:
             return event.lasts == Ticks{} ? "receives " + who
                                           : fmt::format("receives {} again, after {}", who, duration(lasts));
         case Kind::PeerVeto: return fmt::format("receives {}'s veto of frame {}", who, event.frame);
         case Kind::PeerFault: return fmt::format("receives {}'s fault: {}", who, lockstep::name_of(event.fault));
         case Kind::PeerRestarted: return fmt::format("receives another process as {}", who);
-        case Kind::CommandHeard:
+        case Kind::CommandReceived:
             return fmt::format("receives the command {}", name_of(static_cast<CommandKind>(event.detail)));
-        case Kind::OrderHeard:
+        case Kind::OrderReceived:
             return fmt::format("receives the order {}", name_of(static_cast<AxisCommandKind>(event.detail)));
         default: return "receives that the machine is " + std::string(name_of(static_cast<MachinePhase>(event.detail)));
     }
@@ -125,9 +125,9 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
     const FlightEvent& event = entry.event;
     switch (event.kind) {
         case Kind::Phase: return is_axis ? Weight::Routine : Weight::Notable;
-        case Kind::PeerHeard: return event.lasts == Ticks{} ? Weight::Routine : Weight::Telling;
+        case Kind::PeerReceived: return event.lasts == Ticks{} ? Weight::Routine : Weight::Telling;
         case Kind::OwnerFollowed: return Weight::Notable;
-        case Kind::CommandHeard:
+        case Kind::CommandReceived:
         case Kind::CommandRefused:
         case Kind::JobBegun:
         case Kind::JobEnded:
@@ -158,7 +158,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
 std::string sentence(const Incident& incident, const Entry& entry) {
     const FlightEvent& event = entry.event;
     const double lasts = incident.seconds(event.lasts);
-    if (event.kind <= Kind::MachinePhaseHeard) { return reception_text(incident, event); }
+    if (event.kind <= Kind::MachinePhaseReceived) { return reception_text(incident, event); }
     switch (event.kind) {
         case Kind::PulsesStopped: return "stops its pulses at once";
         case Kind::OwnerFollowed: return "follows an owner of the machine";
@@ -194,7 +194,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
 
 std::string peer_name(const MachineConfig& machine, FlightPeer peer) {
     if (peer.kind == FlightPeer::Kind::Coordinator) { return "the coordinator"; }
-    if (peer.kind == FlightPeer::Kind::Nobody) { return "no process"; }
+    if (peer.kind == FlightPeer::Kind::None) { return "no process"; }
     return "axis " + (peer.axis < machine.axes.size() ? machine.axes[peer.axis].name : std::to_string(peer.axis));
 }
 

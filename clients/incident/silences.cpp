@@ -8,7 +8,7 @@ namespace lockstep::incident {
 namespace {
 
 bool is_silence(const FlightEvent& event) {
-    return event.kind == FlightKind::PeerSilent || (event.kind == FlightKind::PeerHeard && event.lasts > Ticks{});
+    return event.kind == FlightKind::PeerSilent || (event.kind == FlightKind::PeerReceived && event.lasts > Ticks{});
 }
 
 /// The processes that are part of all of them.

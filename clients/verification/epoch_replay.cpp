@@ -46,7 +46,7 @@ EpochEnd EpochReplay::evaluate(std::span<const AxisEnd> axes) const {
     for (const AxisEnd& axis : axes) {
         views.push_back({AxisState{.stamp = kLong, .epoch = epoch(), .ran = axis.ran, .position = axis.at}, kLong});
     }
-    return *runner_.judge(kLong, views);  // all axes are at rest: there is a result
+    return *runner_.evaluate(kLong, views);  // all axes are at rest: there is a result
 }
 
 std::int32_t EpochReplay::line_at(Tick tick) const {

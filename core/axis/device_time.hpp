@@ -3,7 +3,7 @@
 // Where machine time is shared, or kept by PTP, the two are one number, and everything passes through unchanged. Over
 // the network there are three clocks: the coordinator's (machine time), this process's, and the device's. The first is
 // estimated from exchanges of messages, the last from looks at the device; their rates and offsets may change at any
-// time, so each frame's end is mapped anew when the frame is loaded, and its start is where the frame before ended.
+// time, so each frame's end is mapped again when the frame is loaded, and its start is where the frame before ended.
 // What has changed between two loads is made up for within the axis's limits (core/axis/device/frame_pace.hpp); what is
 // left counts as error until then.
 //

@@ -13,7 +13,7 @@ std::optional<ClockRequest> ClockAsker::ask(Tick own) {
     return open_.back();
 }
 
-std::optional<ClockExchange> ClockAsker::hear(const ClockReply& reply, Tick own) {
+std::optional<ClockExchange> ClockAsker::receive(const ClockReply& reply, Tick own) {
     const auto asked = std::ranges::find(open_, reply.request);
     if (asked == open_.end()) { return std::nullopt; }
     open_.erase(asked);  // a copy that comes later would only seem slower

@@ -22,7 +22,7 @@ public:
     std::optional<ClockRequest> ask(Tick own);
 
     /// The exchange that this reply ends. None: it answers no open request of this axis.
-    std::optional<ClockExchange> hear(const ClockReply& reply, Tick own);
+    std::optional<ClockExchange> receive(const ClockReply& reply, Tick own);
 
 private:
     static constexpr std::size_t kOpen = 16;  // older requests will not be answered

@@ -1,4 +1,4 @@
-// Whether the coordinator's clock began anew: its host was started again.
+// Whether the coordinator's clock began again: its host was started again.
 //
 // Machine time never goes backwards in a process, and an axis that holds on to the old time hears nobody and is heard
 // by nobody. So its process ends, and the one that is started after it takes the new time as it is.

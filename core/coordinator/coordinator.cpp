@@ -29,7 +29,7 @@ CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
 
 void Coordinator::receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop) {
     for (const AxisState& state : inputs.axes) { receive(state, loop); }
-    for (const MachineState& other : inputs.others) { ownership_.hear(other, loop.slot); }
+    for (const MachineState& other : inputs.others) { ownership_.receive(other, loop.slot); }
     inbox_.receive(inputs.commands);
 }
 
@@ -37,7 +37,7 @@ void Coordinator::receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop
 void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     const AxisRoster::Arrival arrival = axes_.arrival_of(state, loop.slot);
     if (arrival == AxisRoster::Arrival::Ignored) { return; }
-    ownership_.hear(state);
+    ownership_.receive(state);
     if (!axes_.is_present(state.axis, loop.slot)) { loop.notice({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
     const bool is_replaced = arrival == AxisRoster::Arrival::Replaced;
     if (is_replaced && jobs_.exists()) { jobs_.fail(FaultCode::AxisLost, state.axis, loop); }
@@ -49,7 +49,7 @@ void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
 }
 
 void Coordinator::change_owner(CoordinatorLoop& loop) {
-    const Ownership::Change change = ownership_.judge(loop.now, loop.slot, axes_.views());
+    const Ownership::Change change = ownership_.evaluate(loop.now, loop.slot, axes_.views());
     loop.term = ownership_.term();
     switch (change) {
         case Ownership::Change::None: return;

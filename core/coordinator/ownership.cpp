@@ -4,35 +4,35 @@
 
 namespace lockstep {
 
-void Ownership::hear(const AxisState& axis) {
-    known_.hear(axis.term, axis.stamp);
-    followed_.hear(axis.term, axis.stamp);
+void Ownership::receive(const AxisState& axis) {
+    known_.receive(axis.term, axis.stamp);
+    followed_.receive(axis.term, axis.stamp);
 }
 
-void Ownership::hear(const MachineState& other, Slot now) {
+void Ownership::receive(const MachineState& other, Slot now) {
     if (other.phase == MachinePhase::Standby) {
-        known_.hear({other.term.number, 0}, other.stamp);
-        if (other.term.coordinator < self_) { elder_heard_ = now; }
+        known_.receive({other.term.number, 0}, other.stamp);
+        if (other.term.coordinator < self_) { elder_received_ = now; }
         return;
     }
-    known_.hear(other.term, other.stamp);
+    known_.receive(other.term, other.stamp);
     // By network time the machine's time is each coordinator's own clock, so a stamp can only be compared with its
     // like.
     const Slot time = timing_.time_source == TimeSource::Network ? other.stamp : now;
     has_second_ = second_.proves(other.term.coordinator, other.stamp, time);
     const bool known = other_owner_ && other_owner_->term == other.term;
-    if (!known && !strangers_.again(other.term, other.stamp)) { return; }
+    if (!known && !unconfirmed_.again(other.term, other.stamp)) { return; }
     other_owner_ = other;
-    heard_ = now;
+    received_ = now;
 }
 
-Ownership::Change Ownership::judge(Tick now, Slot slot, std::span<const AxisView> axes) {
+Ownership::Change Ownership::evaluate(Tick now, Slot slot, std::span<const AxisView> axes) {
     forgive_own_stall(slot);
     lacking_ = acknowledged(axes) ? std::nullopt : std::optional(lacking_.value_or(slot));
     in_vain_ = all_follow_another(slot, axes) ? std::optional(in_vain_.value_or(slot)) : std::nullopt;
     if (own_ && must_stand_down(slot)) {
         own_.reset();
-        heard_ = slot;
+        received_ = slot;
         return Change::StoodDown;
     }
     if (own_ || !may_claim(slot, axes)) { return Change::None; }
@@ -41,11 +41,11 @@ Ownership::Change Ownership::judge(Tick now, Slot slot, std::span<const AxisView
     return Change::Claimed;
 }
 
-/// Whom it has not heard because it did not run is not silent.
+/// Slots missed in its own stall do not count as silence of others.
 void Ownership::forgive_own_stall(Slot slot) {
-    const Slot missed = judged_ ? std::max<Slot>(0, slot - *judged_ - 1) : 0;
-    heard_ = std::min(slot, heard_.value_or(slot) + missed);
-    judged_ = slot;
+    const Slot missed = evaluated_ ? std::max<Slot>(0, slot - *evaluated_ - 1) : 0;
+    received_ = std::min(slot, received_.value_or(slot) + missed);
+    evaluated_ = slot;
 }
 
 bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) {
@@ -57,7 +57,7 @@ bool Ownership::may_claim(Slot slot, std::span<const AxisView> axes) {
         return false;
     }
     vacant_ = vacant_.value_or(slot);
-    return slot - *vacant_ >= (hears_elder(slot) ? kHeadStart : 0);
+    return slot - *vacant_ >= (receives_elder(slot) ? kHeadStart : 0);
 }
 
 bool Ownership::must_stand_down(Slot slot) const {
@@ -66,7 +66,7 @@ bool Ownership::must_stand_down(Slot slot) const {
     return known_.value() > *own_ || slot - in_vain_.value_or(slot) > 2 * rules::silence_slots(timing_);
 }
 
-/// All that are heard, and some are.
+/// At least one axis is present, and every present one receives another owner.
 bool Ownership::all_follow_another(Slot slot, std::span<const AxisView> axes) const {
     const auto is_here = [&](const AxisView& axis) { return axis.present(slot, timing_); };
     return own_ && std::ranges::any_of(axes, is_here) && std::ranges::all_of(axes, [&](const AxisView& axis) {

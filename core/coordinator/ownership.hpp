@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/coordinator/axes/axis_view.hpp"
-#include "core/protocol/second_hearing.hpp"
+#include "core/protocol/repeated_value.hpp"
 #include "core/protocol/second_process.hpp"
 
 namespace lockstep {
@@ -22,14 +22,14 @@ public:
     /// `self`: new at every start of the process. It owns nothing yet.
     Ownership(Identity self, const ProtocolTiming& timing) : self_(self), timing_(timing), second_(timing) {}
 
-    void hear(const AxisState& axis);
-    void hear(const MachineState& other, Slot now);
+    void receive(const AxisState& axis);
+    void receive(const MachineState& other, Slot now);
 
     /// Once a slot, after all that was heard. Claims a term above all others where no owner was heard for
     /// silence_slots, at least since the start, and every axis that is heard is at rest and hears none either; of two
     /// that wait for this the elder goes first. Stands down where an axis follows a higher term; and, while it lacks
     /// axes, before another's higher claim, or when all that are heard have long had another owner.
-    Change judge(Tick now, Slot slot, std::span<const AxisView> axes);
+    Change evaluate(Tick now, Slot slot, std::span<const AxisView> axes);
 
     bool owns() const { return own_.has_value(); }
     /// Its own where it owns the machine; else the highest number known, and itself.
@@ -40,13 +40,15 @@ public:
     bool lacks_axes(Slot now) const { return lacking_ && now - *lacking_ > rules::kHopSlots; }
     /// The owner that is heard, or was heard last: what he said of the machine.
     const std::optional<MachineState>& other_owner() const { return other_owner_; }
-    bool hears_other_owner(Slot now) const { return other_owner_ && !silent(now); }
+    bool receives_other_owner(Slot now) const { return other_owner_ && !silent(now); }
     /// And it proved that it lives: what it publishes is not an old state sent again.
-    bool has_second_owner(Slot now) const { return has_second_ && hears_other_owner(now); }
+    bool has_second_owner(Slot now) const { return has_second_ && receives_other_owner(now); }
 
 private:
-    bool silent(Slot now) const { return now - heard_.value_or(now) > rules::silence_slots(timing_); }
-    bool hears_elder(Slot now) const { return elder_heard_ && now - *elder_heard_ <= rules::silence_slots(timing_); }
+    bool silent(Slot now) const { return now - received_.value_or(now) > rules::silence_slots(timing_); }
+    bool receives_elder(Slot now) const {
+        return elder_received_ && now - *elder_received_ <= rules::silence_slots(timing_);
+    }
     void forgive_own_stall(Slot slot);
     static constexpr Slot kHeadStart = 4 * rules::kHopSlots;  // of the elder: its claim is heard before the other's
 
@@ -62,13 +64,13 @@ private:
     HighestTerm known_;            // of all that speak
     HighestTerm followed_;         // by an axis
     std::optional<MachineState> other_owner_;
-    TermHearing strangers_;       // who speak as owners and are not believed yet
-    std::optional<Slot> heard_;   // an owner; or when it began to listen
-    std::optional<Slot> vacant_;  // since when nothing else is in the way of a claim
+    RepeatedTerm unconfirmed_;      // who speak as owners and are not believed yet
+    std::optional<Slot> received_;  // an owner; or when it began to listen
+    std::optional<Slot> vacant_;    // since when nothing else is in the way of a claim
     SecondProcess second_;
     bool has_second_ = false;
-    std::optional<Slot> elder_heard_;  // who stands by for longer than this one
-    std::optional<Slot> judged_;
+    std::optional<Slot> elder_received_;  // who stands by for longer than this one
+    std::optional<Slot> evaluated_;
 };
 
 }  // namespace lockstep

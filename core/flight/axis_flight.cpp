@@ -43,40 +43,41 @@ AxisFlight::AxisFlight(std::size_t axis, const MachineConfig& machine, FlightLog
 
 void AxisFlight::take(const AxisInputs& in, const AxisOutputs& out) {
     const Ticks missed = loop_.loop(in.now, log_);
-    hear(in);
+    receive(in);
     owner_.look(in.now, missed, log_);
     for (PeerWatch& axis : axes_) { axis.look(in.now, missed, log_); }
     ran_ = in.device.frame;
     for (const AxisNotice& notice : out.notices) { take_notice(in.now, notice); }
     for (const DeviceOrder& order : out.orders) { take_order(in.now, order); }
     take_tracks(out);
-    if (out.state) { say(in.now, *out.state); }
+    if (out.state) { note_state(in.now, *out.state); }
 }
 
-void AxisFlight::hear(const AxisInputs& in) {
+void AxisFlight::receive(const AxisInputs& in) {
     for (const AxisState& peer : in.peers) {
         if (peer.axis >= axes_.size() || peer.axis == axis_) { continue; }
-        axes_[peer.axis].hear(in.now, {peer.identity, static_cast<FaultCode>(peer.fault), peer.epoch, peer.veto}, log_);
+        axes_[peer.axis].receive(in.now, {peer.identity, static_cast<FaultCode>(peer.fault), peer.epoch, peer.veto},
+                                 log_);
     }
     for (const MachineState& state : in.coordinator) {
-        if (state.phase != MachinePhase::Standby) { hear_owner(in.now, state); }
+        if (state.phase != MachinePhase::Standby) { receive_owner(in.now, state); }
     }
     for (const AxisCommand& command : in.commands) {
         if (command.axis != axis_ || command.sequence <= order_) { continue; }
         order_ = command.sequence;
         log_.add({.tick = in.now,
-                  .kind = FlightKind::OrderHeard,
+                  .kind = FlightKind::OrderReceived,
                   .detail = static_cast<std::uint8_t>(command.kind),
                   .count = static_cast<std::int64_t>(command.sequence)});
     }
 }
 
-void AxisFlight::hear_owner(Tick now, const MachineState& state) {
-    owner_.hear(now, {state.term.coordinator, static_cast<FaultCode>(state.fault), state.epoch, state.veto}, log_);
+void AxisFlight::receive_owner(Tick now, const MachineState& state) {
+    owner_.receive(now, {state.term.coordinator, static_cast<FaultCode>(state.fault), state.epoch, state.veto}, log_);
     if (machine_phase_ == state.phase) { return; }
     machine_phase_ = state.phase;
     log_.add({.tick = now,
-              .kind = FlightKind::MachinePhaseHeard,
+              .kind = FlightKind::MachinePhaseReceived,
               .about = kFlightCoordinator,
               .detail = static_cast<std::uint8_t>(state.phase)});
 }
@@ -144,12 +145,12 @@ void AxisFlight::end_epoch(Tick now) {
 }
 
 /// At each change of phase, and ten times a second.
-void AxisFlight::say(Tick now, const AxisState& state) {
+void AxisFlight::note_state(Tick now, const AxisState& state) {
     const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
     const bool is_new_phase = phase_ != state.phase;
     phase_ = state.phase;
-    if (!is_new_phase && said_ && now - *said_ < period) { return; }
-    said_ = now;
+    if (!is_new_phase && noted_ && now - *noted_ < period) { return; }
+    noted_ = now;
     log_.add({.tick = state.tick,
               .kind = is_new_phase ? FlightKind::Phase : FlightKind::State,
               .detail = static_cast<std::uint8_t>(state.phase),

@@ -18,13 +18,13 @@ public:
     void take(const AxisInputs& in, const AxisOutputs& out);
 
 private:
-    void hear(const AxisInputs& in);
-    void hear_owner(Tick now, const MachineState& state);
+    void receive(const AxisInputs& in);
+    void receive_owner(Tick now, const MachineState& state);
     void take_order(Tick now, const DeviceOrder& order);
     void take_tracks(const AxisOutputs& out);
     void take_notice(Tick now, const AxisNotice& notice);
     void end_epoch(Tick now);
-    void say(Tick now, const AxisState& state);
+    void note_state(Tick now, const AxisState& state);
 
     std::size_t axis_;
     MachineConfig machine_;
@@ -37,7 +37,7 @@ private:
     bool has_owner_ = false;                 // has ever followed one
     Epoch epoch_ = 0;                        // begun last
     bool own_run_ = false;                   // the device's present run is a move of the axis's own
-    std::optional<Tick> said_;               // when its state was noted last
+    std::optional<Tick> noted_;              // when its state was noted last
     std::optional<AxisPhase> phase_;         // then
     FrameNumber ran_ = 0;                    // of the device's run, begun
     std::optional<FrameNumber> last_frame_;  // of the epoch, once it is known

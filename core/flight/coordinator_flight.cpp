@@ -36,7 +36,7 @@ CoordinatorFlight::CoordinatorFlight(const MachineConfig& machine, FlightLog& lo
 
 void CoordinatorFlight::take(const CoordinatorInputs& in, const CoordinatorOutputs& out) {
     const Ticks missed = loop_.loop(in.now, log_);
-    hear(in);
+    receive(in);
     if (phase_ == MachinePhase::Standby) { other_owner_.look(in.now, missed, log_); }
     for (PeerWatch& axis : axes_) { axis.look(in.now, missed, log_); }
     for (const CoordinatorNotice& notice : out.notices) { take_notice(in.now, notice); }
@@ -46,24 +46,27 @@ void CoordinatorFlight::take(const CoordinatorInputs& in, const CoordinatorOutpu
         log_.add({.tick = in.now, .kind = FlightKind::CommandRefused, .fault = static_cast<FaultCode>(reply.fault)});
     }
     send(in.now, out);
-    if (out.state) { say(in.now, *out.state); }
+    if (out.state) { note_state(in.now, *out.state); }
 }
 
-void CoordinatorFlight::hear(const CoordinatorInputs& in) {
+void CoordinatorFlight::receive(const CoordinatorInputs& in) {
     for (const AxisState& axis : in.axes) {
         if (axis.axis >= axes_.size()) { continue; }
-        axes_[axis.axis].hear(in.now, {axis.identity, static_cast<FaultCode>(axis.fault), axis.epoch, axis.veto}, log_);
+        axes_[axis.axis].receive(in.now, {axis.identity, static_cast<FaultCode>(axis.fault), axis.epoch, axis.veto},
+                                 log_);
     }
     for (const MachineState& other : in.others) {
         if (other.phase == MachinePhase::Standby) { continue; }
         knew_owner_ = true;
-        other_owner_.hear(in.now, {other.term.coordinator, static_cast<FaultCode>(other.fault), other.epoch, {}}, log_);
+        other_owner_.receive(in.now, {other.term.coordinator, static_cast<FaultCode>(other.fault), other.epoch, {}},
+                             log_);
     }
     for (const Command& command : in.commands) {  // a client repeats its own until it is answered
         if (command.client == client_ && command.sequence == command_) { continue; }
         client_ = command.client;
         command_ = command.sequence;
-        log_.add({.tick = in.now, .kind = FlightKind::CommandHeard, .detail = static_cast<std::uint8_t>(command.kind)});
+        log_.add(
+            {.tick = in.now, .kind = FlightKind::CommandReceived, .detail = static_cast<std::uint8_t>(command.kind)});
     }
 }
 
@@ -121,12 +124,12 @@ void CoordinatorFlight::send(Tick now, const CoordinatorOutputs& out) {
 }
 
 /// At each change of phase, and ten times a second.
-void CoordinatorFlight::say(Tick now, const MachineState& state) {
+void CoordinatorFlight::note_state(Tick now, const MachineState& state) {
     const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
     const bool is_new_phase = phase_ != state.phase;
     phase_ = state.phase;
-    if (!is_new_phase && said_ && now - *said_ < period) { return; }
-    said_ = now;
+    if (!is_new_phase && noted_ && now - *noted_ < period) { return; }
+    noted_ = now;
     log_.add({.tick = now,
               .kind = is_new_phase ? FlightKind::Phase : FlightKind::State,
               .detail = static_cast<std::uint8_t>(state.phase),

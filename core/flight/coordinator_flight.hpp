@@ -18,11 +18,11 @@ public:
     void take(const CoordinatorInputs& in, const CoordinatorOutputs& out);
 
 private:
-    void hear(const CoordinatorInputs& in);
+    void receive(const CoordinatorInputs& in);
     void take_notice(Tick now, const CoordinatorNotice& notice);
     void take_job(Tick now, const JobEvent& job);
     void send(Tick now, const CoordinatorOutputs& out);
-    void say(Tick now, const MachineState& state);
+    void note_state(Tick now, const MachineState& state);
 
     MachineConfig machine_;
     FlightLog& log_;
@@ -35,7 +35,7 @@ private:
     Epoch epoch_ = 0;  // of the frame sent last
     FrameNumber sent_ = 0;
     std::vector<std::uint64_t> orders_;  // sent last to each axis
-    std::optional<Tick> said_;
+    std::optional<Tick> noted_;
     std::optional<MachinePhase> phase_;
 };
 

@@ -15,53 +15,53 @@
 namespace lockstep {
 
 // X(name, text name). The text names are the files' and the reports'; none is used again for another thing.
-#define LOCKSTEP_FLIGHT_KINDS(X)                                                                              \
-    /* heard */                                                                                               \
-    X(PeerSilent, "peer-silent")          /* about; lasts: since its last word */                             \
-    X(PeerHeard, "peer-heard")            /* about; lasts: the silence that has ended; 0: its first word */   \
-    X(PeerVeto, "peer-veto")              /* about, epoch, frame */                                           \
-    X(PeerFault, "peer-fault")            /* about, fault */                                                  \
-    X(PeerRestarted, "peer-restarted")    /* about: another process speaks for it now */                      \
-    X(CommandHeard, "command-heard")      /* detail: CommandKind */                                           \
-    X(OrderHeard, "order-heard")          /* detail: AxisCommandKind; count: its number */                    \
-    X(MachinePhaseHeard, "machine-phase") /* about: the coordinator; detail: MachinePhase */                  \
-    /* decided */                                                                                             \
-    X(FrameHeld, "frame-held")         /* epoch, frame; lasts: from now to its start */                       \
-    X(FrameRefused, "frame-refused")   /* epoch, frame, fault */                                              \
-    X(FrameArmed, "frame-armed")       /* epoch, frame */                                                     \
-    X(Vetoed, "vetoed")                /* epoch, frame; detail: VetoReason; count: bit i: axis i lacks */     \
-    X(TailRun, "tail-run")             /* epoch, frame: the frame's tail, from tick on; lasts: until rest */  \
-    X(PulsesStopped, "pulses-stopped") /* by an emergency stop */                                             \
-    X(OwnerFollowed, "owner-followed") /* count: the term's number */                                         \
-    X(EpochBegun, "epoch-begun")       /* epoch */                                                            \
-    X(EpochEnded, "epoch-ended")       /* epoch */                                                            \
-    X(HomingStage, "homing-stage")     /* count: of the homing */                                             \
-    X(Homed, "homed")                                                                                         \
-    X(Fault, "fault") /* fault; about: the coordinator names the axis */                                      \
-    X(Reset, "reset")                                                                                         \
-    X(CommandRefused, "command-refused") /* fault */                                                          \
-    X(AxisSeen, "axis-seen")             /* about */                                                          \
-    X(AxisGone, "axis-gone")             /* about */                                                          \
-    X(Interrupted, "interrupted")        /* frame: the last run; goes on from there */                        \
-    X(Claimed, "claimed")                /* count: the term's number; owns the machine */                     \
-    X(StoodDown, "stood-down")           /* count: the term's number; another owns the machine */             \
-    X(JobCutShort, "job-cut-short")      /* count: near this line */                                          \
-    X(JobBegun, "job-begun")             /* count: its number */                                              \
-    X(JobEnded, "job-ended")             /* count: its number; detail: JobOutcome */                          \
-    /* said */                                                                                                \
-    X(State, "state")          /* detail: phase; epoch, frame: run; count, amount: steps, steps/s; */         \
-                               /* lasts: clock error. Coordinator: frame sent, count: line */                 \
-    X(Phase, "phase")          /* the same, where the phase has changed */                                    \
-    X(FrameSent, "frame-sent") /* epoch, frame; lasts: from now to its start */                               \
-    X(OrderSent, "order-sent") /* about; detail: AxisCommandKind; count: its number */                        \
-    /* itself */                                                                                              \
-    X(Started, "started")   /* its first loop */                                                              \
-    X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                             \
-    X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */        \
-    X(Incident, "incident") /* detail: IncidentReason; about, or nobody; what came before is worth keeping */ \
-    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */   \
-    X(JobContinued, "job-continued")       /* count: near this line */                                        \
-    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */  \
+#define LOCKSTEP_FLIGHT_KINDS(X)                                                                                  \
+    /* heard */                                                                                                   \
+    X(PeerSilent, "peer-silent")             /* about; lasts: since its last word */                              \
+    X(PeerReceived, "peer-heard")            /* about; lasts: the silence that has ended; 0: its first word */    \
+    X(PeerVeto, "peer-veto")                 /* about, epoch, frame */                                            \
+    X(PeerFault, "peer-fault")               /* about, fault */                                                   \
+    X(PeerRestarted, "peer-restarted")       /* about: another process speaks for it now */                       \
+    X(CommandReceived, "command-heard")      /* detail: CommandKind */                                            \
+    X(OrderReceived, "order-heard")          /* detail: AxisCommandKind; count: its number */                     \
+    X(MachinePhaseReceived, "machine-phase") /* about: the coordinator; detail: MachinePhase */                   \
+    /* decided */                                                                                                 \
+    X(FrameHeld, "frame-held")         /* epoch, frame; lasts: from now to its start */                           \
+    X(FrameRefused, "frame-refused")   /* epoch, frame, fault */                                                  \
+    X(FrameArmed, "frame-armed")       /* epoch, frame */                                                         \
+    X(Vetoed, "vetoed")                /* epoch, frame; detail: VetoReason; count: bit i: axis i lacks */         \
+    X(TailRun, "tail-run")             /* epoch, frame: the frame's tail, from tick on; lasts: until rest */      \
+    X(PulsesStopped, "pulses-stopped") /* by an emergency stop */                                                 \
+    X(OwnerFollowed, "owner-followed") /* count: the term's number */                                             \
+    X(EpochBegun, "epoch-begun")       /* epoch */                                                                \
+    X(EpochEnded, "epoch-ended")       /* epoch */                                                                \
+    X(HomingStage, "homing-stage")     /* count: of the homing */                                                 \
+    X(Homed, "homed")                                                                                             \
+    X(Fault, "fault") /* fault; about: the coordinator names the axis */                                          \
+    X(Reset, "reset")                                                                                             \
+    X(CommandRefused, "command-refused") /* fault */                                                              \
+    X(AxisSeen, "axis-seen")             /* about */                                                              \
+    X(AxisGone, "axis-gone")             /* about */                                                              \
+    X(Interrupted, "interrupted")        /* frame: the last run; goes on from there */                            \
+    X(Claimed, "claimed")                /* count: the term's number; owns the machine */                         \
+    X(StoodDown, "stood-down")           /* count: the term's number; another owns the machine */                 \
+    X(JobCutShort, "job-cut-short")      /* count: near this line */                                              \
+    X(JobBegun, "job-begun")             /* count: its number */                                                  \
+    X(JobEnded, "job-ended")             /* count: its number; detail: JobOutcome */                              \
+    /* said */                                                                                                    \
+    X(State, "state")          /* detail: phase; epoch, frame: run; count, amount: steps, steps/s; */             \
+                               /* lasts: clock error. Coordinator: frame sent, count: line */                     \
+    X(Phase, "phase")          /* the same, where the phase has changed */                                        \
+    X(FrameSent, "frame-sent") /* epoch, frame; lasts: from now to its start */                                   \
+    X(OrderSent, "order-sent") /* about; detail: AxisCommandKind; count: its number */                            \
+    /* itself */                                                                                                  \
+    X(Started, "started")   /* its first loop */                                                                  \
+    X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                                 \
+    X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */            \
+    X(Incident, "incident") /* detail: IncidentReason; about, or no process; what came before is worth keeping */ \
+    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */       \
+    X(JobContinued, "job-continued")       /* count: near this line */                                            \
+    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */      \
     X(LoopStuck, "loop-stuck")             /* lasts: its loop did not run; the process ends itself */
 
 enum class FlightKind : std::uint8_t {
@@ -87,7 +87,7 @@ enum class IncidentReason : std::uint8_t {
     Fault,        // its own, another's or the machine's
     Veto,         // its own, that nobody asked for
     Interrupted,  // motion ended before its end, and nobody asked for it
-    AxisLost,     // fell silent, or was started anew
+    AxisLost,     // fell silent, or was restarted
     OwnerLost,    // fell silent
     Takeover,     // another coordinator owns the machine
     Asked,        // a person did
@@ -98,8 +98,8 @@ std::optional<IncidentReason> incident_reason(std::string_view name);
 
 /// Another process of the machine.
 struct FlightPeer {
-    enum class Kind : std::uint8_t { Nobody, Axis, Coordinator };
-    Kind kind = Kind::Nobody;
+    enum class Kind : std::uint8_t { None, Axis, Coordinator };
+    Kind kind = Kind::None;
     std::uint8_t axis = 0;  // its place in the configuration
     bool operator==(const FlightPeer&) const = default;
 };

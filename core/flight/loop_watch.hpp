@@ -22,7 +22,7 @@ public:
         last_ = now;
         longest_ = std::max(longest_, gap);
         ++loops_;
-        if (now - second_began_ >= second_) { say(now, log); }
+        if (now - second_began_ >= second_) { note_state(now, log); }
         if (gap <= noted_) { return {}; }
         log.add({.tick = now, .kind = FlightKind::Stalled, .lasts = gap});
         return gap;
@@ -33,7 +33,7 @@ private:
         last_ = second_began_ = now;
         log.add({.tick = now, .kind = FlightKind::Started});
     }
-    void say(Tick now, FlightLog& log) {
+    void note_state(Tick now, FlightLog& log) {
         log.add({.tick = now, .kind = FlightKind::Loops, .count = loops_, .lasts = longest_});
         second_began_ = now;
         loops_ = 0;

@@ -11,14 +11,14 @@ SilenceLimits silence_limits(const MachineConfig& machine) {
     return {slot * machine.timing.freshness_slots, slot * rules::silence_slots(machine.timing)};
 }
 
-void PeerWatch::hear(Tick now, const News& news, FlightLog& log) {
-    const Ticks silence = last_ ? now - heard_ : Ticks{};
+void PeerWatch::receive(Tick now, const News& news, FlightLog& log) {
+    const Ticks silence = last_ ? now - received_ : Ticks{};
     if (!last_ || silence > limits_.noted) {
-        log.add({.tick = now, .kind = FlightKind::PeerHeard, .about = peer_, .lasts = silence});
+        log.add({.tick = now, .kind = FlightKind::PeerReceived, .about = peer_, .lasts = silence});
     }
-    heard_ = now;
+    received_ = now;
     is_silent_ = is_lost_ = false;
-    if (last_) { hear_identity(now, news.identity, log); }
+    if (last_) { receive_identity(now, news.identity, log); }
     const bool is_new_veto = news.veto && !(last_ && last_->epoch == news.epoch && last_->veto == news.veto);
     if (is_new_veto) {
         log.add({.tick = now, .kind = FlightKind::PeerVeto, .about = peer_, .epoch = news.epoch, .frame = *news.veto});
@@ -31,16 +31,16 @@ void PeerWatch::hear(Tick now, const News& news, FlightLog& log) {
 }
 
 /// Of coordinators it is the owner's changes that count, and an axis's controller says so by itself.
-void PeerWatch::hear_identity(Tick now, Identity identity, FlightLog& log) {
+void PeerWatch::receive_identity(Tick now, Identity identity, FlightLog& log) {
     if (last_->identity == identity) { return; }
     log.add({.tick = now, .kind = FlightKind::PeerRestarted, .about = peer_});
     if (peer_.kind == FlightPeer::Kind::Axis) { log.incident(now, IncidentReason::AxisLost, peer_); }
 }
 
 void PeerWatch::look(Tick now, Ticks missed, FlightLog& log) {
-    heard_ = std::min(now, heard_ + missed);
+    received_ = std::min(now, received_ + missed);
     if (!last_ || is_lost_) { return; }
-    const Ticks silence = now - heard_;
+    const Ticks silence = now - received_;
     if (silence > limits_.noted && !std::exchange(is_silent_, silence > limits_.noted)) {
         log.add({.tick = now, .kind = FlightKind::PeerSilent, .about = peer_, .lasts = silence});
     }

@@ -1,4 +1,4 @@
-// What one process notes of another that it hears: that it fell silent and came back, was started anew, vetoes, fails.
+// What one process notes of another that it hears: that it fell silent and came back, was restarted, vetoes, fails.
 #pragma once
 
 #include <optional>
@@ -25,12 +25,12 @@ public:
         Epoch epoch = 0;
         std::optional<FrameNumber> veto;
     };
-    void hear(Tick now, const News& news, FlightLog& log);
+    void receive(Tick now, const News& news, FlightLog& log);
     /// After what was heard in this loop. `missed`: for so long this process itself did not run, and heard nobody.
     void look(Tick now, Ticks missed, FlightLog& log);
 
 private:
-    void hear_identity(Tick now, Identity identity, FlightLog& log);
+    void receive_identity(Tick now, Identity identity, FlightLog& log);
     IncidentReason lost() const {
         return peer_.kind == FlightPeer::Kind::Coordinator ? IncidentReason::OwnerLost : IncidentReason::AxisLost;
     }
@@ -38,7 +38,7 @@ private:
     FlightPeer peer_;
     SilenceLimits limits_;
     std::optional<News> last_;
-    Tick heard_;
+    Tick received_;
     bool is_silent_ = false;  // and that is noted
     bool is_lost_ = false;    // and that was an incident
 };

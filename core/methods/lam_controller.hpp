@@ -11,7 +11,7 @@
 //   paper's conditions for the end are met, and every destination is reached exactly.
 // - A limit switch counts only where the head moves towards it; otherwise leaving the left one would end at once.
 // - Initialize drives left at the starting delay; the predefined place is 50 pulses from the origin; the delay before
-//   Initialize begins anew is a second.
+//   Initialize begins again is a second.
 #pragma once
 
 #include <cstdint>
@@ -76,7 +76,7 @@ private:
     std::int64_t destination_ = 0;
     std::int64_t delay_;
     std::int64_t left_of_delay_;
-    std::int64_t recovery_ = 0;  // counts until Initialize begins anew; 0: not after a limit
+    std::int64_t recovery_ = 0;  // counts until Initialize begins again; 0: not after a limit
     bool right_ = false;
 };
 

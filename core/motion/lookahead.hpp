@@ -13,7 +13,7 @@ namespace lockstep {
 struct PathBounds {
     Ticks least_move;             // a move lasts at least this long, so that a frame's pieces are bounded
     std::size_t stop_moves = 24;  // from any place the machine can stop within so many moves
-    Ticks worth_splitting{};      // what is left of a move that lasts as long is planned anew, else from its end on
+    Ticks worth_splitting{};      // what is left of a move that lasts as long is planned again, else from its end on
 };
 
 /// The bounds for a machine's frames and tails.
@@ -29,7 +29,7 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
 Path plan_path(std::vector<PathMove> moves, Displacement along, std::span<const AxisLimits> limits,
                const PathBounds& bounds, const Overrides& overrides = {});
 
-/// Plans a path anew from time t on, with other overrides, without coming to rest: what is before stays, and place and
+/// Plans a path again from time t on, with other overrides, without coming to rest: what is before stays, and place and
 /// speed at t too. The moves keep their numbers. False, and nothing has changed: what lies ahead at this speed leaves
 /// no way to (its corners would ask for more of the braking that is under way); a little later there is one.
 bool replan_from(Path& path, Ticks t, std::span<const AxisLimits> limits, const PathBounds& bounds,

@@ -28,7 +28,7 @@ struct PathMove {
     PathLimits limits;            // what feed, frames and the corners beside it leave of them: set by planning
     Ticks dwell;                  // where lead is 0
     Subticks start;               // after the path's start
-    Subticks gone;                // under way for so long when its profile begins: it was planned anew
+    Subticks gone;                // under way for so long when its profile begins: it was planned again
     Profile profile;
 
     Subticks end() const { return start + gone + profile.duration(); }

@@ -65,7 +65,7 @@ struct ProfileRequest {
 };
 
 /// The fastest profile, each phase rounded up to the quantum: at most three quanta slower than the continuous
-/// optimum, never faster and never steeper. The peak is solved anew for the rounded times. Entered above max_velocity
+/// optimum, never faster and never steeper. The peak is solved again for the rounded times. Entered above max_velocity
 /// it brakes to that first.
 Profile plan_fastest(const ProfileRequest& request);
 

@@ -1,9 +1,9 @@
-// Decides when a process opens its DDS participant anew, because it receives nothing although there is something to
+// Decides when a process opens its DDS participant again, because it receives nothing although there is something to
 // receive.
 //
 // DDS numbers the samples of each writer, and takes none twice. A packet with a number far ahead, forged or damaged,
 // makes it discard everything that follows from that writer, for as long as it knows that writer: the process is cut
-// off from a peer for good. A participant that is opened anew forgets what it believed of others, and is a new one to
+// off from a peer for good. A participant that is opened again forgets what it believed of others, and is a new one to
 // them. The same mends what an interface loses that goes away and comes back.
 //
 // Damaged packets can also leave a writer that sends nothing any more. The process itself does not notice: it receives
@@ -56,7 +56,7 @@ public:
 
     /// Whether it is time to look again, by the process's own clock.
     bool is_due(Tick now) const { return now - looked_ >= between_looks_; }
-    /// When it is due. Why the participant is to be opened anew, now.
+    /// When it is due. Why the participant is to be opened again, now.
     std::optional<ReopenReason> look(Tick now, const Reception& reception);
 
 private:

@@ -11,7 +11,7 @@ namespace {
 
 std::string name_in(const MachineConfig& machine, FlightPeer peer) {
     switch (peer.kind) {
-        case FlightPeer::Kind::Nobody: return "";
+        case FlightPeer::Kind::None: return "";
         case FlightPeer::Kind::Coordinator: return flight_process("");
         case FlightPeer::Kind::Axis: break;
     }

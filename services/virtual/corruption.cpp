@@ -50,14 +50,14 @@ public:
 
     Alteration operator()(MachineState& state) {
         state.term = {random_(), random_()};
-        return Alteration::MachineStranger;
+        return Alteration::MachineTerm;
     }
 
     Alteration operator()(AxisCommand& command) {
         command.term = {random_(), random_()};
         command.sequence += index(1000);
         command.kind = static_cast<AxisCommandKind>(index(3));
-        return Alteration::CommandStranger;
+        return Alteration::CommandTerm;
     }
 
     Alteration operator()(Command&) { return Alteration::None; }
@@ -77,9 +77,9 @@ private:
 
 std::string_view name_of(Alteration alteration) {
     constexpr std::array<std::string_view, kAlterations> kNames{
-        "none",        "frame epoch",    "frame number",   "frame start", "frame ticks",      "frame from",
-        "frame speed", "frame absurd",   "frame travel",   "frame axes",  "frame stranger",   "state axis",
-        "state stamp", "state identity", "state position", "state term",  "machine stranger", "command stranger"};
+        "none",        "frame epoch",    "frame number",   "frame start", "frame ticks",  "frame from",
+        "frame speed", "frame absurd",   "frame travel",   "frame axes",  "frame term",   "state axis",
+        "state stamp", "state identity", "state position", "state term",  "machine term", "command term"};
     return kNames[static_cast<std::size_t>(alteration)];
 }
 

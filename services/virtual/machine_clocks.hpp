@@ -21,7 +21,7 @@ public:
         if (clocks_.size() <= axis) { clocks_.resize(axis + 1); }
         clocks_[axis].process.offset += forward;
     }
-    /// The coordinator's clock begins anew.
+    /// The coordinator's clock begins again.
     void reboot(Tick now) { booted_ = now - start_; }
 
 private:

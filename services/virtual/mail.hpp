@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// Emptied and filled anew for each loop: what its lists have taken of memory stays.
+/// Emptied and filled again for each loop: what its lists have taken of memory stays.
 class Mail {
 public:
     /// All that has arrived at `address` by `now`, and nothing else.

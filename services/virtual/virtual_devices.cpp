@@ -40,7 +40,7 @@ VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks
 }
 
 std::expected<AxisDevice, std::string> VirtualDevices::open(std::size_t axis) const {
-    if (devices_[axis].is_gone) { return std::unexpected("nobody holds its registers"); }
+    if (devices_[axis].is_gone) { return std::unexpected("no process holds its registers"); }
     return AxisDevice{devices_[axis].device.window, nullptr};
 }
 
@@ -72,13 +72,14 @@ void VirtualDevices::strike(const VirtualFault& fault, bool begins, Tick now) {
     device.is_stopped = begins && fault.kind != Kind::Overwrite;
     device.is_gone = begins && fault.kind == Kind::KillDevice;
     if (fault.kind == Kind::Overwrite) {
-        begins ? overwrite(fault.process, fault.garbage, now) : power_up_anew(fault.process, device.device.window, now);
+        begins ? overwrite(fault.process, fault.garbage, now)
+               : power_up_again(fault.process, device.device.window, now);
     } else if (fault.kind == Kind::KillDevice && !begins) {
-        power_up_anew(fault.process, RegisterWindow::in_process(), now);
+        power_up_again(fault.process, RegisterWindow::in_process(), now);
     }
 }
 
-void VirtualDevices::power_up_anew(std::size_t axis, RegisterWindow window, Tick now) {
+void VirtualDevices::power_up_again(std::size_t axis, RegisterWindow window, Tick now) {
     AxisDevice& it = devices_[axis].device;
     it.simulated = std::make_unique<SimulatedDevice>(window, it.simulated->plant(), tick_ns_, clocks_.device(axis, now),
                                                      static_cast<std::uint64_t>(now.value));

@@ -19,7 +19,7 @@ public:
     SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].device.simulated; }
     const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].device.simulated; }
 
-    /// The axis's end of it. Error: nobody holds its registers.
+    /// The axis's end of it. Error: no process holds its registers.
     std::expected<AxisDevice, std::string> open(std::size_t axis) const;
     void advance(std::size_t axis, Tick now);
 
@@ -37,7 +37,7 @@ private:
     void turn(const VirtualFault& fault, bool begins, Tick now);
     void disturb(const VirtualFault& fault, bool begins);
     void strike(const VirtualFault& fault, bool begins, Tick now);
-    void power_up_anew(std::size_t axis, RegisterWindow window, Tick now);
+    void power_up_again(std::size_t axis, RegisterWindow window, Tick now);
     void overwrite(std::size_t axis, bool garbage, Tick now);
 
     const MachineClocks& clocks_;

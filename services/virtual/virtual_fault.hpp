@@ -21,7 +21,7 @@ struct VirtualFault {
         DamageFrame,  // the newest frame that an axis's device holds is altered
         StopDevice,   // an axis's device does nothing; at the end it goes on
         KillDevice,   // it is gone; at the end another one is there, and the slide where it was
-        Overwrite,    // its registers are overwritten; at the end it is powered up anew
+        Overwrite,    // its registers are overwritten; at the end it is powered up again
     };
     Kind kind = Kind::Freeze;
     std::size_t process = 0;
@@ -33,7 +33,7 @@ struct VirtualFault {
     PlantContact contact = &PlantInputs::limit_min;  // Stick: which
     bool closed = true;                              // Stick: reads closed
     std::int64_t push_steps = 0;                     // Push
-    bool reboots = false;                            // Crash: of a coordinator's host, whose clock then begins anew
+    bool reboots = false;                            // Crash: of a coordinator's host, whose clock then begins again
     bool other_config = false;                       // Crash: what takes its place reads another configuration
     bool ends_elsewhere = false;                     // DamageFrame: it joins the frame before and ends elsewhere
     bool garbage = true;                             // Overwrite: with noise; else with zeros

@@ -56,7 +56,7 @@ void VirtualMachine::crash(std::size_t process) {
 
 void VirtualMachine::restart(const VirtualFault& crash) {
     const std::size_t process = crash.process;
-    (void)post_.collect(now_, process);  // lost: nobody was there to receive it
+    (void)post_.collect(now_, process);  // lost: no process was there to receive it
     if (!post_.is_coordinator(process)) { devices_.advance(process, now_); }
     if (crash.reboots) { clocks_.reboot(now_); }
     start(process, crash.other_config);
@@ -95,7 +95,7 @@ void VirtualMachine::end(const VirtualFault& fault) {
         case VirtualFault::Kind::Freeze:
         case VirtualFault::Kind::SetClock: return;
         case VirtualFault::Kind::Crash: return restart(fault);
-        case VirtualFault::Kind::Cut: return post_.mend(fault);
+        case VirtualFault::Kind::Cut: return post_.restore(fault);
         default: return devices_.end(fault, now_);
     }
 }
@@ -127,7 +127,7 @@ void VirtualMachine::take_clock_mail(std::size_t process) {
     }
     for (const ClockReply& reply : mail.clock_replies) {
         Axis& axis = axes_[process];
-        const auto exchange = axis.asker->hear(reply, clocks_.process(process, now_));
+        const auto exchange = axis.asker->receive(reply, clocks_.process(process, now_));
         if (exchange) { axis.exchanges.push_back(*exchange); }
     }
 }

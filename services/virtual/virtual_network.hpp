@@ -52,9 +52,9 @@ public:
     }
     static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
 
-    /// A link may be cut several times over; it carries messages again when it has been mended as often.
+    /// A link may be cut several times over; it carries messages again when it was restored as often.
     void cut(Address from, Address to) { ++cuts_[{from, to}]; }
-    void mend(Address from, Address to) { --cuts_[{from, to}]; }
+    void restore(Address from, Address to) { --cuts_[{from, to}]; }
 
     /// Messages to this one are never altered.
     void trust(Address to) { trusted_ = to; }

@@ -4,7 +4,7 @@ namespace lockstep {
 
 void VirtualPost::turn(const VirtualFault& fault, bool cuts) {
     const auto link = [&](std::size_t from, std::size_t to) {
-        cuts ? network_.cut(address(from), address(to)) : network_.mend(address(from), address(to));
+        cuts ? network_.cut(address(from), address(to)) : network_.restore(address(from), address(to));
     };
     for (std::size_t peer = 0; peer < processes_; ++peer) {
         if (peer == fault.process || (fault.peer && peer != *fault.peer)) { continue; }

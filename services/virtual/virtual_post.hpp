@@ -19,7 +19,7 @@ public:
 
     std::size_t processes() const { return processes_; }
     bool is_coordinator(std::size_t process) const { return process >= axes_; }
-    /// The first coordinator, whom axes ask for the time.
+    /// The first coordinator, which axes ask for the time.
     std::size_t coordinator() const { return axes_; }
     std::size_t client() const { return processes_; }
     std::size_t clock_of(std::size_t process) const { return client() + 1 + process; }
@@ -51,7 +51,7 @@ public:
 
     /// The links of a process that a fault cuts, with their clock messages.
     void cut(const VirtualFault& fault) { turn(fault, true); }
-    void mend(const VirtualFault& fault) { turn(fault, false); }
+    void restore(const VirtualFault& fault) { turn(fault, false); }
 
     const AlterationCounts& alterations() const { return network_.alterations(); }
 

@@ -31,7 +31,7 @@ std::expected<proto::MergeReport, std::string> merge_logs(const MachineConfig& m
 }
 
 std::string name_of_peer(const incident::Incident& incident, const FlightPeer& peer) {
-    if (peer.kind == FlightPeer::Kind::Nobody) { return ""; }
+    if (peer.kind == FlightPeer::Kind::None) { return ""; }
     return peer.kind == FlightPeer::Kind::Axis ? "axis-" + incident.machine.axes[peer.axis].name : "coordinator";
 }
 

@@ -54,7 +54,7 @@ bool DeviceWatch::is_overdue(const DeviceStatus& status) const {
 /// A device counts ticks and pulses one by one, and runs what it was given.
 std::optional<std::string> DeviceWatch::contradiction(const DeviceStatus& status) const {
     if (!last_) { return std::nullopt; }
-    if (status.power_up != last_->power_up) { return "it was powered up anew"; }
+    if (status.power_up != last_->power_up) { return "it was powered up again"; }
     if (status.now < last_->now) {
         return "its clock went back from tick " + text(last_->now) + " to " + text(status.now);
     }

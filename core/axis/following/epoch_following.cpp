@@ -7,11 +7,11 @@
 namespace lockstep {
 
 void EpochFollowing::take(const AxisState& peer, Slot now) {
-    if (peer.stamp <= now + rules::kHopSlots) { follower_.hear(peer); }
+    if (peer.stamp <= now + rules::kHopSlots) { follower_.receive(peer); }
 }
 
 void EpochFollowing::take(const MachineState& owner, Slot now) {
-    if (owner.stamp <= now + rules::kHopSlots) { follower_.hear(owner); }
+    if (owner.stamp <= now + rules::kHopSlots) { follower_.receive(owner); }
 }
 
 void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop) {

@@ -4,8 +4,8 @@
 // when the last one has been silent for long.
 #pragma once
 
+#include "core/protocol/repeated_value.hpp"
 #include "core/protocol/rules.hpp"
-#include "core/protocol/second_hearing.hpp"
 
 namespace lockstep {
 
@@ -31,7 +31,7 @@ private:
     ProtocolTiming timing_;
     Term term_;
     Slot received_ = 0;  // the slot of the owner's newest message
-    TermHearing claims_;
+    RepeatedTerm claims_;
 };
 
 }  // namespace lockstep

@@ -23,13 +23,13 @@ SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machin
       limits_(frame_limits_of(machine, axis)),
       peers_(machine.axes.size()) {}
 
-void SetpointFollower::hear(const AxisState& peer) {
+void SetpointFollower::receive(const AxisState& peer) {
     if (peer.axis >= axes_ || peer.axis == axis_) { return; }
     peers_[peer.axis].receive(peer.stamp, peer.epoch, peer.held);
     if (open_ && peer.epoch == epoch_) { add_veto(peer.veto); }
 }
 
-void SetpointFollower::hear(const MachineState& coordinator) {
+void SetpointFollower::receive(const MachineState& coordinator) {
     named_ = coordinator.epoch;
     coordinator_.receive(coordinator.stamp, coordinator.epoch,
                          coordinator.veto ? *coordinator.veto - 1 : std::numeric_limits<FrameNumber>::max());

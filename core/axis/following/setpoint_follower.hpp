@@ -1,4 +1,4 @@
-// An axis's side of hold, arm, veto: which frames it holds, what it has heard, what it decides.
+// An axis's side of hold, arm, veto: which frames it holds, what it has received, what it decides.
 #pragma once
 
 #include <optional>
@@ -21,18 +21,19 @@ public:
     SetpointFollower(std::size_t axis, const MachineConfig& machine);
 
     /// Evidence and vetoes from the others. States of other epochs are evidence of nothing.
-    void hear(const AxisState& peer);
-    void hear(const MachineState& coordinator);
+    void receive(const AxisState& peer);
+    void receive(const MachineState& coordinator);
 
     /// Takes a frame of the epoch in progress, or frame 1 of a newer one, which the owner's newest state must name too,
-    /// when `rest` says where the axis rests: a frame damaged on its way cannot begin an epoch that nobody has begun.
-    /// Frames held already, of other epochs, or out of order are left alone: None, and nothing changes. They come
-    /// again as long as somebody lacks them.
-    /// Otherwise the frame is held (held() says so), or the fault says why not.
+    /// when `rest` says where the axis rests: a frame damaged on its way cannot begin an epoch that no coordinator has
+    /// begun. Frames held already, of other epochs, or out of order are left alone: None, and nothing changes. They
+    /// come again as long as a process lacks them. Otherwise the frame is held (held() says so), or the fault says why
+    /// not.
     FaultCode offer(const Frame& frame, std::optional<Position> rest);
 
-    /// Arms what it may, and vetoes what it has not armed in time, in the loop that `publishes` this slot's state: a veto
-    /// reaches the others in time only from then on. Returns the device's orders in order; valid until the next call.
+    /// Arms what it may, and vetoes what it has not armed in time, in the loop that `publishes` this slot's state: a
+    /// veto reaches the others in time only from then on. Returns the device's orders in order; valid until the next
+    /// call.
     const std::vector<DeviceOrder>& decide(Slot now, bool publishes);
 
     /// Vetoes the first frame of which every axis still learns in time by the state published in slot `next`: this axis
@@ -78,7 +79,7 @@ private:
     FrameNumber checked_ = 0;  // every frame up to this one is decided
     std::optional<FrameNumber> veto_;
     FailedCheck failed_check_;
-    std::optional<FrameNumber> device_veto_;  // what the device has been told
+    std::optional<FrameNumber> device_veto_;  // ordered of the device
     MotionPoint end_;                         // of the last body held
     Tick end_tick_;
     bool last_held_ = false;

@@ -24,7 +24,7 @@ AxisRoster::Arrival AxisRoster::arrival_of(const AxisState& state, Slot now) {
     if (!view.state) { return Arrival::FirstSeen; }
     const bool is_older = state.stamp <= view.state->stamp;
     if (is_older && is_present(state.axis, now)) { return Arrival::Ignored; }  // of a process before, sent again
-    return view.stranger.again(state.identity, state.stamp) ? Arrival::Replaced : Arrival::Ignored;
+    return view.unconfirmed.again(state.identity, state.stamp) ? Arrival::Replaced : Arrival::Ignored;
 }
 
 void AxisRoster::take(const AxisState& state, Slot now) {
@@ -35,7 +35,7 @@ void AxisRoster::take(const AxisState& state, Slot now) {
 }
 
 void AxisRoster::forgive(Slot missed, Slot now) {
-    for (AxisView& view : views_) { view.heard += missed; }
+    for (AxisView& view : views_) { view.received += missed; }
     if (missed > rules::silence_slots(timing_)) { woken_ = now; }
 }
 

@@ -1,21 +1,21 @@
-// What a coordinator knows of an axis: the newest state heard.
+// What a coordinator knows of an axis: the newest state received.
 #pragma once
 
 #include <optional>
 
+#include "core/protocol/repeated_value.hpp"
 #include "core/protocol/rules.hpp"
-#include "core/protocol/second_hearing.hpp"
 
 namespace lockstep {
 
 struct AxisView {
     std::optional<AxisState> state;
-    Slot heard = 0;
-    Slot stamp_before = 0;             // of the state heard before this one
-    SecondHearing<Identity> stranger;  // another process that has spoken for the axis
+    Slot received = 0;
+    Slot stamp_before = 0;                // of the state received before this one
+    RepeatedValue<Identity> unconfirmed;  // another process that published as this axis
 
     bool present(Slot now, const ProtocolTiming& timing) const {
-        return state && now - heard <= rules::silence_slots(timing);
+        return state && now - received <= rules::silence_slots(timing);
     }
 };
 

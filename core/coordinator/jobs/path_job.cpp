@@ -106,7 +106,7 @@ std::optional<EpochEnd> PathJob::advance(CoordinatorLoop& loop) {
                                  .overrides = turn->overrides,
                                  .behind = turn->behind});
     }
-    return runner_.judge(loop.slot, loop.axes.views());
+    return runner_.evaluate(loop.slot, loop.axes.views());
 }
 
 void PathJob::end_epoch(const EpochEnd& end, const MachineConfig& machine) {
@@ -127,7 +127,7 @@ bool PathJob::interrupt(const EpochEnd& end) {
     return fruitless_ < kMaxFruitless;
 }
 
-/// To plan the legs to come anew takes long, and frames are due: their times are estimated in proportion.
+/// To plan the legs to come again takes long, and frames are due: their times are estimated in proportion.
 void PathJob::turn(const Overrides& overrides, bool in_job) {
     const Overrides before = std::exchange(overrides_, overrides);
     if (is_moving_) { runner_.turn(overrides_); }

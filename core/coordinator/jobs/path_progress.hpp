@@ -1,4 +1,4 @@
-// How much of a job on a path is done. It never falls, although what is left is planned anew after a hold, and when an
+// How much of a job on a path is done. It never falls, although what is left is planned again after a hold, and when an
 // override changes.
 #pragma once
 

@@ -21,7 +21,7 @@ std::expected<FrameNumber, TakeoverDoubt> last_frame(const MachineState& last, s
     std::optional<FrameNumber> ran;
     for (const AxisView& axis : axes) {
         if (is_in_doubt(axis)) { return Doubt(TakeoverDoubt::AxisInDoubt); }
-        if (axis.state->epoch > last.epoch) { return Doubt(TakeoverDoubt::UnheardFrames); }
+        if (axis.state->epoch > last.epoch) { return Doubt(TakeoverDoubt::UnreceivedFrames); }
         const FrameNumber its = axis.state->epoch == last.epoch ? axis.state->ran : 0;
         if (ran && *ran != its) { return Doubt(TakeoverDoubt::FramesDiffer); }
         ran = its;
@@ -83,9 +83,9 @@ std::string_view text_of(TakeoverDoubt doubt) {
         "a hold or stop was asked for meanwhile",
         "its program has not arrived here",
         "what its owner said of it does not fit its program",
-        "an axis is missing, was started anew, is not homed or has a fault",
+        "an axis is missing, was restarted, is not homed or has a fault",
         "the axes did not all run the same frames",
-        "the axes ran frames that its owner was not heard to send",
+        "the axes ran frames that were not received from its owner",
         "an axis is not where its frames end"};
     return kTexts[static_cast<std::size_t>(doubt)];
 }
@@ -95,7 +95,7 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
     const auto ran = last_frame(last, axes);
     if (!ran) { return Doubt(ran.error()); }
     const auto said = std::ranges::find(last.rests, *ran, &FrameRest::frame);
-    if (said == last.rests.end()) { return Doubt(TakeoverDoubt::UnheardFrames); }
+    if (said == last.rests.end()) { return Doubt(TakeoverDoubt::UnreceivedFrames); }
     auto legs = ProgramPlanner(machine).plan(program, start_of_job(program, machine, axes));
     if (!legs) { return Doubt(TakeoverDoubt::OtherPlan); }
     auto rest = locate(std::move(*legs), *said);

@@ -22,7 +22,7 @@ void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot n
     sent_ = 0;
     ended_ = late_ = false;
     veto_.reset();
-    heard_veto_.reset();
+    received_veto_.reset();
     turned_.reset();
     tried_behind_.reset();
     taken_.reset();
@@ -36,9 +36,9 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
     for (const AxisView& axis : axes) {
         const bool follows = axis.state && axis.state->epoch == epoch_;
         held_by_all = std::min(held_by_all, follows ? axis.state->held : 0);
-        if (follows) { heard_veto_ = rules::merge(heard_veto_, axis.state->veto); }
+        if (follows) { received_veto_ = rules::merge(received_veto_, axis.state->veto); }
     }
-    if (heard_veto_) { ended_ = true; }  // what would come behind it nobody may run
+    if (received_veto_) { ended_ = true; }  // no axis may run a frame behind it
     try_turn(now);
     std::vector<Frame> frames;
     std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });
@@ -60,7 +60,7 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
     return frames;
 }
 
-/// Once behind each frame. A short rest of the path is planned anew just before the next frame is made; a long one
+/// Once behind each frame. A short rest of the path is planned again just before the next frame is made; a long one
 /// takes long, and is planned when half a frame's time or more is left until then.
 void EpochRunner::try_turn(Slot now) {
     if (!turned_ || ended_ || tried_behind_ == sent_) { return; }
@@ -132,7 +132,7 @@ std::vector<FrameRest> EpochRunner::rests_from(FrameNumber frame) const {
     return rests;
 }
 
-std::optional<EpochEnd> EpochRunner::judge(Slot now, std::span<const AxisView> axes) const {
+std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView> axes) const {
     const Slot first_start = rules::slot_of(start_, slot_);
     std::optional<FrameNumber> ran;
     EpochEnd end;

@@ -1,5 +1,5 @@
 // The coordinator's side of hold, arm, veto, for one epoch: makes frames in time, repeats what is not yet held, and
-// judges from the axes' states how the epoch ended.
+// evaluates from the axes' states how the epoch ended.
 #pragma once
 
 #include <deque>
@@ -39,27 +39,28 @@ public:
     /// Starts as soon as the send-ahead allows. `at` is where each axis rests, exactly.
     void begin(Epoch epoch, Path path, std::vector<Position> at, Slot now);
 
-    /// What is to be sent in this slot: new frames that are due, until an axis vetoes, and old ones that somebody
+    /// What is to be sent in this slot: new frames that are due, until an axis vetoes, and old ones that an axis
     /// lacks. Their term is the sender's to fill in.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
     /// From the next frame that is not made yet, or as soon after it as the path leaves a way and planning has time.
     /// Of several asked for between two frames the last one counts.
     void turn(const Overrides& overrides) { turned_ = overrides; }
-    /// Set by `send` where it has planned anew: the overrides that hold behind frame `behind`.
+    /// Set by `send` where it has planned again: the overrides that hold behind frame `behind`.
     struct Turn {
         FrameNumber behind = 0;
         Overrides overrides;
     };
     std::optional<Turn> take_turn() { return std::exchange(taken_, std::nullopt); }
 
-    /// No more frames; the lowest frame that no axis can have armed yet is vetoed, by the state published in slot `next`.
+    /// No more frames; the lowest frame that no axis can have armed yet is vetoed, by the state published in slot
+    /// `next`.
     void stop(Slot next);
 
-    /// Nothing while anybody may still move. Axes not present are left out of the judgement.
-    std::optional<EpochEnd> judge(Slot now, std::span<const AxisView> axes) const;
+    /// Nothing while an axis may still move. Axes that are not present are left out.
+    std::optional<EpochEnd> evaluate(Slot now, std::span<const AxisView> axes) const;
 
-    /// All that was sent is long over, with its tails, and still the epoch is not judged: not even a device that was
+    /// All that was sent is long over, with its tails, and still the result is open: not even a device that was
     /// silent for as long as it may be, nor word of it that came as late, explains that. Only slots in which frames
     /// were asked for count: while this process stalls, it receives nothing.
     bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(machine_.timing) + rules::kHopSlots; }
@@ -71,8 +72,8 @@ public:
     Tick start() const { return start_; }
     Epoch epoch() const { return epoch_; }
     FrameNumber sent() const { return sent_; }
-    /// The lowest of the coordinator's own and those heard: a veto is repeated by whoever hears it.
-    std::optional<FrameNumber> veto() const { return rules::merge(veto_, heard_veto_); }
+    /// The lowest of the coordinator's own and those received: each receiver repeats a veto.
+    std::optional<FrameNumber> veto() const { return rules::merge(veto_, received_veto_); }
     bool was_late() const { return late_; }
 
 private:
@@ -105,10 +106,10 @@ private:
     std::optional<Turn> taken_;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;
-    std::optional<FrameNumber> veto_;        // the coordinator's own
-    std::optional<FrameNumber> heard_veto_;  // the lowest of the axes'
-    std::deque<Frame> in_flight_;            // not begun yet
-    std::deque<Ending> endings_;             // how the epoch ends if this frame is the last run; the newest is sent_
+    std::optional<FrameNumber> veto_;           // the coordinator's own
+    std::optional<FrameNumber> received_veto_;  // the lowest of the axes'
+    std::deque<Frame> in_flight_;               // not begun yet
+    std::deque<Ending> endings_;                // how the epoch ends if this frame is the last run; the newest is sent_
 };
 
 }  // namespace lockstep

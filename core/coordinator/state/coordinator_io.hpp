@@ -45,15 +45,15 @@ enum class OnTakeover : std::uint8_t { Stop, Continue };
 
 /// Why a job is not gone on with.
 enum class TakeoverDoubt : std::uint8_t {
-    NotAsked,        // OnTakeover::Stop
-    NotRunning,      // held, paused, being stopped, or not a program
-    Interrupted,     // a hold or stop was asked for meanwhile
-    UnknownProgram,  // it did not arrive here
-    OtherPlan,       // what the owner said of it does not fit the program
-    AxisInDoubt,     // missing, started anew, not homed or in fault
-    FramesDiffer,    // the axes did not run the same frames
-    UnheardFrames,   // they ran frames of which the owner's word was not heard
-    Misplaced,       // one is not where its frames end
+    NotAsked,          // OnTakeover::Stop
+    NotRunning,        // held, paused, being stopped, or not a program
+    Interrupted,       // a hold or stop was asked for meanwhile
+    UnknownProgram,    // it did not arrive here
+    OtherPlan,         // what the owner said of it does not fit the program
+    AxisInDoubt,       // missing, started again, not homed or in fault
+    FramesDiffer,      // the axes did not run the same frames
+    UnreceivedFrames,  // they ran frames of which the owner's word was not heard
+    Misplaced,         // one is not where its frames end
 };
 std::string_view text_of(TakeoverDoubt doubt);
 

@@ -21,7 +21,7 @@ CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion) {
 CommandResult check_present(const CoordinatorLoop& loop) {
     const auto missing = loop.axes.missing(loop.slot);
     if (!missing) { return {}; }
-    return refuse(FaultCode::AxisMissing, "axis " + loop.name_of_axis(*missing) + " is not heard");
+    return refuse(FaultCode::AxisMissing, "axis " + loop.name_of_axis(*missing) + " is not received");
 }
 
 CommandResult check_homed(const CoordinatorLoop& loop) {
@@ -42,7 +42,7 @@ CommandResult check_clocks(const CoordinatorLoop& loop) {
                   "axis " + loop.name_of_axis(*axis) + ": its clock may be " + us(loop.axes.state(*axis)->clock_error) +
                       " off, the limit to begin is " + us(limit) + " (timing.clock_error_limit_us is " +
                       std::to_string(machine.timing.clock_error_limit_us) +
-                      "); wait until the axis has heard the coordinator for some "
+                      "); wait until the axis has received the coordinator for some "
                       "seconds, check the network to it, or give the slots more time");
 }
 

@@ -39,7 +39,7 @@ void ClockClient::run(const std::stop_token& stop) {
         const Tick arrived = own_clock_();
         const std::scoped_lock lock(mutex_);
         replies_.take([&](ClockReply&& reply) {
-            if (const auto exchange = asker_.hear(reply, arrived)) { exchanges_.push_back(*exchange); }
+            if (const auto exchange = asker_.receive(reply, arrived)) { exchanges_.push_back(*exchange); }
         });
     }
 }

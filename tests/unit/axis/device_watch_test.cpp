@@ -86,7 +86,7 @@ TEST_F(Watch, ARunThatIsNeverTakenIsNoticed) {
 TEST_F(Watch, AnotherPowerUpIsAnotherDevice) {
     (void)look();
     ++shown_.power_up;
-    EXPECT_NE(look().find("powered up anew"), std::string::npos);
+    EXPECT_NE(look().find("powered up again"), std::string::npos);
 }
 
 TEST_F(Watch, AClockThatGoesBackIsNone) {
@@ -101,7 +101,7 @@ TEST_F(Watch, ACountThatIsFasterThanTheTicksIsNone) {
     EXPECT_NE(look().find("its count went from 0 to -502"), std::string::npos);
 }
 
-TEST_F(Watch, ARunThatNobodyOrderedIsNone) {
+TEST_F(Watch, ARunThatWasNotOrderedIsRefuted) {
     (void)look();
     shown_.run_asked = 9;
     EXPECT_NE(look().find("asked for run 9"), std::string::npos);

@@ -96,7 +96,7 @@ TEST_F(PositionFile, HoldsTheNewestWhenTheKeeperHasEnded) {
 
 std::atomic<int> complaints;
 
-TEST_F(PositionFile, ThatCannotBeWrittenIsComplainedOfOnce) {
+TEST_F(PositionFile, ThatCannotBeWrittenIsReportedOnce) {
     {
         PositionKeeper keeper("/dev/null/X.textproto", [](const std::string&) { ++complaints; });
         for (std::uint64_t run = 1; run <= 3; ++run) { keeper.keep(position_after(run)); }

@@ -64,7 +64,7 @@ const Position kHome = Position::steps(0);
 /// Axis 0 of two, which has heard of the epoch.
 SetpointFollower informed() {
     SetpointFollower follower{0, machine()};
-    follower.hear(MachineState{.epoch = kEpoch});
+    follower.receive(MachineState{.epoch = kEpoch});
     return follower;
 }
 
@@ -84,24 +84,24 @@ protected:
 TEST_F(Follower, ArmsAsSoonAsAllHold) {
     EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
     EXPECT_EQ(follower.held(), 1u);
-    follower.hear(peer(93, 1));
+    follower.receive(peer(93, 1));
     EXPECT_FALSE(armed_at(94, 1)) << "the coordinator's evidence is missing";
-    follower.hear(coordinator(93));
+    follower.receive(coordinator(93));
     EXPECT_TRUE(armed_at(94, 1));
     EXPECT_FALSE(follower.veto().has_value());
 }
 
 TEST_F(Follower, ArmsUntilFourSlotsBeforeTheStart) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(93, 1));
-    follower.hear(coordinator(93));
+    follower.receive(peer(93, 1));
+    follower.receive(coordinator(93));
     EXPECT_TRUE(armed_at(96, 1));
 }
 
 TEST_F(Follower, VetoesAtTheCheckWhatAPeerDoesNotHold) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 0));
-    follower.hear(coordinator(94));
+    follower.receive(peer(94, 0));
+    follower.receive(coordinator(94));
     EXPECT_FALSE(armed_at(95, 1));
     EXPECT_FALSE(follower.veto().has_value()) << "evidence may still arrive";
     EXPECT_FALSE(armed_at(96, 1));
@@ -111,8 +111,8 @@ TEST_F(Follower, VetoesAtTheCheckWhatAPeerDoesNotHold) {
 
 TEST_F(Follower, VetoesAtTheCheckWithoutTheCoordinator) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 1));
-    follower.hear(coordinator(92));
+    follower.receive(peer(94, 1));
+    follower.receive(coordinator(92));
     EXPECT_FALSE(armed_at(96, 1));
     EXPECT_EQ(follower.veto(), 1u);
     EXPECT_TRUE(follower.failed_check().no_coordinator);
@@ -128,8 +128,8 @@ TEST_F(Follower, LeavesAVetoToTheLoopThatPublishesIt) {
 
 TEST_F(Follower, IgnoresEvidenceFromBeforeTheLease) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(92, 1));
-    follower.hear(coordinator(94));
+    follower.receive(peer(92, 1));
+    follower.receive(coordinator(94));
     EXPECT_FALSE(armed_at(96, 1));
     EXPECT_EQ(follower.veto(), 1u);
 }
@@ -138,15 +138,15 @@ TEST_F(Follower, IgnoresEvidenceOfAnotherEpoch) {
     (void)follower.offer(frame(1, kHome), kHome);
     AxisState other = peer(94, 1);
     other.epoch = kEpoch - 1;
-    follower.hear(other);
-    follower.hear(coordinator(94));
+    follower.receive(other);
+    follower.receive(coordinator(94));
     EXPECT_FALSE(armed_at(95, 1));
 }
 
 TEST_F(Follower, VetoesTheFirstFrameFourSlotsAheadWhenTooLate) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 1));
-    follower.hear(coordinator(94));
+    follower.receive(peer(94, 1));
+    follower.receive(coordinator(94));
     const auto orders = follower.decide(97, true);
     EXPECT_EQ(follower.veto(), 2u) << "the others may run frame 1";
     ASSERT_EQ(orders.size(), 1u);
@@ -159,10 +159,10 @@ TEST_F(Follower, VetoesTheFirstFrameFourSlotsAheadWhenTooLate) {
 
 TEST_F(Follower, RepeatsAPeersVetoAndTellsTheDevice) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 1));
-    follower.hear(coordinator(94));
+    follower.receive(peer(94, 1));
+    follower.receive(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
-    follower.hear(peer(96, 1, 1));
+    follower.receive(peer(96, 1, 1));
     const auto orders = follower.decide(97, false);
     ASSERT_EQ(orders.size(), 1u);
     EXPECT_EQ(std::get<device::Veto>(orders[0]).number, 1u);
@@ -171,26 +171,26 @@ TEST_F(Follower, RepeatsAPeersVetoAndTellsTheDevice) {
 
 TEST_F(Follower, DoesNotArmWhatTheCoordinatorVetoes) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 1));
-    follower.hear(coordinator(94, 1));
+    follower.receive(peer(94, 1));
+    follower.receive(coordinator(94, 1));
     EXPECT_FALSE(armed_at(95, 1));
     EXPECT_EQ(follower.veto(), 1u);
 }
 
 TEST_F(Follower, VetoesAFrameThatIsNotReceivedByItsCheck) {
     (void)follower.offer(frame(1, kHome), kHome);
-    follower.hear(peer(94, 1));
-    follower.hear(coordinator(94));
+    follower.receive(peer(94, 1));
+    follower.receive(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
-    follower.hear(peer(99, 1));
+    follower.receive(peer(99, 1));
     (void)follower.decide(101, true);  // V before frame 2
     EXPECT_EQ(follower.veto(), 2u);
 }
 
 TEST_F(Follower, ExpectsNothingAfterTheLastFrame) {
     (void)follower.offer(frame(1, kHome, kSlow, true), kHome);
-    follower.hear(peer(94, 1));
-    follower.hear(coordinator(94));
+    follower.receive(peer(94, 1));
+    follower.receive(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
     (void)follower.decide(120, true);
     EXPECT_FALSE(follower.veto().has_value());
@@ -259,9 +259,9 @@ TEST_F(Follower, AFirstFrameThatIsRefusedBeginsNothing) {
 TEST_F(Follower, AnEpochNoCoordinatorComesToDoesNotShutTheAxisOut) {
     Frame absurd = frame(1, kHome);
     absurd.epoch = ~Epoch{0} / 3;
-    follower.hear(MachineState{.epoch = absurd.epoch});
+    follower.receive(MachineState{.epoch = absurd.epoch});
     EXPECT_EQ(follower.offer(absurd, kHome), FaultCode::FrameDiscontinuous);
-    follower.hear(MachineState{.epoch = kEpoch});
+    follower.receive(MachineState{.epoch = kEpoch});
     EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
     EXPECT_EQ(follower.epoch(), kEpoch);
 }
@@ -279,7 +279,7 @@ TEST_F(Follower, ANewEpochBeginsOnlyFromRest) {
     (void)follower.offer(frame(1, kHome), kHome);
     Frame next = frame(1, kHome);
     next.epoch = kEpoch + 1;
-    follower.hear(MachineState{.epoch = next.epoch});
+    follower.receive(MachineState{.epoch = next.epoch});
     EXPECT_EQ(follower.offer(next, std::nullopt), FaultCode::None);
     EXPECT_EQ(follower.epoch(), kEpoch);
     follower.close();

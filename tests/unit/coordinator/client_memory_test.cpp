@@ -29,7 +29,7 @@ TEST(ClientMemory, TheOldestClientGivesWay) {
     EXPECT_NE(memory.find(1), nullptr);
 }
 
-TEST(ClientMemory, AClientThatSpeaksAgainIsTheNewestAndTakesNobodysPlace) {
+TEST(ClientMemory, ARepeatedClientIsTheNewestAndReplacesNone) {
     ClientMemory<int> memory;
     for (Identity client = 0; client < memory.kClients; ++client) { memory.note(client, 1); }
     memory.note(0, 2);

@@ -71,7 +71,7 @@ TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
     EXPECT_EQ(state_.fault_axis, 0u);
     EXPECT_EQ(state_.outcome, JobOutcome::Failed);
     axis_.at_rest = true;
-    axis_.identity = 6;  // its process is started anew
+    axis_.identity = 6;  // its process is restarted
     ask(CommandKind::Reset);
     EXPECT_TRUE(reaches(MachinePhase::Idle, 1000));
 }

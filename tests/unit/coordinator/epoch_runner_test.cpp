@@ -48,7 +48,7 @@ EpochRunner on_a_long_move() {
 }
 
 /// With two axes nobody else is there to repeat it when the link between them breaks.
-TEST(EpochRunner, RepeatsTheLowestVetoItHears) {
+TEST(EpochRunner, RepeatsTheLowestVetoItReceives) {
     EpochRunner runner = on_a_long_move();
     (void)runner.send(110, says(110, 0, {}, 0, {}));
     EXPECT_EQ(runner.veto(), std::nullopt);
@@ -80,7 +80,7 @@ TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
         (void)runner.send(slot, says(slot, kRan, kRan + 1, 0, {}));
     }
     EXPECT_EQ(runner.sent(), kRan);
-    const auto end = runner.judge(slot, says(slot, kRan, kRan + 1, kRan, *rest));
+    const auto end = runner.evaluate(slot, says(slot, kRan, kRan + 1, kRan, *rest));
     ASSERT_TRUE(end.has_value());
     EXPECT_EQ(end->kind, EpochEnd::Kind::Interrupted);
     EXPECT_EQ(end->ran, kRan);
@@ -101,7 +101,7 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     ++slot;
     (void)runner.send(slot, says(slot, 20, 21, 0, {}));
     EXPECT_TRUE(runner.is_overdue());
-    EXPECT_FALSE(runner.judge(slot, says(slot, 20, 21, 0, {})).has_value());
+    EXPECT_FALSE(runner.evaluate(slot, says(slot, 20, 21, 0, {})).has_value());
 }
 
 /// 20,000 moves of 0.05 mm, begun in slot 100.
@@ -118,7 +118,7 @@ EpochRunner on_a_path_of_20000_moves() {
     return runner;
 }
 
-/// Planning so many moves anew takes tens of milliseconds: the next frame must not wait for it.
+/// Planning so many moves again takes tens of milliseconds: the next frame must not wait for it.
 TEST(EpochRunner, PlansALongRestAnewOnceAFrameAndNeverWhenAFrameIsDue) {
     EpochRunner runner = on_a_path_of_20000_moves();
     const Slot half_a_frame = one_slow_axis().timing.frame_slots / 2;
@@ -179,7 +179,7 @@ protected:
 };
 
 TEST_F(EndOfEpoch, IsInterruptedWhereAllRestWhereTheirFramesEnd) {
-    const auto end = runner.judge(slot, axes);
+    const auto end = runner.evaluate(slot, axes);
     ASSERT_TRUE(end.has_value());
     EXPECT_EQ(end->kind, EpochEnd::Kind::Interrupted);
     EXPECT_EQ(end->ran, kRan);
@@ -188,7 +188,7 @@ TEST_F(EndOfEpoch, IsInterruptedWhereAllRestWhereTheirFramesEnd) {
 
 TEST_F(EndOfEpoch, NamesTheAxisThatRanOtherFrames) {
     axes[2].state->ran = kRan - 1;
-    const auto end = runner.judge(slot, axes);
+    const auto end = runner.evaluate(slot, axes);
     ASSERT_TRUE(end.has_value());
     EXPECT_EQ(end->kind, EpochEnd::Kind::FramesDiffer);
     EXPECT_EQ(end->axis, 2u);
@@ -196,7 +196,7 @@ TEST_F(EndOfEpoch, NamesTheAxisThatRanOtherFrames) {
 
 TEST_F(EndOfEpoch, NamesTheAxisThatIsMisplaced) {
     axes[1].state->position = Position::steps(1);
-    const auto end = runner.judge(slot, axes);
+    const auto end = runner.evaluate(slot, axes);
     ASSERT_TRUE(end.has_value());
     EXPECT_EQ(end->kind, EpochEnd::Kind::Misplaced);
     EXPECT_EQ(end->axis, 1u);
@@ -204,18 +204,18 @@ TEST_F(EndOfEpoch, NamesTheAxisThatIsMisplaced) {
 
 TEST_F(EndOfEpoch, WaitsForAnAxisThatMoves) {
     axes[1].state->at_rest = false;
-    EXPECT_FALSE(runner.judge(slot, axes).has_value());
+    EXPECT_FALSE(runner.evaluate(slot, axes).has_value());
 }
 
 TEST_F(EndOfEpoch, LeavesOutAnAxisThatIsNotPresent) {
     axes[1].state->at_rest = false;
-    axes[1].heard = slot - 1000;
-    EXPECT_EQ(runner.judge(slot, axes)->kind, EpochEnd::Kind::Interrupted);
+    axes[1].received = slot - 1000;
+    EXPECT_EQ(runner.evaluate(slot, axes)->kind, EpochEnd::Kind::Interrupted);
 }
 
 TEST_F(EndOfEpoch, OfFramesThatWereNotSentIsADifference) {
     for (AxisView& axis : axes) { axis.state->ran = kRan + 1; }
-    EXPECT_EQ(runner.judge(slot, axes)->kind, EpochEnd::Kind::FramesDiffer);
+    EXPECT_EQ(runner.evaluate(slot, axes)->kind, EpochEnd::Kind::FramesDiffer);
 }
 
 }  // namespace

@@ -26,17 +26,19 @@ struct Scene {
     void say(std::size_t axis, const AxisState& state) {
         axes[axis] = {state, now, {}};
         axes[axis].state->stamp = now;
-        ownership.hear(*axes[axis].state);
+        ownership.receive(*axes[axis].state);
     }
     /// Both axes follow `term`, and hear its owner.
-    void axes_follow(const Term& term, bool hear_owner = true, bool at_rest = true) {
-        for (std::size_t i = 0; i < 2; ++i) { say(i, {.at_rest = at_rest, .term = term, .hears_owner = hear_owner}); }
+    void axes_follow(const Term& term, bool receive_owner = true, bool at_rest = true) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            say(i, {.at_rest = at_rest, .term = term, .hears_owner = receive_owner});
+        }
     }
     void owner_says(const Term& term) {
-        ownership.hear({.term = term, .stamp = now, .phase = MachinePhase::Idle}, now);
+        ownership.receive({.term = term, .stamp = now, .phase = MachinePhase::Idle}, now);
     }
     Ownership::Change look() {
-        const auto change = ownership.judge({now * 1000}, now, axes);
+        const auto change = ownership.evaluate({now * 1000}, now, axes);
         ++now;
         return change;
     }
@@ -69,13 +71,13 @@ TEST(Ownership, IsClaimedAfterASilenceAboveEveryTermThatIsKnown) {
     EXPECT_EQ(scene.ownership.term(), (Term{9'000'000'001, 7}));
 }
 
-TEST(Ownership, IsNotClaimedWhileAnOwnerIsHeard) {
+TEST(Ownership, IsNotClaimedWhileAnOwnerIsReceived) {
     Scene scene;
     EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.owner_says(kOther); }), Change::None);
-    EXPECT_TRUE(scene.ownership.hears_other_owner(scene.now));
+    EXPECT_TRUE(scene.ownership.receives_other_owner(scene.now));
 }
 
-TEST(Ownership, IsNotClaimedWhileAnAxisHearsAnOwnerThatThisOneDoesNot) {
+TEST(Ownership, IsNotClaimedWhileAnAxisReceivesAnOwnerThatThisOneDoesNot) {
     Scene scene;
     EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.axes_follow(kOther); }), Change::None);
 }
@@ -96,7 +98,7 @@ TEST(Ownership, IsNotClaimedForAnOwnStall) {
 TEST(Ownership, OfTwoThatWaitTheElderGoesFirst) {
     Scene younger;
     const auto elder_waits = [&] {
-        younger.ownership.hear({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);
+        younger.ownership.receive({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);
     };
     EXPECT_EQ(younger.look_for(kSilence + 5, elder_waits), Change::None);
     EXPECT_EQ(younger.look_for(10, elder_waits), Change::Claimed) << "but the elder may be unable to";
@@ -106,14 +108,14 @@ TEST(Ownership, OfTwoThatHaveWaitedForAxesToComeToRestTheElderGoesFirst) {
     Scene younger;
     const auto wait = [&](bool at_rest) {
         younger.axes_follow(kOther, false, at_rest);
-        younger.ownership.hear({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);
+        younger.ownership.receive({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);
     };
     ASSERT_EQ(younger.look_for(3 * kSilence, [&] { wait(false); }), Change::None);
     EXPECT_EQ(younger.look_for(5, [&] { wait(true); }), Change::None);
     EXPECT_EQ(younger.look_for(10, [&] { wait(true); }), Change::Claimed);
 }
 
-TEST(Ownership, MovesNothingBeforeEveryAxisSaysThatItFollows) {
+TEST(Ownership, MovesNothingBeforeEveryAxisReportsThatItFollows) {
     Scene scene;
     (void)scene.look_for(2 * kSilence, [] {});
     ASSERT_TRUE(scene.ownership.owns());
@@ -147,7 +149,7 @@ TEST(Ownership, OnceAcknowledgedDoesNotEndForAClaimThatNoAxisFollows) {
               Change::None);
 }
 
-TEST(Ownership, OnceAcknowledgedDoesNotEndForOneDamagedStateThoughAClaimWasHeard) {
+TEST(Ownership, OnceAcknowledgedDoesNotEndForOneDamagedStateAfterAClaim) {
     Scene scene;
     scene.own();
     const Term own = scene.ownership.term();

@@ -108,14 +108,14 @@ TEST_F(RestOfJob, IsInDoubtWithAnAxisThatIsMissingUnhomedInFaultOrInMotion) {
     EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
 }
 
-TEST_F(RestOfJob, IsInDoubtWhenTheAxesRanOtherFramesOrUnheardOnes) {
+TEST_F(RestOfJob, IsInDoubtWhenTheAxesRanOtherFramesOrUnreceivedOnes) {
     y().ran = kRan - 1;
     EXPECT_EQ(doubt(), TakeoverDoubt::FramesDiffer);
     axes[0].state->ran = kRan - 1;
-    EXPECT_EQ(doubt(), TakeoverDoubt::UnheardFrames) << "where that frame ends was not received";
+    EXPECT_EQ(doubt(), TakeoverDoubt::UnreceivedFrames) << "where that frame ends was not received";
     rest_at(Displacement::steps(1000));
     y().epoch = kEpoch + 1;
-    EXPECT_EQ(doubt(), TakeoverDoubt::UnheardFrames);
+    EXPECT_EQ(doubt(), TakeoverDoubt::UnreceivedFrames);
     y().epoch = kEpoch - 1;
     EXPECT_EQ(doubt(), TakeoverDoubt::FramesDiffer) << "of this epoch it ran none";
 }

@@ -100,7 +100,7 @@ TEST(VirtualPost, ACutStopsMessagesInTheDirectionsThatItNames) {
     post.send(Tick{0}, 1, 0, AxisState{});
     EXPECT_TRUE(post.collect(Tick{1000}, 1).axes.empty());
     EXPECT_EQ(post.collect(Tick{1000}, 0).axes.size(), 1u);
-    post.mend(cut);
+    post.restore(cut);
     post.send(Tick{1000}, 0, 1, AxisState{});
     EXPECT_EQ(post.collect(Tick{2000}, 1).axes.size(), 1u);
 }
