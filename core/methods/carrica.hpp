@@ -4,7 +4,7 @@
 // implementation", Eqs. (5), (7), (9), (11) and Fig. 5. n counts clock periods T_c since the last step; a step falls
 // where
 //   n V_ref T_c >= 1,                                                                                         (11)
-// and n starts again. V_ref is a trapezoid over time from V_min to V_max (Fig. 4). Only speeds 1/(n T_c) can be made,
+// and n restarts at 0. V_ref is a trapezoid over time from V_min to V_max (Fig. 4). Only speeds 1/(n T_c) can be made,
 // each at or below the reference; near speed V neighbours are about V^2 T_c apart.
 //
 // Left open there and chosen here: V_ref changes every T_c, in fixed point of 2^-60 step per T_c, rounded up so that a

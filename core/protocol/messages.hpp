@@ -25,7 +25,7 @@ using Epoch = std::uint64_t;
 using FrameNumber = std::uint64_t;
 /// A period of the axes' state messages: machine time divided by the slot's length.
 using Slot = std::int64_t;
-/// Who speaks: made again at every start of a process.
+/// Who speaks: new at every start of a process.
 using Identity = std::uint64_t;
 
 /// Whose turn it is to move the machine. All that an owner says carries it. Terms only rise: who takes a machine over

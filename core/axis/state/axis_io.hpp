@@ -47,9 +47,9 @@ struct ExecutedTrack {
 
 /// Why a frame was not armed.
 struct FailedCheck {
-    bool too_late = false;  // the check was
-    bool held = false;      // by this axis
-    AxisSet lacking = 0;    // axes without a fresh state that reports the frame as held
+    bool too_late = false;        // the check was
+    bool held = false;            // by this axis
+    AxisSet lacking = 0;          // axes without a fresh state that reports the frame as held
     bool no_coordinator = false;  // there is no evidence of the coordinator
 };
 
