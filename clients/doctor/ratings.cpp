@@ -7,6 +7,9 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/protocol/frame_room.hpp"
+#include "services/documents/timing_edit.hpp"
+
 namespace lockstep::doctor {
 namespace {
 
@@ -14,14 +17,6 @@ std::string milliseconds(double us) {
     char text[32];
     std::snprintf(text, sizeof text, us < 10'000 ? "%.2f ms" : "%.0f ms", us / 1000);
     return text;
-}
-
-std::string text_of(const ProtocolTiming& t) {
-    return "timing { slot_us: " + std::to_string(t.slot_us) + " stall_slots: " + std::to_string(t.stall_slots) +
-           " late_check_slots: " + std::to_string(t.late_check_slots) +
-           " freshness_slots: " + std::to_string(t.freshness_slots) +
-           " send_ahead_slots: " + std::to_string(t.send_ahead_slots) +
-           " frame_slots: " + std::to_string(t.frame_slots) + " }";
 }
 
 }  // namespace
@@ -112,10 +107,12 @@ Finding rate_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
             wanted.priority > 0 ? "LimitMEMLOCK=infinity in the unit, or ulimit -l unlimited" : ""};
 }
 
-ProtocolTiming timing_for(const StallFacts& facts) {
+ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us) {
     constexpr std::array<std::int64_t, 6> kSlots_us{1000, 2000, 5000, 10'000, 20'000, 50'000};
     const double stall = 2 * facts.worst_us;
-    const auto fits = [&](std::int64_t slot) { return static_cast<double>(slot) * 10 >= stall; };
+    const auto fits = [&](std::int64_t slot) {
+        return slot >= least_slot_us && static_cast<double>(slot) * 10 >= stall;
+    };
     const auto slot = std::ranges::find_if(kSlots_us, fits);
     ProtocolTiming timing{.slot_us = slot == kSlots_us.end() ? kSlots_us.back() : *slot};
     timing.stall_slots = std::max(1, static_cast<int>(std::ceil(stall / static_cast<double>(timing.slot_us))));
@@ -126,17 +123,21 @@ ProtocolTiming timing_for(const StallFacts& facts) {
     return timing;
 }
 
+std::int64_t least_slot_us(const ProtocolTiming& timing) {
+    return timing.time_source == TimeSource::Shared ? 0 : 4 * timing.clock_error_limit_us;
+}
+
 Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
     const double may_us = static_cast<double>(timing.stall_slots) * static_cast<double>(timing.slot_us);
-    const ProtocolTiming better = timing_for(facts);
+    const ProtocolTiming better = timing_for(facts, least_slot_us(timing));
     const std::string found = "in " + std::to_string(static_cast<int>(std::lround(facts.seconds))) +
                               " s a thread woke " + milliseconds(facts.worst_us) + " late at most, " +
                               milliseconds(facts.p99_us) + " in one of 100; the timing allows " + milliseconds(may_us);
-    if (facts.worst_us > may_us) { return {Rating::Bad, "stalls", found, text_of(better)}; }
-    if (2 * facts.worst_us > may_us) { return {Rating::Doubtful, "stalls", found, text_of(better)}; }
+    if (facts.worst_us > may_us) { return {Rating::Bad, "stalls", found, slots_text(better)}; }
+    if (2 * facts.worst_us > may_us) { return {Rating::Doubtful, "stalls", found, slots_text(better)}; }
     const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * (t.lease_slots() + t.frame_slots); };
     const bool slack = 2 * reaction(better) < reaction(timing);
-    return {Rating::Good, "stalls", found + (slack ? "; a hold could come sooner with " + text_of(better) : ""), ""};
+    return {Rating::Good, "stalls", found + (slack ? "; a hold could come sooner with " + slots_text(better) : ""), ""};
 }
 
 Finding rate_clock(TimeSource source, const ClockFacts& facts) {

@@ -49,8 +49,10 @@ struct StallFacts {
     double seconds = 0;  // duration of the measurement
 };
 Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts);
+/// The shortest slot that the machine's clocks allow: with clocks of their own, four times the limit of their error.
+std::int64_t least_slot_us(const ProtocolTiming& timing);
 /// The shortest timing with which a host may stall for twice as long as measured.
-ProtocolTiming timing_for(const StallFacts& facts);
+ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us = 0);
 
 struct ClockFacts {
     std::string source;         // the kernel's clocksource

@@ -20,6 +20,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_flight(app, action);
     add_spy(app, action);
     add_doctor(app, action);
+    add_timing(app, action);
     add_keys(app, action);
     add_home(app, action);
     add_move(app, action);

@@ -31,6 +31,7 @@ void add_down(CLI::App& app, Action& action);
 void add_status(CLI::App& app, Action& action);
 void add_watch(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
+void add_timing(CLI::App& app, Action& action);  // apply
 void add_flight(CLI::App& app, Action& action);
 void add_keys(CLI::App& app, Action& action);  // make, show, check
 void add_spy(CLI::App& app, Action& action);

@@ -5,6 +5,7 @@
 
 #include "clients/analysis/log/program_parts.hpp"
 #include "clients/verification/run_difference.hpp"
+#include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep::verification {
@@ -356,13 +357,15 @@ void JobCheck::plan_next(EpochReplay replay) {
     }
 }
 
-/// Frames to come, none at first, and the tail of the last of them; finally the path's end, if there is no tail.
+/// Frames to come, none at first, and the tail of the last of them; finally the path's end, if there is no tail. Before
+/// its end an axis may have run or armed, without a record, all frames that were sent ahead, and the one in motion.
 std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) const {
     const Progress& progress = epoch_->axes[axis];
     std::vector<Course> courses;
     if (progress.cut || progress.in_tail) { return courses; }
     Course frames;
-    for (FrameNumber number = progress.ran; number <= progress.ran + kUnrecordedFrames; ++number) {
+    const auto unrecorded = static_cast<FrameNumber>(frames_ahead(job_->replay->machine().timing) + 1);
+    for (FrameNumber number = progress.ran; number <= progress.ran + unrecorded; ++number) {
         const Frame* frame = number > 0 ? replay.frame(number) : nullptr;
         if (number > progress.ran && frame == nullptr) { break; }
         if (number > progress.ran) { frames.push_back(planned_run(*frame, axis, false, known_within())); }

@@ -25,9 +25,6 @@ public:
     /// The maximum of runs that wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    /// How many frames an axis may have run, or armed, without recording them before its end: the one in motion and the
-    /// one decided on meanwhile; and as many for a process that stalled before it ended.
-    static constexpr FrameNumber kUnrecordedFrames = 4;
     /// Whether an axis's process had ended by the end of the log.
     using HasEnded = std::function<bool(const std::string& axis)>;
 

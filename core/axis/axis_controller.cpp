@@ -146,7 +146,7 @@ void AxisController::receive(const MachineState& state, AxisLoop& loop) {
         condition_.orders.restart();
         loop.notice({AxisNotice::Kind::OwnerAdopted, FaultCode::None, state.term.number});
     }
-    following_.take(state);
+    following_.take(state, loop.slot);
 }
 
 void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {

@@ -27,9 +27,10 @@ inline set_clocks() { skip }
 
 /* ---- promises ---- */
 
-/* The device of an axis that crashes or stalls has been told of what starts within the next slots, or it has not. */
+/* The device of an axis that crashes or stalls has been told of the frames that the others arm meanwhile, or it has not.
+ * The others may be three slots ahead of it, and it may be late by E. */
 #ifndef APART
-#define APART ((3 + FRAME - 1) / FRAME)
+#define APART ((3 + E + FRAME - 1) / FRAME)
 #endif
 #define BESIDE(a, b) ((a) <= (b) + APART && (b) <= (a) + APART)
 #if N == 2

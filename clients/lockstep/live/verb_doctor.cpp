@@ -1,12 +1,12 @@
 // lockstep doctor
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <CLI/CLI.hpp>
 
 #include "clients/doctor/probes.hpp"
 #include "clients/lockstep/live/keys_report.hpp"
+#include "clients/lockstep/live/timing_report.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/session.hpp"
@@ -36,6 +36,7 @@ constexpr auto kListening = 1500ms;
 
 struct DoctorOptions : LiveOptions {
     double seconds = 3;
+    bool timing = false;
 };
 
 /// The file of the axes' states, or why it cannot exist.
@@ -66,12 +67,7 @@ void examine_host(const MachineConfig& machine, double seconds, Output& output, 
     findings.push_back(doctor::rate_scheduler(machine.real_time, real_time));
     findings.push_back(doctor::rate_memory(machine.real_time, real_time));
     findings.push_back(doctor::rate_clock(machine.timing.time_source, doctor::look_at_clock()));
-    const auto period = std::chrono::microseconds(machine.timing.slot_us) / 4;
-    const auto during = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
-    findings.push_back(doctor::rate_stalls(machine.timing, doctor::look_for_stalls(period, during, [&](double done) {
-                                               output.progress("watching for stalls " +
-                                                               std::to_string(std::lround(done * 100)) + " %");
-                                           })));
+    findings.push_back(doctor::rate_stalls(machine.timing, watch_for_stalls(machine.timing.slot_us, seconds, output)));
 }
 
 std::expected<void, std::string> try_device(const AxisConfig& axis, std::int64_t tick_ns) {
@@ -165,10 +161,20 @@ void print(const Finding& finding, Output& output) {
     if (!finding.remedy.empty()) { output.print("     " + std::string(kColumn, ' ') + "do: " + finding.remedy); }
 }
 
+ExitCode propose(const ProtocolTiming& today, double seconds, Output& output) {
+    const doctor::StallFacts facts = watch_for_stalls(today.slot_us, seconds, output);
+    const ProtocolTiming proposed = doctor::timing_for(facts, doctor::least_slot_us(today));
+    print_timing(facts, proposed, today, output);
+    output.print("do: lockstep timing apply --stall-ms STALL, with the longest stall of all hosts");
+    output.report(timing_report(facts, proposed));
+    return kExitDone;
+}
+
 ExitCode examine(const DoctorOptions& options) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
+    if (options.timing) { return propose(machine->config.timing, options.seconds, output); }
     Findings findings;
     examine_network(machine->config, findings);
     examine_host(machine->config, options.seconds, output, findings);
@@ -195,8 +201,11 @@ void add_doctor(CLI::App& app, Action& action) {
     verb->add_option("--seconds", options->seconds, "how long to watch for stalls; under the usual load")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
+    verb->add_flag("--timing", options->timing, "only watch for stalls, and propose the fastest timing for them");
     add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep doctor --machine mill.textproto\n  lockstep doctor --seconds 600 --json\n"));
+    verb->footer(
+        footer("  lockstep doctor --machine mill.textproto\n  lockstep doctor --seconds 600 --json\n  lockstep doctor "
+               "--timing --seconds 600\n"));
     verb->callback([&action, options] { action = [options] { return examine(*options); }; });
 }
 

@@ -40,8 +40,9 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     if (frame.axes.size() != axes_) { return FaultCode::ConfigMismatch; }
     const AxisTrack& track = frame.axes[axis_];
     const bool first = !open_ && rest && frame.epoch > epoch_ && frame.epoch == named_ && frame.number == 1;
-    const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_;
-    if ((!first && !next) || frames_.size() == kMaxFramesKept) { return FaultCode::None; }
+    const bool has_room = frames_.size() < kMaxFramesKept;
+    const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_ && has_room;
+    if (!first && !next) { return FaultCode::None; }
     const bool follows = first ? is_epoch_of(frame.epoch, frame.term) : frame.start == end_tick_;
     if (!follows) { return FaultCode::FrameDiscontinuous; }
     if (frame.start.value % slot_.value != 0 || frame.ticks.value <= 0) { return FaultCode::BadProgram; }

@@ -8,13 +8,19 @@
 #include "core/axis/own_moves/own_pieces.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr std::int64_t kFrame_ns = 5'000'000;
+
+}  // namespace
 
 OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps begin_steps)
     : axis_(machine.axes[axis]),
       limits_(limits_of(axis_, machine.tick_ns)),
       tick_ns_(machine.tick_ns),
       slot_(machine.slot_ticks()),
-      span_(slot_ * (machine.timing.stall_slots + 2)),
+      frame_{kFrame_ns / machine.tick_ns},
+      ahead_(slot_ * (2 * machine.timing.stall_slots + 4)),
       begin_steps_(begin_steps),
       homing_(axis_) {}
 
@@ -58,7 +64,7 @@ OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) co
     if (!pieces) {
         pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
     }
-    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, span_);
+    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_);
 }
 
 /// A run that a switch cut short ended on a pulse, and the next sets out from the whole step: half a step's time is
@@ -68,7 +74,7 @@ void OwnMoves::start(const LocalMove& move, int tries, AxisLoop& loop) {
     const Tick start = loop.now + slot_ * (2 + tries) + half_step;
     const std::int64_t count = loop.device.status().position.count();
     const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
-    run_.emplace(move, frames_of(move, from, start), count + move.steps, tries, span_);
+    run_.emplace(move, frames_of(move, from, start), count + move.steps, tries, ahead_);
     loop.begin_run(move.trigger, true);
     feed(loop);
 }
@@ -83,13 +89,23 @@ void OwnMoves::halt(AxisLoop& loop) {
     run_->halt(loop);
 }
 
-/// Homing that is halted is over: the axis is homed only if its zero was set already.
+/// Homing that is halted is over. The axis is homed only if its zero was set already, and it has left the switch for
+/// its travel: from outside no frame may set out.
+void OwnMoves::lose_zero_outside_travel(AxisLoop& loop) const {
+    AxisPosition& position = loop.condition.position;
+    const std::int64_t here = position.in_machine(loop.device.status().position).count();
+    if (here < limits_.min_steps || here > limits_.max_steps) { position.lose(); }
+}
+
 void OwnMoves::end(AxisLoop& loop) {
     const OwnRun ended = *std::exchange(run_, std::nullopt);
     const DeviceStatus& device = loop.device.status();
     PhaseMachine& phases = loop.condition.phases;
     const bool parks = homing_.stage() == HomingStage::Park;
-    if (ended.is_halted()) { homing_.abandon(); }
+    if (ended.is_halted()) {
+        homing_.abandon();
+        if (parks) { lose_zero_outside_travel(loop); }
+    }
     if (device.stopped_by_trigger) { phases.happen(AxisEvent::SwitchStops); }
     if (device.stopped_by_limit) { phases.happen(AxisEvent::LimitStops); }
     if (ended.is_broken()) {

@@ -37,6 +37,7 @@ private:
     OwnMove frames_of(const LocalMove& move, Position from, Tick start) const;
     void start(const LocalMove& move, int tries, AxisLoop& loop);
     void go_on(const LocalMove& rest, int tries, AxisLoop& loop);
+    void lose_zero_outside_travel(AxisLoop& loop) const;
     void end_order(AxisLoop& loop);
     bool is_homing() const { return homing_.stage() != HomingStage::Idle; }
     void take_homing_step(const HomingStep& step, AxisLoop& loop);
@@ -48,7 +49,8 @@ private:
     AxisLimits limits_;
     std::int64_t tick_ns_;
     Ticks slot_;
-    Ticks span_;  // of a frame, about: longer than a process may stall
+    Ticks frame_;  // how long a frame lasts, about: a halt waits for its end
+    Ticks ahead_;  // of frames given to the device: longer than a process may stall
     BeginSteps begin_steps_;
     Homing homing_;
     std::optional<OwnRun> run_;

@@ -3,16 +3,10 @@
 #include <utility>
 
 namespace lockstep {
-namespace {
-
-constexpr std::int64_t kSpansAhead = 2;
-
-}  // namespace
-
 /// The first frame is loaded at once, however late it starts: without one the device can neither begin its run nor end
 /// it.
 void OwnRun::feed(AxisLoop& loop) {
-    const Tick ahead = loop.now + span_ * kSpansAhead;
+    const Tick ahead = loop.now + ahead_;
     const auto wants_more = [&] { return frames_.none_made() || (!frames_.all_made() && frames_.end() < ahead); };
     while (!is_halted_ && (waiting_ || wants_more())) {
         if (!waiting_) { waiting_ = frames_.next(); }

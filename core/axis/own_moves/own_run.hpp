@@ -14,14 +14,14 @@ namespace lockstep {
 
 class OwnRun {
 public:
-    /// `target`: the device's count at the end. `tries`: how often the start of this move was missed before. `span`: of
-    /// a frame, about.
-    OwnRun(const LocalMove& move, OwnMove frames, std::int64_t target, int tries, Ticks span)
-        : move_(move), frames_(std::move(frames)), span_(span), target_(target), tries_(tries) {}
+    /// `target`: the device's count at the end. `tries`: how often the start of this move was missed before. `ahead`:
+    /// how long the device goes on if this process stalls.
+    OwnRun(const LocalMove& move, OwnMove frames, std::int64_t target, int tries, Ticks ahead)
+        : move_(move), frames_(std::move(frames)), ahead_(ahead), target_(target), tries_(tries) {}
 
     /// Loads frames until the device has enough ahead, or no room.
     void feed(AxisLoop& loop);
-    /// The device ends the frame in progress and runs its tail.
+    /// The device ends the frame in progress and runs its tail: it brakes within the length of a frame.
     void halt(AxisLoop& loop);
     void record(const DeviceStatus& device, AxisLoop& loop);
 
@@ -37,10 +37,10 @@ public:
 private:
     LocalMove move_;
     OwnMove frames_;                    // those to come
-    HeldFrames held_{4};                // those loaded and not yet recorded
+    HeldFrames held_{64};               // those loaded and not yet recorded
     std::optional<HeldFrame> waiting_;  // made, but the device's ring has no room for it
     RunRecorder recorder_;
-    Ticks span_;
+    Ticks ahead_;
     std::int64_t target_;
     int tries_;
     bool is_halted_ = false;

@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
                     Refusal{machine_with("timing { send_ahead_slots: 30 }"), 11, 10, "at least 31"},
                     Refusal{machine_with("timing { frame_slots: 3 }"), 11, 10, "at least 4, so that a device has room"},
-                    Refusal{machine_with("timing { late_check_slots: 11 }"), 11, 10, "0 to stall_slots, 10"},
+                    Refusal{machine_with("timing { late_check_slots: 11 send_ahead_slots: 40 }"), 11, 10, "0 to stall_slots, 10"},
                     Refusal{machine_with("timing { time_source: NETWORK clock_error_limit_us: 2501 }"), 11, 31,
                             "is 2501; 1 to 2500 (a quarter of slot_us)"},
                     Refusal{machine_with("timing { time_source: PTP clock_error_limit_us: 0 }"), 11, 27, "1 to 2500"},

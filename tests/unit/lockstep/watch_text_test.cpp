@@ -146,8 +146,8 @@ TEST(Watch, WithoutATerminalIsOneLine) {
 
 TEST(Watch, ScaleIsThatOfTheProtocol) {
     const SlackScale scale = slack_scale(ProtocolTiming{});
-    EXPECT_DOUBLE_EQ(scale.ahead_ms, 390);
-    EXPECT_DOUBLE_EQ(scale.deadline_ms, 140);
+    EXPECT_DOUBLE_EQ(scale.ahead_ms, 310);
+    EXPECT_DOUBLE_EQ(scale.deadline_ms, 60);
 }
 
 TEST(Screen, IsDrawnOverLineByLineAndClearedBehind) {

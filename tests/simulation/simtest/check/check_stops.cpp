@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
@@ -74,6 +75,32 @@ void check_loss_is_reported(const Recording& recording, const VirtualFault& faul
     }
 }
 
+/// An axis that is told to halt brakes within kHaltSlots and kHalt_ns, whatever the others do: no body of a move of its
+/// own lasts longer, until its next order. A body of one step is as long as the step.
+void check_halt(const Recording& recording, std::size_t i, const GivenOrder& halt, Tick until, Violations& violations) {
+    const Ticks within = recording.machine.slot_ticks() * kHaltSlots + Ticks{kHalt_ns / recording.machine.tick_ns};
+    const Tick braked = halt.at + within;
+    const bool faulty = std::ranges::any_of(
+        recording.faults, [&](const VirtualFault& fault) { return fault.at <= braked && fault.end() >= halt.at; });
+    if (recording.lossy() || faulty) { return; }
+    for (const Track& track : recording.axes[i].tracks) {
+        const bool is_own = track.epoch == 0 && !track.tail && track.commanded < until;
+        if (is_own && track.commanded + track.commanded_ticks > braked && std::abs(track.net_steps) > 1) {
+            violations.push_back(
+                {"halt", i, track.commanded.value, {}, "a move of its own goes on after the order to halt"});
+            return;
+        }
+    }
+}
+
+void check_halts(const Recording& recording, std::size_t i, Violations& violations) {
+    const std::vector<GivenOrder>& orders = recording.axes[i].orders;
+    for (std::size_t n = 0; n < orders.size(); ++n) {
+        if (orders[n].order.kind != AxisCommandKind::Halt) { continue; }
+        check_halt(recording, i, orders[n], n + 1 < orders.size() ? orders[n + 1].at : recording.ended, violations);
+    }
+}
+
 }  // namespace
 
 Violations check_stops(const Recording& recording) {
@@ -90,6 +117,7 @@ Violations check_stops(const Recording& recording) {
     }
     for (std::size_t i = 0; i < recording.axes.size(); ++i) {
         for (const Track& track : recording.axes[i].tracks) { check_cut_is_reported(recording, i, track, violations); }
+        check_halts(recording, i, violations);
     }
     return violations;
 }

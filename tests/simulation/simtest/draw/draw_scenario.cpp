@@ -224,7 +224,10 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (draw.chance(0.3)) {
         scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
-    if (draw.chance(0.05)) { scenario.homing_emergency_s = draw.magnitude(0.001, 1); }
+    if (draw.chance(0.1)) {
+        const CommandKind how = draw.chance(0.5) ? CommandKind::Stop : CommandKind::EmergencyStop;
+        scenario.homing_stop = HomingStop{how, draw.magnitude(0.001, 1)};
+    }
     if (draw.chance(0.2)) {
         const auto fault = draw_homing_fault(draw, scenario.machine, faults);
         if (fault) { scenario.homing_faults.push_back(*fault); }

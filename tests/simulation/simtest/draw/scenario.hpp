@@ -103,6 +103,12 @@ struct Task {
     std::vector<PlannedFault> faults;  // in the order in which they are placed
 };
 
+/// Stop or EmergencyStop, so long after the homing began.
+struct HomingStop {
+    CommandKind kind = CommandKind::EmergencyStop;
+    double after_s = 0;
+};
+
 struct Scenario {
     std::uint64_t seed = 0;
     MachineConfig machine;
@@ -112,9 +118,9 @@ struct Scenario {
     std::size_t coordinators = 1;
     OnTakeover on_takeover = OnTakeover::Stop;
     std::vector<WrongCommand> before_homing;
-    std::optional<double> homing_emergency_s;  // the time of an emergency stop after the begin of the homing
-    bool asks_in_fault = false;                // requests a homing, which must be refused
-    bool resets_early = false;                 // resets while a fault may still last
+    std::optional<HomingStop> homing_stop;
+    bool asks_in_fault = false;  // requests a homing, which must be refused
+    bool resets_early = false;   // resets while a fault may still last
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 

@@ -47,7 +47,7 @@ void play_all(const Scenario& scenario, Bench& bench) {
     (void)bench.await([&] { return bench.watch().phase() == MachinePhase::Idle; }, listening, "power-up");
     for (const WrongCommand& wrong : scenario.before_homing) { play_refusal(bench, wrong, at); }
     bench.plan(scenario.homing_faults);
-    if (!bench.over()) { play_homing(bench, at, scenario.homing_emergency_s); }
+    if (!bench.over()) { play_homing(bench, at, scenario.homing_stop); }
     bench.plan({});
     make_ready(bench, at);
     check_slides(bench, at);

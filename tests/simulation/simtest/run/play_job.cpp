@@ -72,6 +72,21 @@ std::int64_t place_after_homing(const Bench& bench, std::size_t axis, JobOutcome
     return nearest_step(config, config.homing.park_mm);
 }
 
+/// Ends the homing at rest; an order may find it at its end.
+void play_homing_stop(Bench& bench, CommandKind kind, double seconds, JobRecord& job) {
+    if (kind == CommandKind::EmergencyStop) {
+        job.emergency = play_emergency(bench);
+        return;
+    }
+    const auto ended = [&] { return bench.watch().outcome().has_value(); };
+    const Reply* reply = bench.ask(CommandKind::Stop);
+    if (reply == nullptr || ended()) { return; }
+    if (reply->status != ReplyStatus::Accepted && !bench.disturbed_since(job.began)) {
+        bench.object("stop of a homing", answer_text(*reply));
+    }
+    (void)bench.await(ended, seconds, "the stop of a homing");
+}
+
 }  // namespace
 
 void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at) {
@@ -102,7 +117,7 @@ Tick play_emergency(Bench& bench) {
     return asked;
 }
 
-void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
+void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop) {
     JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made(), .began = bench.vm().now()};
     const double seconds = homing_seconds(bench);
     const Reply* reply = bench.ask(CommandKind::Home);
@@ -110,16 +125,16 @@ void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s) {
     const bool accepted = reply->status == ReplyStatus::Accepted;
     if (!accepted && !bench.disturbed_since(job.began)) { return bench.object("homing", answer_text(*reply)); }
     const auto ended = [&] { return bench.watch().outcome().has_value(); };
-    if (accepted && emergency_s) {
+    if (accepted && stop) {
         const Tick due =
-            bench.vm().now() + Ticks{static_cast<std::int64_t>(*emergency_s * bench.machine().ticks_per_second())};
+            bench.vm().now() + Ticks{static_cast<std::int64_t>(stop->after_s * bench.machine().ticks_per_second())};
         (void)bench.await([&] { return ended() || bench.vm().now() >= due; }, seconds, "homing");
-        if (!bench.over() && !ended()) { job.emergency = play_emergency(bench); }
+        if (!bench.over() && !ended()) { play_homing_stop(bench, stop->kind, seconds, job); }
     } else if (accepted) {
         (void)bench.await(ended, seconds, "homing");
     }
-    const bool undisturbed =
-        !job.emergency && !bench.faulted() && !bench.disturbed_since(job.began) && !bench.vm().faults_pending();
+    const bool undisturbed = !stop && !job.emergency && !bench.faulted() && !bench.disturbed_since(job.began) &&
+                             !bench.vm().faults_pending();
     if (!undisturbed) { bench.settle(seconds); }
     job.end_step = bench.steps_made();
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);

@@ -43,7 +43,7 @@ private:
 void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at);
 
 /// Homes all axes together and in their order; `at` is their position then. Recorded as a job, whatever its outcome.
-void play_homing(Bench& bench, Counts& at, std::optional<double> emergency_s = {});
+void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop = {});
 
 /// The operator's work after a Fault or a restart: resets and homes until the machine is Idle with known positions.
 void make_ready(Bench& bench, Counts& at);

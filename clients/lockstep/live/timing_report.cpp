@@ -1,0 +1,55 @@
+#include "clients/lockstep/live/timing_report.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "clients/doctor/probes.hpp"
+#include "clients/text/format.hpp"
+#include "services/documents/timing_edit.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string text_of(const HoldTimes& hold) { return fixed(hold.from_ms, 0) + " to " + fixed(hold.to_ms, 0) + " ms"; }
+
+}  // namespace
+
+doctor::StallFacts watch_for_stalls(std::int64_t slot_us, double seconds, Output& output) {
+    const auto period = std::chrono::microseconds(slot_us) / 4;
+    const auto during = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+    return doctor::look_for_stalls(period, during, [&](double done) {
+        output.progress("watching for stalls " + std::to_string(std::lround(done * 100)) + " %");
+    });
+}
+
+HoldTimes hold_times(const ProtocolTiming& timing) {
+    const double slot_ms = static_cast<double>(timing.slot_us) / 1000;
+    return {slot_ms * timing.lease_slots(), slot_ms * (timing.lease_slots() + timing.frame_slots)};
+}
+
+proto::TimingReport timing_report(const doctor::StallFacts& facts, const ProtocolTiming& timing) {
+    proto::TimingReport report;
+    if (facts.seconds > 0) {
+        report.set_seconds(facts.seconds);
+        report.set_p99_ms(facts.p99_us / 1000);
+    }
+    report.set_worst_ms(facts.worst_us / 1000);
+    report.set_timing(slots_text(timing));
+    report.set_hold_from_ms(hold_times(timing).from_ms);
+    report.set_hold_to_ms(hold_times(timing).to_ms);
+    return report;
+}
+
+void print_timing(const doctor::StallFacts& facts, const ProtocolTiming& proposed, const ProtocolTiming& today,
+                  Output& output) {
+    if (facts.seconds > 0) {
+        output.print("in " + fixed(facts.seconds, 0) + " s a thread woke " + fixed(facts.worst_us / 1000, 2) +
+                     " ms late at most, " + fixed(facts.p99_us / 1000, 2) + " ms in one of 100");
+    }
+    output.print("proposed, for stalls of twice the longest:");
+    output.print("  " + slots_text(proposed));
+    output.print("a hold begins after " + text_of(hold_times(proposed)) + "; with the machine's timing after " +
+                 text_of(hold_times(today)));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,84 @@
+// lockstep timing apply
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/live/timing_report.hpp"
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "services/documents/timing_edit.hpp"
+#include "services/files/text_file.hpp"
+
+namespace lockstep {
+namespace {
+
+struct TimingOptions {
+    std::string machine_file;
+    double seconds = 60;
+    std::optional<double> stall_ms;
+    bool json = false;
+};
+
+doctor::StallFacts facts_of(const TimingOptions& options, std::int64_t slot_us, Output& output) {
+    if (options.stall_ms) { return {.worst_us = *options.stall_ms * 1000}; }
+    return watch_for_stalls(slot_us, options.seconds, output);
+}
+
+/// Under the file's own name, where a link leads to it.
+std::expected<void, Failure> write_slots(const std::filesystem::path& named, const ProtocolTiming& timing) {
+    std::error_code error;
+    const std::filesystem::path found = std::filesystem::canonical(named, error);
+    const std::filesystem::path file = error ? named : found;
+    const auto text = read_text_file(file);
+    if (!text) { return std::unexpected(bad_file(file.string(), {text.error()})); }
+    const auto edited = with_slots(*text, timing);
+    if (!edited) { return std::unexpected(bad_file(file.string(), edited.error())); }
+    const auto written = replace_text_file(file, *edited);
+    return written ? std::expected<void, Failure>{} : std::unexpected(failed(written.error()));
+}
+
+ExitCode apply(const TimingOptions& options) {
+    Output output(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    const ProtocolTiming& today = machine->config.timing;
+    const doctor::StallFacts facts = facts_of(options, today.slot_us, output);
+    const ProtocolTiming proposed = doctor::timing_for(facts, doctor::least_slot_us(today));
+    if (const auto written = write_slots(machine->file, proposed); !written) { return output.fail(written.error()); }
+    print_timing(facts, proposed, today, output);
+    output.print("written to " + machine->file.string() + "; give all hosts of the machine the same file");
+    output.print("in force after: lockstep down; lockstep up");
+    proto::TimingReport report = timing_report(facts, proposed);
+    report.set_file(machine->file.string());
+    output.report(report);
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_timing(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand("timing", "write the fastest timing that the hosts bear into a machine's file");
+    verb->require_subcommand(1);
+    CLI::App* part = verb->add_subcommand(
+        "apply",
+        "measure this host's stalls, and write the timing for twice the longest; everything else in the file "
+        "stays. Measure under the usual load; lockstep doctor --timing only shows the proposal");
+    const auto options = std::make_shared<TimingOptions>();
+    part->add_option("--machine", options->machine_file, "the configuration file; else the one that other verbs use");
+    part->add_option("--seconds", options->seconds, "how long to watch for stalls")
+        ->check(CLI::Range(0.1, 86'400.0))
+        ->capture_default_str();
+    part->add_option(
+            "--stall-ms", options->stall_ms,
+            "instead of measuring: the longest stall of all hosts, as lockstep doctor --timing shows it on each")
+        ->check(CLI::Range(0.0, 5'000.0));
+    part->add_flag("--json", options->json, "a report as JSON instead of text");
+    part->footer(
+        footer("  lockstep timing apply --machine mill.textproto --seconds 600\n"
+               "  lockstep timing apply --machine mill.textproto --stall-ms 4.5\n"));
+    part->callback([&action, options] { action = [options] { return apply(*options); }; });
+}
+
+}  // namespace lockstep
