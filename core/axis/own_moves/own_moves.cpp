@@ -94,7 +94,10 @@ void OwnMoves::halt(AxisLoop& loop) {
 void OwnMoves::lose_zero_outside_travel(AxisLoop& loop) const {
     AxisPosition& position = loop.condition.position;
     const std::int64_t here = position.in_machine(loop.device.status().position).count();
-    if (here < limits_.min_steps || here > limits_.max_steps) { position.lose(); }
+    if (here < limits_.min_steps || here > limits_.max_steps) {
+        position.lose();
+        loop.condition.phases.happen(AxisEvent::HomingBegins);  // to be homed again
+    }
 }
 
 void OwnMoves::end(AxisLoop& loop) {
@@ -102,10 +105,7 @@ void OwnMoves::end(AxisLoop& loop) {
     const DeviceStatus& device = loop.device.status();
     PhaseMachine& phases = loop.condition.phases;
     const bool parks = homing_.stage() == HomingStage::Park;
-    if (ended.is_halted()) {
-        homing_.abandon();
-        if (parks) { lose_zero_outside_travel(loop); }
-    }
+    if (ended.is_halted()) { homing_.abandon(); }
     if (device.stopped_by_trigger) { phases.happen(AxisEvent::SwitchStops); }
     if (device.stopped_by_limit) { phases.happen(AxisEvent::LimitStops); }
     if (ended.is_broken()) {
@@ -114,6 +114,7 @@ void OwnMoves::end(AxisLoop& loop) {
     }
     if (const auto rest = ended.rest(device)) { return go_on(*rest, ended.tries_of_rest(device), loop); }
     if (parks || !is_homing()) { phases.happen(AxisEvent::MotionEnds); }
+    if (parks && ended.is_halted()) { lose_zero_outside_travel(loop); }
     if (!is_homing()) { return end_order(loop); }
     take_homing_step(homing_.next({.by_trigger = device.stopped_by_trigger,
                                    .by_limit = device.stopped_by_limit,

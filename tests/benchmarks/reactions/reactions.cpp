@@ -46,16 +46,18 @@ public:
     VirtualMachine& vm() { return vm_; }
     void move() {
         const double end = vm_.machine().axes[0].position_max_mm - 5;
-        vm_.give_program(
-            1, {.name = "line", .axes = {"X"}, .start_mm = {}, .blocks = {{1, LinearMove{{end}, kSpeed_mm_s, false}}}});
+        vm_.give_program(1, {.name = "line",
+                             .axes = {"X"},
+                             .start_mm = {vm_.machine().axes[0].homing.park_mm},
+                             .blocks = {{1, LinearMove{{end}, kSpeed_mm_s, false}}}});
         (void)vm_.command(CommandKind::Run, 0, 1);
     }
     void move_own() {
         vm_.give_program(1, {.name = "line",
                              .axes = {"X"},
-                             .start_mm = {},
+                             .start_mm = {vm_.machine().axes[0].homing.park_mm},
                              .blocks = {{1, LinearMove{{vm_.machine().axes[0].position_max_mm - 5}, 0, true}}}});
-        (void)vm_.command(CommandKind::MoveOwn, 1, 1);
+        (void)vm_.command(CommandKind::MoveOwn, 0, 1);
     }
     void wait(Ticks time) {
         (void)vm_.advance_until([] { return false; }, time);

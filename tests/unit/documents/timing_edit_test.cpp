@@ -13,7 +13,7 @@ const ProtocolTiming kFast{.slot_us = 2000,
                            .stall_slots = 3,
                            .late_check_slots = 1,
                            .freshness_slots = 4,
-                           .send_ahead_slots = 14,
+                           .send_ahead_slots = 16,
                            .frame_slots = 4};
 
 std::string machine_with(const std::string& timing) {
@@ -34,7 +34,7 @@ void expect_fast(const ProtocolTiming& timing) {
     EXPECT_EQ(timing.stall_slots, 3);
     EXPECT_EQ(timing.late_check_slots, 1);
     EXPECT_EQ(timing.freshness_slots, 4);
-    EXPECT_EQ(timing.send_ahead_slots, 14);
+    EXPECT_EQ(timing.send_ahead_slots, 16);
     EXPECT_EQ(timing.frame_slots, 4);
 }
 

@@ -70,7 +70,8 @@ public:
             EXPECT_EQ(state.fault, 0);
             EXPECT_EQ(state.following_error_steps, 0) << "no step is lost";
             const bool has_zero = stage(i) == HomingStage::Park || stage(i) == HomingStage::Idle;
-            EXPECT_EQ(state.homed, has_zero) << "an axis is homed once its zero is set";
+            EXPECT_EQ(state.homed, has_zero && is_within_travel(i))
+                << "once its zero is set, and it has left its switch";
             EXPECT_EQ(state.phase, state.homed ? AxisPhase::Standby : AxisPhase::Initialize);
             EXPECT_LE(log_.axes[i].steps.size() - steps_at_order_[i], most_steps_to_rest(i)) << "axis " << i;
             expect_newest_run_within_limits(i);
@@ -91,14 +92,18 @@ public:
 private:
     void TestBody() override {}
 
-    /// The order takes four slots at most, a frame in progress two spans, each of a stall and two slots.
+    bool is_within_travel(std::size_t i) const {
+        const AxisConfig& axis = vm.machine().axes[i];
+        return vm.device(i).plant().position_mm() >= axis.position_min_mm - 0.6 / axis.steps_per_mm;
+    }
+
+    /// The order takes four slots at most, a frame in progress 10 ms, and a step may last longer.
     std::size_t most_steps_to_rest(std::size_t i) const {
         const AxisConfig& axis = vm.machine().axes[i];
         const double speed = stage(i) == HomingStage::Park ? axis.max_velocity_mm_s : axis.homing.search_velocity_mm_s;
-        const int slots = 4 + 2 * (vm.machine().timing.stall_slots + 2);
+        const double until_it_brakes_s = 4e-6 * static_cast<double>(vm.machine().timing.slot_us) + 0.01;
         const double braking_mm = speed * speed / (2 * axis.max_decel_mm_s2);
-        return static_cast<std::size_t>(
-            to_steps(axis, speed * 1e-6 * static_cast<double>(slots * vm.machine().timing.slot_us) + braking_mm) + 2);
+        return static_cast<std::size_t>(to_steps(axis, speed * until_it_brakes_s + braking_mm) + 2);
     }
     void expect_newest_run_within_limits(std::size_t i) const {
         const auto limits = methods::speed_limits_of(vm.machine().axes[i], vm.machine().tick_ns);
