@@ -1,4 +1,4 @@
-// The setpoint protocol's rules in one table: hold, arm, veto. Both sides decide by these functions alone.
+// The setpoint protocol's rules in one table: lease, arm, veto. Both sides decide by these functions alone.
 //
 // There is no commit message. The coordinator publishes frames, and each axis decides from the states of all others.
 // In every slot every axis publishes which frames it holds and which it vetoes, and the coordinator which it vetoes. A

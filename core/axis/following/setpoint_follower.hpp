@@ -1,4 +1,4 @@
-// An axis's side of hold, arm, veto: which frames it holds, what it has received, what it decides.
+// An axis's side of lease, arm, veto: which frames it holds, what it has received, what it decides.
 #pragma once
 
 #include <optional>

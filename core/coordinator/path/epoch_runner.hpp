@@ -1,4 +1,4 @@
-// The coordinator's side of hold, arm, veto, for one epoch: makes frames in time, repeats what is not yet held, and
+// The coordinator's side of lease, arm, veto, for one epoch: makes frames in time, repeats what is not yet held, and
 // evaluates from the axes' states how the epoch ended.
 #pragma once
 

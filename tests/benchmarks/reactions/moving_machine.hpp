@@ -1,0 +1,78 @@
+// A machine in virtual time whose axis X moves, and how soon it reacts to what happens, by its pulses.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "services/virtual/virtual_machine.hpp"
+
+namespace lockstep {
+
+/// The pulses of the axis that moves, X.
+class Pulses : public VirtualObserver {
+public:
+    void on_step(std::size_t axis, StepEdge step) override {
+        if (axis == 0) { ticks.push_back(step.tick); }
+    }
+    std::vector<Tick> ticks;
+};
+
+struct Reaction {
+    double brakes_ms = 0;
+    double rests_ms = 0;
+};
+
+class MovingMachine {
+public:
+    static constexpr double kFeed_mm_s = 100;
+    static constexpr Ticks kSecond{1'000'000};
+
+    explicit MovingMachine(const MachineConfig& config) : vm_({.machine = config}) {
+        vm_.observe(pulses_);
+        (void)reaches(MachinePhase::Idle, kSecond * 10);
+        (void)vm_.command(CommandKind::Home);
+        (void)reaches(MachinePhase::Homing, kSecond);
+        (void)reaches(MachinePhase::Idle, kSecond * 120);
+    }
+
+    VirtualMachine& vm() { return vm_; }
+    /// Nearly to the end of its travel, as one coordinated move.
+    void move() { give(CommandKind::Run, kFeed_mm_s); }
+    /// The same by itself, as fast as it can.
+    void move_own() { give(CommandKind::MoveOwn, 0); }
+    void wait(Ticks time) {
+        (void)vm_.advance_until([] { return false; }, time);
+    }
+    /// From now on until the time between two pulses has grown by more than two ticks, and until no pulse comes.
+    Reaction after(const std::function<void()>& event) {
+        const Tick now = vm_.now();
+        const std::size_t before = pulses_.ticks.size();
+        event();
+        wait(kSecond * 3);
+        const auto& t = pulses_.ticks;
+        const auto interval = [&](std::size_t i) { return t[i].value - t[i - 1].value; };
+        std::size_t i = before;
+        while (i < t.size() && interval(i) <= interval(before - 1) + 2) { ++i; }
+        const auto ms = [&](Tick tick) { return static_cast<double>((tick - now).value) / 1000; };
+        return {ms(t[std::min(i, t.size()) - 1]), ms(t.back())};
+    }
+
+private:
+    void give(CommandKind kind, double feed_mm_s) {
+        const AxisConfig& axis = vm_.machine().axes[0];
+        const LinearMove line{{axis.position_max_mm - 5}, feed_mm_s, feed_mm_s == 0};
+        vm_.give_program(
+            1, {.name = "line", .axes = {axis.name}, .start_mm = {axis.homing.park_mm}, .blocks = {{1, line}}});
+        (void)vm_.command(kind, 0, 1);
+    }
+    bool reaches(MachinePhase phase, Ticks limit) {
+        return vm_.advance_until([&] { return vm_.state() && vm_.state()->phase == phase; }, limit);
+    }
+
+    VirtualMachine vm_;
+    Pulses pulses_;
+};
+
+}  // namespace lockstep

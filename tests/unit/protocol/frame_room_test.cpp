@@ -1,0 +1,45 @@
+// How many pieces a frame has, so that a device has room for all frames that are sent ahead.
+#include <gtest/gtest.h>
+
+#include "core/machine.hpp"
+#include "core/motion/lookahead.hpp"
+#include "core/protocol/frame_room.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr ProtocolTiming kQuiet{.slot_us = 1000,
+                                .stall_slots = 1,
+                                .late_check_slots = 0,
+                                .freshness_slots = 2,
+                                .send_ahead_slots = 11,
+                                .frame_slots = 5};
+
+ProtocolTiming timing_of(int stall_slots, int late_check_slots) {
+    ProtocolTiming t{.stall_slots = stall_slots, .late_check_slots = late_check_slots};
+    t.freshness_slots = RULE_LEAST_FRESHNESS(stall_slots);
+    t.send_ahead_slots = RULE_LEAST_SEND_AHEAD(t.check_slots(), t.freshness_slots, stall_slots);
+    return t;
+}
+
+// docs/decisions/motion/short-moves-are-slowed.md
+TEST(FrameRoom, SetsTheShortestMove) {
+    EXPECT_EQ(bounds_of({.timing = {}}).least_move, Ticks{50'000 / 12 + 1});
+    EXPECT_EQ(bounds_of({.timing = kQuiet}).least_move, Ticks{5000 / 44 + 1});
+}
+
+TEST(FrameRoom, OfTheLeastFrameIsEnoughForWhatIsSentAheadAndNoShorterOneIs) {
+    for (int stall = 1; stall <= 200; ++stall) {
+        ProtocolTiming t = timing_of(stall, std::min(stall, 2));
+        t.frame_slots = least_frame_slots(t);
+        const auto all = frames_ahead(t) * (body_pieces(t) + static_cast<int>(kMaxTailPieces) + 2);
+        EXPECT_LE(all, kDeviceRingEntries) << stall;
+        EXPECT_GE(body_pieces(t), kLeastBodyPieces) << stall;
+        if (t.frame_slots == 1) { continue; }
+        --t.frame_slots;
+        EXPECT_TRUE(body_pieces(t) < kLeastBodyPieces || frames_ahead(t) + 2 > int{kMaxFramesKept}) << stall;
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
