@@ -106,5 +106,20 @@ TEST_F(Deployment, TheDoctorNamesProblemsAndTheirRemedies) {
               "there is no interface nowhere0 (" + host_name() + ")");
 }
 
+TEST_F(Deployment, AMeasuredTimingIsProposedAndOneForAGivenStallIsWritten) {
+    const Ran proposed = run_lockstep({"doctor", "--timing", "--seconds", "0.2", "--json"});
+    ASSERT_EQ(proposed.code, 0) << proposed.err;
+    EXPECT_THAT(proposed.json<proto::TimingReport>().timing(), HasSubstr("timing { slot_us: "));
+    const Ran written = run_lockstep({"timing", "apply", "--stall-ms", "4.5", "--json"});
+    ASSERT_EQ(written.code, 0) << written.err;
+    const auto report = written.json<proto::TimingReport>();
+    EXPECT_EQ(report.file(), file());
+    EXPECT_DOUBLE_EQ(report.hold_from_ms(), 17);
+    const ProtocolTiming timing = load_machine_file(file()).value().timing;
+    EXPECT_EQ(timing.slot_us, 1000);
+    EXPECT_EQ(timing.stall_slots, 9);
+    EXPECT_EQ(run_lockstep({"timing", "apply", "--machine", "/dev/null", "--stall-ms", "1"}).code, 2);
+}
+
 }  // namespace
 }  // namespace lockstep
