@@ -5,14 +5,9 @@
 #include <utility>
 
 #include "core/axis/device/retime.hpp"
+#include "core/check.hpp"
 
 namespace lockstep {
-namespace {
-
-constexpr std::size_t kRemembered = 64;  // frames: more than can be loaded and not yet recorded
-
-}  // namespace
-
 DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
     : tick_ns_(machine.tick_ns),
       source_(machine.timing.time_source),
@@ -123,7 +118,6 @@ void DeviceTime::load(device::LoadFrame& frame) {
     machine_end_ = machine_end;
     loaded.frame = frame;
     loaded_.push_back(loaded);
-    if (loaded_.size() > kRemembered) { loaded_.pop_front(); }
 }
 
 template <typename Pieces>
@@ -147,18 +141,21 @@ void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loa
     (void)retime(frame.track.tail, tail);
 }
 
-ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) const {
+ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) {
     track.commanded_start = track.start;
     track.clock_error = ptp_error_;
-    const auto found = std::ranges::find(loaded_, track.frame, [](const Loaded& l) { return l.frame.number; });
-    if (source_ != TimeSource::Network || found == loaded_.end()) { return track; }
+    if (source_ != TimeSource::Network) { return track; }
+    while (!loaded_.empty() && loaded_.front().frame.number < track.frame) { loaded_.pop_front(); }
+    check(!loaded_.empty() && loaded_.front().frame.number == track.frame,
+          "a frame is remembered as the device was given it until it is recorded");
+    const Loaded& found = loaded_.front();
     if (track.epoch != 0) {
         for (const Piece& piece : track.pieces) { track.commanded_ticks.push_back(piece.ticks); }
     }
     const auto take = [&track](const auto& pieces) { track.pieces.assign(pieces.begin(), pieces.end()); };
-    track.tail ? take(found->frame.track.tail) : take(found->frame.track.body);
-    track.start = track.tail ? found->body_end : found->frame.start;
-    track.clock_error = track.tail ? std::max(found->error, found->tail_error) : found->error;
+    track.tail ? take(found.frame.track.tail) : take(found.frame.track.body);
+    track.start = track.tail ? found.body_end : found.frame.start;
+    track.clock_error = track.tail ? std::max(found.error, found.tail_error) : found.error;
     return track;
 }
 

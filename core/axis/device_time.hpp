@@ -57,8 +57,9 @@ public:
     /// In the order in which they are to be given. A frame that does not fit the device's segments is left as it is,
     /// and refused by the device.
     DeviceOrder in_device_time(DeviceOrder order);
-    /// As the device was given it: of the run in progress, before the next is begun.
-    ExecutedTrack in_device_time(ExecutedTrack track) const;
+    /// As the device was given it: of the run in progress, before the next is begun. Tracks come in the order in which
+    /// they were run; the frames before it are forgotten.
+    ExecutedTrack in_device_time(ExecutedTrack track);
 
 private:
     struct Loaded {
@@ -94,8 +95,8 @@ private:
     bool own_run_ = false;
     std::optional<Tick> machine_end_;  // of the frame loaded last in this run
     FramePace pace_;
-    Ticks end_error_;  // of its end as the other
-    std::deque<Loaded> loaded_;
+    Ticks end_error_;            // of its end as the other
+    std::deque<Loaded> loaded_;  // and not yet recorded
 };
 
 }  // namespace lockstep

@@ -116,6 +116,13 @@ void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
+/// Some homings are stopped. The random numbers are separate, as for overrides.
+void give_homing_stop(std::uint64_t seed, Scenario& scenario) {
+    Draw draw(seed ^ 0x5109051095109510U);
+    if (scenario.homing_stop || !draw.chance(0.05)) { return; }
+    scenario.homing_stop = HomingStop{CommandKind::Stop, draw.magnitude(0.001, 3)};
+}
+
 /// A second coordinator, and jobs and homings with a takeover. The random numbers are separate, as for overrides. If
 /// there are other kinds, some jobs keep the faults drawn for those kinds.
 void give_standby(std::uint64_t seed, bool mixed, const FaultKinds& others, Scenario& scenario) {
@@ -224,10 +231,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (draw.chance(0.3)) {
         scenario.before_homing.push_back({CommandKind::Run, draw_program(draw, scenario.machine), FaultCode::NotHomed});
     }
-    if (draw.chance(0.1)) {
-        const CommandKind how = draw.chance(0.5) ? CommandKind::Stop : CommandKind::EmergencyStop;
-        scenario.homing_stop = HomingStop{how, draw.magnitude(0.001, 1)};
-    }
+    if (draw.chance(0.05)) { scenario.homing_stop = HomingStop{CommandKind::EmergencyStop, draw.magnitude(0.001, 1)}; }
     if (draw.chance(0.2)) {
         const auto fault = draw_homing_fault(draw, scenario.machine, faults);
         if (fault) { scenario.homing_faults.push_back(*fault); }
@@ -237,6 +241,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     }
     // After any fault the machine then works like a new one.
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
+    give_homing_stop(seed, scenario);
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }
     if (asked.standby && !faults.clock) { give_standby(seed, asked.mixed, faults, scenario); }
     if (asked.limit) { give_plant_faults(seed, asked.mixed, scenario); }
