@@ -36,6 +36,14 @@ void check_emergency(const Recording& recording, const Emergency& emergency, Vio
     }
 }
 
+/// A device that is stopped makes its pulses when it goes on, though they have the ticks of before.
+bool is_stopped(const Recording& recording, std::size_t axis, Tick tick) {
+    return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
+        return fault.kind == VirtualFault::Kind::StopDevice && fault.process == axis && fault.at <= tick &&
+               tick <= fault.end();
+    });
+}
+
 /// The device makes no pulse towards a limit switch that is closed.
 void check_limit(const Recording& recording, const VirtualFault& fault, Violations& violations) {
     const bool is_limit =
@@ -46,6 +54,7 @@ void check_limit(const Recording& recording, const VirtualFault& fault, Violatio
     for (const StepEdge& step : recording.axes[fault.process].steps) {
         const Tick tick = recording.axes[fault.process].truth(step);
         if (step.direction != towards || tick <= fault.at + rounding || tick + rounding > fault.end()) { continue; }
+        if (is_stopped(recording, fault.process, tick)) { continue; }
         violations.push_back({"limit", fault.process, tick.value, {}, "a pulse towards a limit switch that is closed"});
         return;
     }

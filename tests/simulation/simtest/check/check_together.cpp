@@ -156,7 +156,7 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
             (fault.kind == VirtualFault::Kind::Crash || fault.is_of_plant()) && fault.process < until.size();
         const bool in_job = fault.is_of_device() ? fault.end() >= job.began : fault.at >= job.began;
         if (!ends || !in_job) { continue; }
-        until[fault.process] = std::min(until[fault.process], unread_from(fault, recording.machine));
+        until[fault.process] = std::min(until[fault.process], unread_from(fault, recording));
     }
     return until;
 }

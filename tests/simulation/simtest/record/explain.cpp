@@ -135,15 +135,24 @@ std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const Machine
     return fault.process;
 }
 
-Tick unread_from(const VirtualFault& fault, const MachineConfig& machine) {
-    return fault.is_of_device() ? fault.at - machine.slot_ticks() : fault.at;
+Tick unread_from(const VirtualFault& fault, const Recording& recording) {
+    if (!fault.is_of_device()) { return fault.at; }
+    const Ticks slot = recording.machine.slot_ticks();
+    const Ticks starting = slot * 10;
+    Tick from = fault.at;
+    for (const VirtualFault& away : recording.faults) {
+        using Kind = VirtualFault::Kind;
+        const bool mine = away.process == fault.process && (away.kind == Kind::Crash || away.kind == Kind::Freeze);
+        if (mine && away.at <= fault.at && away.end() + starting >= fault.at) { from = std::min(from, away.at); }
+    }
+    return from - slot;
 }
 
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
     return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
         const bool mine = fault.is_of_plant() && fault.process == axis;
         const bool over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
-        return mine && !over && unread_from(fault, recording.machine) <= until;
+        return mine && !over && unread_from(fault, recording) <= until;
     });
 }
 

@@ -14,8 +14,9 @@ bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine);
 /// The axis that may have run one frame more or less than the others because of the fault; no result: none may.
 std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const MachineConfig& machine);
 
-/// The time after which the axis may not know what its device did: a lost device loses its unread captures.
-Tick unread_from(const VirtualFault& fault, const MachineConfig& machine);
+/// The time after which the axis may not know what its device did: a lost device loses its unread captures. A process
+/// that was away, or had just been started again, had read none since.
+Tick unread_from(const VirtualFault& fault, const Recording& recording);
 
 /// True: a switch may end this axis's motion at once between these instants: a switch is stuck then, the slide was
 /// pushed before and may reach one, or the device was lost.

@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/record/motions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lockstep::simtest {
 namespace {
@@ -57,7 +58,13 @@ std::vector<Motion> motions_of(const Recording& recording) {
         for (std::size_t n = 0; n < recording.axes[i].tracks.size(); ++n) {
             motions.push_back(motion_of(recording, i, n));
         }
+        const LostRun* before = nullptr;
         for (const LostRun& lost : recording.axes[i].lost) {
+            // A process that ended again, or lacked its device, before it reported a motion: what moved is of the
+            // first.
+            const LostRun* last = std::exchange(before, &lost);
+            const bool is_known = last != nullptr && last->tracks == lost.tracks;
+            if (is_known) { continue; }
             if (const auto motion = motion_of(recording, i, lost)) { motions.push_back(*motion); }
         }
     }
