@@ -117,10 +117,7 @@ ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us) {
     ProtocolTiming timing{.slot_us = slot == kSlots_us.end() ? kSlots_us.back() : *slot};
     timing.stall_slots = std::max(1, static_cast<int>(std::ceil(stall / static_cast<double>(timing.slot_us))));
     timing.late_check_slots = std::min(timing.late_check_slots, timing.stall_slots);
-    timing.freshness_slots = RULE_LEAST_FRESHNESS(timing.stall_slots);
-    timing.send_ahead_slots = RULE_LEAST_SEND_AHEAD(timing.check_slots(), timing.freshness_slots, timing.stall_slots);
-    timing.frame_slots = std::max(timing.frame_slots, least_frame_slots(timing));
-    return timing;
+    return with_least_times(timing);
 }
 
 std::int64_t least_slot_us(const ProtocolTiming& timing) {

@@ -36,4 +36,13 @@ constexpr int least_frame_slots(ProtocolTiming t) {
     return t.frame_slots;
 }
 
+/// With the shortest times for its slot, s and e; and frames that are no shorter than asked, nor than these times
+/// allow.
+constexpr ProtocolTiming with_least_times(ProtocolTiming t) {
+    t.freshness_slots = RULE_LEAST_FRESHNESS(t.stall_slots);
+    t.send_ahead_slots = RULE_LEAST_SEND_AHEAD(t.check_slots(), t.freshness_slots, t.stall_slots);
+    t.frame_slots = std::max(t.frame_slots, least_frame_slots(t));
+    return t;
+}
+
 }  // namespace lockstep

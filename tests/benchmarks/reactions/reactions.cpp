@@ -45,9 +45,8 @@ MachineConfig with(MachineConfig machine, const Profile& profile) {
     t.slot_us = profile.slot_us;
     t.stall_slots = profile.stall_slots;
     t.late_check_slots = profile.late_check_slots;
-    t.freshness_slots = RULE_LEAST_FRESHNESS(t.stall_slots);
-    t.send_ahead_slots = RULE_LEAST_SEND_AHEAD(t.check_slots(), t.freshness_slots, t.stall_slots);
-    t.frame_slots = std::max(5, least_frame_slots(t));
+    t.frame_slots = 5;
+    t = with_least_times(t);
     return machine;
 }
 

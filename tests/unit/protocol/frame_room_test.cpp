@@ -15,13 +15,6 @@ constexpr ProtocolTiming kQuiet{.slot_us = 1000,
                                 .send_ahead_slots = 11,
                                 .frame_slots = 5};
 
-ProtocolTiming timing_of(int stall_slots, int late_check_slots) {
-    ProtocolTiming t{.stall_slots = stall_slots, .late_check_slots = late_check_slots};
-    t.freshness_slots = RULE_LEAST_FRESHNESS(stall_slots);
-    t.send_ahead_slots = RULE_LEAST_SEND_AHEAD(t.check_slots(), t.freshness_slots, stall_slots);
-    return t;
-}
-
 // docs/decisions/motion/short-moves-are-slowed.md
 TEST(FrameRoom, SetsTheShortestMove) {
     EXPECT_EQ(bounds_of({.timing = {}}).least_move, Ticks{50'000 / 12 + 1});
@@ -30,7 +23,7 @@ TEST(FrameRoom, SetsTheShortestMove) {
 
 TEST(FrameRoom, OfTheLeastFrameIsEnoughForWhatIsSentAheadAndNoShorterOneIs) {
     for (int stall = 1; stall <= 200; ++stall) {
-        ProtocolTiming t = timing_of(stall, std::min(stall, 2));
+        ProtocolTiming t = with_least_times({.stall_slots = stall, .late_check_slots = std::min(stall, 2)});
         t.frame_slots = least_frame_slots(t);
         const auto all = frames_ahead(t) * (body_pieces(t) + static_cast<int>(kMaxTailPieces) + 2);
         EXPECT_LE(all, kDeviceRingEntries) << stall;
