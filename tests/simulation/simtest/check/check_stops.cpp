@@ -19,12 +19,15 @@ bool is_disturbed(const Recording& recording, Tick over) {
     });
 }
 
+/// A fault of any process lasts at some time in between.
+bool is_faulty(const Recording& recording, Tick from, Tick until) {
+    return std::ranges::any_of(recording.faults,
+                               [&](const VirtualFault& fault) { return fault.at <= until && fault.end() >= from; });
+}
+
 void check_emergency(const Recording& recording, const Emergency& emergency, Violations& violations) {
     const Tick ceased = emergency.asked + recording.machine.slot_ticks() * kCeaseSlots;
-    const bool faulty = std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
-        return fault.at <= ceased && fault.end() >= emergency.asked;
-    });
-    if (recording.lossy() || faulty) { return; }
+    if (recording.lossy() || is_faulty(recording, emergency.asked, ceased)) { return; }
     for (std::size_t i = 0; i < recording.axes.size(); ++i) {
         for (const StepEdge& step : recording.axes[i].steps) {
             const Tick tick = recording.axes[i].truth(step);
@@ -89,9 +92,7 @@ void check_loss_is_reported(const Recording& recording, const VirtualFault& faul
 void check_halt(const Recording& recording, std::size_t i, const GivenOrder& halt, Tick until, Violations& violations) {
     const Ticks within = recording.machine.slot_ticks() * kHaltSlots + Ticks{kHalt_ns / recording.machine.tick_ns};
     const Tick braked = halt.at + within;
-    const bool faulty = std::ranges::any_of(
-        recording.faults, [&](const VirtualFault& fault) { return fault.at <= braked && fault.end() >= halt.at; });
-    if (recording.lossy() || faulty) { return; }
+    if (recording.lossy() || is_faulty(recording, halt.at, braked)) { return; }
     for (const Track& track : recording.axes[i].tracks) {
         const bool is_own = track.epoch == 0 && !track.tail && track.commanded < until;
         if (is_own && track.commanded + track.commanded_ticks > braked && std::abs(track.net_steps) > 1) {
