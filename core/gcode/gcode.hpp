@@ -44,7 +44,7 @@ struct GcodeSwitches {
     bool ignore_unassigned = false;  // words for devices that the machine does not have are passed over
 };
 
-/// What happens to a word for a device that is not configured.
+/// A word for a device that is not configured is refused, or passed over with a warning.
 enum class Unassigned : std::uint8_t { Refuse, Ignore };
 
 struct GcodeDevices {

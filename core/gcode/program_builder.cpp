@@ -97,7 +97,7 @@ void ProgramBuilder::fail(std::size_t axis, const std::string& message) {
     }
 }
 
-/// What lies outside is reported and returned as it is: the lines after are then judged by what they mean.
+/// A place outside the travel is reported, and returned unchanged, so that the lines behind it are checked as written.
 double ProgramBuilder::within_travel(std::size_t i, double mm) {
     const GcodeAxis& axis = setup_.axes[i];
     const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);

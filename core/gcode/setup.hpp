@@ -1,4 +1,4 @@
-// What an interpreter is given besides the text.
+// The inputs of an interpreter other than the program's text.
 #pragma once
 
 #include <cstddef>

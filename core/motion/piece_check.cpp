@@ -12,7 +12,7 @@ constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: what they make of
 /// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
 constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
 
-/// What one tick's acceleration can do where pieces meet.
+/// The speed by which the acceleration of one tick can exceed a limit where two pieces meet, in steps per tick.
 double one_tick(const AxisLimits& limits) { return 2 * std::max(limits.max_acceleration, limits.max_deceleration); }
 
 bool within_speed(double velocity, const AxisLimits& limits) {

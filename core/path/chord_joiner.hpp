@@ -66,8 +66,8 @@ private:
     std::size_t start_ = 0;                // the vertex at which the next piece begins
     AxisVector start_at_;                  // and its place
     bool is_fit_begun_ = false;            // for start_
-    std::size_t measured_ = 1;             // the first vertex whose turn is not known
-    std::size_t found_ = 1;                // the first vertex not known to be a corner or none
+    std::size_t measured_ = 1;             // the first vertex whose turn was not measured yet
+    std::size_t found_ = 1;                // the first vertex that was not classified yet: corner or not
     std::size_t behind_ = 0;               // turn_at: the last vertex that is kLook_mm or more behind
     std::size_t ahead_ = 0;
     std::size_t scanned_ = 0;  // reach: no end of a piece is between start_ and it

@@ -39,8 +39,8 @@ public:
     /// Starts as soon as the send-ahead allows. `at` is where each axis rests, exactly.
     void begin(Epoch epoch, Path path, std::vector<Position> at, Slot now);
 
-    /// What is to be sent in this slot: new frames that are due, until an axis vetoes, and old ones that an axis
-    /// lacks. Their term is the sender's to fill in.
+    /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
+    /// axis lacks. The caller fills in their term.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
     /// From the next frame that is not made yet, or as soon after it as the path leaves a way and planning has time.

@@ -1,4 +1,4 @@
-// What is wrong with a block whatever it comes to, and which motion it runs.
+// Checks of a block before any of it is run: which words may stand together, and which motion it runs.
 #include <algorithm>
 
 #include "core/gcode/run/steps.hpp"

@@ -18,7 +18,7 @@ inline constexpr std::size_t kArguments = 30;
 
 using NamedValues = std::map<std::string, double, std::less<>>;
 
-/// What the interpreter knows and a program can read but not write: #5420, #<_x>.
+/// Values of the interpreter that a program can read but not write, such as #5420 and #<_x>.
 class SystemValues {
 public:
     virtual ~SystemValues() = default;
