@@ -82,8 +82,8 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "give the slots more time in the configuration if it happens often", in_order(Remedy::Reset)) \
     X(PositionMismatch, 123, "position-mismatch", "an axis is not where its frames end", \
       "see its log", in_order(Remedy::Reset, Remedy::Home)) \
-    X(FramesDiffer, 124, "frames-differ", "the axes did not all run the same frames: one was cut off", \
-      "check the network", in_order(Remedy::Reset, Remedy::Home)) \
+    X(FramesDiffer, 124, "frames-differ", "the axes did not all run the same frames: one was cut off, or stood still for longer than timing.stall_slots", \
+      "lockstep analyze --incident names it; check the network, or give the slots more time: lockstep doctor --timing", in_order(Remedy::Reset, Remedy::Home)) \
     X(ClockUncertain, 125, "clock-uncertain", "an axis's clock may be further off than timing.clock_error_limit_us", \
       "check the network to that axis, or give the slots more time; lockstep status shows each clock's error", in_order(Remedy::Reset)) \
     X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken the machine over since this was asked; it was perhaps begun", \

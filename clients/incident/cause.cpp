@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "clients/incident/rest.hpp"
 #include "clients/incident/sentences.hpp"
@@ -48,17 +49,34 @@ bool has_healed(const Incident& incident, const Entry& symptom, Tick by) {
     });
 }
 
+bool is_of_coordinator(const Incident& incident, const Entry& entry, FlightKind kind) {
+    return entry.event.kind == kind && incident.processes[entry.process].who == kFlightCoordinator;
+}
+
+/// Where the epoch of the machine's fault began, or all of the timeline without one: before it the machine had gone on
+/// from whatever happened.
+std::span<const Entry> since_it_went_on(const Incident& incident) {
+    const std::span<const Entry> all = incident.timeline;
+    const auto is_fault = [&](const Entry& entry) { return is_of_coordinator(incident, entry, FlightKind::Fault); };
+    const auto fault = std::ranges::find_if(all, is_fault);
+    if (fault == all.end()) { return all; }
+    auto begun = fault;
+    while (begun != all.begin() && !is_of_coordinator(incident, *begun, FlightKind::EpochBegun)) { --begun; }
+    return {begun, all.end()};
+}
+
 /// The first symptom. A process that was absent and returned frames earlier did no harm.
 const Entry* first_symptom(const Incident& incident) {
-    const auto grave = std::ranges::find_if(incident.timeline,
-                                            [](const Entry& e) { return is_symptom(e.event) && !may_heal(e.event); });
-    const bool has_grave = grave != incident.timeline.end();
+    const auto entries = since_it_went_on(incident);
+    const auto grave =
+        std::ranges::find_if(entries, [](const Entry& e) { return is_symptom(e.event) && !may_heal(e.event); });
+    const bool has_grave = grave != entries.end();
     const auto counts = [&](const Entry& entry) {
         if (!is_symptom(entry.event)) { return false; }
         return !has_grave || !may_heal(entry.event) || !has_healed(incident, entry, grave->tick - reach(incident));
     };
-    const auto found = std::ranges::find_if(incident.timeline, counts);
-    return found == incident.timeline.end() ? nullptr : &*found;
+    const auto found = std::ranges::find_if(entries, counts);
+    return found == entries.end() ? nullptr : &*found;
 }
 
 /// The processes that may have caused the symptom; the process itself if it names none.

@@ -160,6 +160,19 @@ TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
     EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
 }
 
+TEST_F(Flown, AnInterruptionFromWhichTheMachineWentOnIsNotTheCauseOfALaterFault) {
+    start_job();
+    inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.006)});
+    wait(0.5);
+    ASSERT_TRUE(any_incident());
+    ASSERT_EQ(vm.state()->phase, MachinePhase::Running) << describe();
+    vm.device(kX).plant().push(9'000);
+    wait(1);
+    const Evaluation found = evaluation();
+    expect(found, CauseKind::Fault, flight_axis(kX));
+    EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
+}
+
 TEST_F(Flown, AProcessThatWasReplacedBeforeTheFaultIsNotItsCause) {
     home();
     inject({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
