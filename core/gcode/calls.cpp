@@ -25,7 +25,7 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
     }
     if (auto empty = rest_is_empty(reader); !empty) { return empty; }
     if (!subroutines_.contains(word.label)) {
-        if (auto loaded = load(word); !loaded) { return loaded; }
+        if (auto found = find_subroutine(word); !found) { return found; }
     }
     if (calls_ >= setup_.limits.call_depth) {
         return error(word.place, shown_call(word.label) + " is nested deeper than " +
@@ -72,28 +72,24 @@ void Interpreter::unwind() {
     }
 }
 
-/// From a file of the subroutine's name, which may have others beside it.
-Result Interpreter::load(const OWord& word) {
+/// A text with subroutines: a file, or what follows in the program itself.
+struct Interpreter::SubroutineText {
+    std::string_view text;
+    int first_line = 1;
+    std::string only;  // the subroutine to keep; empty: all
+    std::string file;
+};
+
+/// As in LinuxCNC: in a file of its name, or else behind the call.
+Result Interpreter::find_subroutine(const OWord& word) {
     const auto text = setup_.find_subroutine ? setup_.find_subroutine(word.label) : std::nullopt;
-    if (!text) {
-        return error(word.place, shown_call(word.label) +
-                                     " calls what is not there; write the subroutine before the call" +
-                                     (setup_.find_subroutine ? ", or a file " + word.label + ".ngc" : ""));
-    }
+    return text ? load(word, *text) : load_later(word);
+}
+
+/// From a file of the subroutine's name, which may have others beside it.
+Result Interpreter::load(const OWord& word, std::string_view text) {
     const std::string file = word.label + ".ngc";
-    Recorder recorder;
-    Line line;
-    std::optional<GcodeError> wrong;
-    for_each_line(*text, [&](std::string_view one, int number) {
-        wrong = keep_line_of_file(recorder, line, one, number, file);
-        return !wrong && kept_lines_ <= setup_.limits.kept_lines;
-    });
-    if (!wrong) { wrong = recorder.unclosed(); }
-    if (!wrong && kept_lines_ > setup_.limits.kept_lines) {
-        wrong =
-            GcodeError{1, 1, "more than " + std::to_string(setup_.limits.kept_lines) + " lines, the limit kept_lines"};
-    }
-    if (wrong) {
+    if (const auto wrong = keep_subroutines({.text = text, .only = {}, .file = file})) {
         return error(word.place, file + ", line " + std::to_string(wrong->line) + ", column " +
                                      std::to_string(wrong->column) + ": " + wrong->message);
     }
@@ -101,22 +97,48 @@ Result Interpreter::load(const OWord& word) {
     return error(word.place, file + " does not contain o<" + word.label + "> sub; name the subroutine like its file");
 }
 
-std::optional<GcodeError> Interpreter::keep_line_of_file(Recorder& recorder, Line& line, std::string_view text,
-                                                         int number, const std::string& file) {
-    if (auto wrong = line.read(text, number)) { return wrong; }
-    Reader reader(line, parameters_);
-    (void)skip_head(line, reader);
-    OWord word;
-    if (reader.peek() == 'O') { word = read_o_word(reader); }
-    if (reader.error()) { return reader.error(); }
-    if (!recorder.active() && word.keyword != Keyword::Sub) { return std::nullopt; }
-    ++kept_lines_;
-    if (auto wrong = recorder.take(line, word, text)) { return wrong; }
-    if (recorder.active()) { return std::nullopt; }
-    Body body = recorder.take_body();
-    body.file = file;
-    subroutines_.insert_or_assign(body.label, std::move(body));
-    return std::nullopt;
+Result Interpreter::load_later(const OWord& word) {
+    auto wrong =
+        keep_subroutines({.text = setup_.program, .first_line = program_line_ + 1, .only = word.label, .file = {}});
+    if (wrong) { return std::unexpected(*std::move(wrong)); }
+    if (subroutines_.contains(word.label)) {
+        called_early_.insert(word.label);
+        return {};
+    }
+    return error(word.place, shown_call(word.label) + " calls what is not there; write the subroutine" +
+                                 (setup_.find_subroutine ? ", or a file " + word.label + ".ngc" : ""));
+}
+
+/// What is wrong outside the subroutines is no matter here.
+std::optional<GcodeError> Interpreter::keep_subroutines(const SubroutineText& source) {
+    Recorder recorder;
+    Line line;
+    std::optional<GcodeError> wrong;
+    for_each_line(source.text, [&](std::string_view text, int number) {
+        if (number < source.first_line) { return true; }
+        wrong = line.read(text, number);
+        Reader reader(line, parameters_);
+        OWord word;
+        if (!wrong && skip_head(line, reader) && reader.peek() == 'O') { word = read_o_word(reader); }
+        if (!wrong) { wrong = reader.error(); }
+        const bool begins = word.keyword == Keyword::Sub && (source.only.empty() || word.label == source.only);
+        if (!recorder.active() && (wrong || !begins)) {
+            wrong.reset();
+            return true;
+        }
+        if (!wrong && ++kept_lines_ > setup_.limits.kept_lines) {
+            wrong =
+                line.error(0, "more than " + std::to_string(setup_.limits.kept_lines) + " lines, the limit kept_lines");
+        }
+        if (!wrong) { wrong = recorder.take(line, word, text); }
+        if (wrong) { return false; }
+        if (recorder.active()) { return true; }
+        Body body = recorder.take_body();
+        body.file = source.file;
+        subroutines_.insert_or_assign(body.label, std::move(body));
+        return source.only.empty();
+    });
+    return wrong ? wrong : recorder.unclosed();
 }
 
 }  // namespace lockstep::gcode

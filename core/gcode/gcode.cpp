@@ -11,15 +11,21 @@ namespace {
 
 constexpr int kNoEnd = 0;  // lines are numbered from 1
 
+gcode::Setup setup_for(const GcodeSetup& setup, std::string_view text) {
+    gcode::Setup result = gcode::interpreter_setup(setup);
+    result.program = text;
+    return result;
+}
+
 /// Takes a text's lines until one ends the program, or there are too many errors.
 class GcodeReader {
 public:
-    GcodeReader(const GcodeSetup& setup, gcode::Sink sink)
-        : interpreter_(gcode::interpreter_setup(setup), gcode::start_state(setup), std::move(sink)) {}
+    GcodeReader(std::string_view text, const GcodeSetup& setup, gcode::Sink sink)
+        : text_(text), interpreter_(setup_for(setup, text), gcode::start_state(setup), std::move(sink)) {}
 
     template <typename AfterLine>
-    void read(std::string_view text, int end, AfterLine after_line) {
-        gcode::for_each_line(text, [&](std::string_view line, int number) {
+    void read(int end, AfterLine after_line) {
+        gcode::for_each_line(text_, [&](std::string_view line, int number) {
             if (number == end) { return false; }
             if (auto done = interpreter_.take(line, number); !done) { report(done.error()); }
             after_line(number);
@@ -37,6 +43,7 @@ public:
     std::vector<GcodeError>& errors() { return errors_; }
 
 private:
+    std::string_view text_;
     gcode::Interpreter interpreter_;
     std::vector<GcodeError> errors_;
     bool repeated_ = false;
@@ -57,12 +64,12 @@ std::optional<GcodeError> slow_feed(const gcode::Interpreter& interpreter) {
 std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup) {
     gcode::ProgramBuilder builder(setup);
     GcodeReader* reading = nullptr;
-    GcodeReader reader(setup, [&](const gcode::Action& action, int line) {
+    GcodeReader reader(text, setup, [&](const gcode::Action& action, int line) {
         builder.take(action, line, reading->interpreter());
         for (const GcodeError& error : builder.take_errors()) { reading->report(error); }
     });
     reading = &reader;
-    reader.read(text, kNoEnd, [&](int) {
+    reader.read(kNoEnd, [&](int) {
         if (auto wrong = slow_feed(reader.interpreter())) { reader.report(*wrong); }
     });
     if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
@@ -77,15 +84,15 @@ std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view tex
 
 std::expected<void, std::vector<GcodeError>> gcode_actions(std::string_view text, const GcodeSetup& setup,
                                                            const TakeAction& take) {
-    GcodeReader reader(setup, take);
-    reader.read(text, kNoEnd, [](int) {});
+    GcodeReader reader(text, setup, take);
+    reader.read(kNoEnd, [](int) {});
     if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
     return {};
 }
 
 ModalState modal_state_at(std::string_view text, const GcodeSetup& setup, int line) {
-    GcodeReader reader(setup, [](const gcode::Action&, int) {});
-    reader.read(text, line, [](int) {});
+    GcodeReader reader(text, setup, [](const gcode::Action&, int) {});
+    reader.read(line, [](int) {});
     const gcode::State& now = reader.interpreter().state();
     ModalState state{.inches = now.modal.inches, .relative = now.modal.relative, .feed_mm_min = {}, .offset_mm = {}};
     if (now.modal.feed_linear > 0) { state.feed_mm_min = now.modal.feed_linear; }

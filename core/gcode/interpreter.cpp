@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/gcode/run/compensation.hpp"
 #include "core/gcode/run/steps.hpp"
 
 namespace lockstep::gcode {
@@ -20,6 +21,7 @@ std::unexpected<GcodeError> Interpreter::error(std::size_t place, std::string me
 
 Result Interpreter::take(std::string_view text, int number) {
     if (ended_) { return {}; }
+    program_line_ = number;
     block_.clear();
     if (auto wrong = line_.read(text, number)) { return std::unexpected(*std::move(wrong)); }
     if (line_.text().empty()) { return {}; }
@@ -100,6 +102,11 @@ Result Interpreter::assign() {
 }
 
 Result Interpreter::keep(const OWord& word, std::string_view text) {
+    if (word.keyword == Keyword::Sub && called_early_.contains(word.label)) {
+        return error(word.place, "the subroutine " + word.label +
+                                     " stands behind its call and in the program's way; write it before the call, or "
+                                     "behind M2");
+    }
     if (++kept_lines_ > setup_.limits.kept_lines) {
         recorder_.clear();
         return error(0, "loops and subroutines have more than " + std::to_string(setup_.limits.kept_lines) +
@@ -138,6 +145,8 @@ Result Interpreter::finish() {
         recorder_.clear();
         return std::unexpected(*std::move(wrong));
     }
+    Context here = context();
+    end_compensation(here);
     return {};
 }
 

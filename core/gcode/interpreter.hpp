@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,9 +73,11 @@ private:
     // Subroutines: calls.cpp
     Result call(Reader& reader, const OWord& word);
     Result leave(Frame& frame, Reader& reader);
-    Result load(const OWord& word);
-    std::optional<GcodeError> keep_line_of_file(Recorder& recorder, Line& line, std::string_view text, int number,
-                                                const std::string& file);
+    Result find_subroutine(const OWord& word);
+    Result load(const OWord& word, std::string_view text);
+    Result load_later(const OWord& word);
+    struct SubroutineText;
+    std::optional<GcodeError> keep_subroutines(const SubroutineText& source);
     void end_call();
     void unwind();
     std::unexpected<GcodeError> error(std::size_t place, std::string message) const;
@@ -89,6 +92,8 @@ private:
     KeptModes kept_;  // of the program itself
     Recorder recorder_;
     std::map<std::string, Body, std::less<>> subroutines_;
+    std::set<std::string, std::less<>> called_early_;  // subroutines that stand behind their first call
+    int program_line_ = 0;                             // the last one taken of the program itself
     std::vector<Frame> frames_;
     int calls_ = 0;
     std::int64_t repeated_lines_ = 0;

@@ -89,12 +89,15 @@ void ProgramBuilder::fail(std::size_t axis, const std::string& message) {
     if (!outside_.insert(axis).second) { return; }
     const Line& line = interpreter_->line();
     const char letter = kAxisLetters[*places_[axis]];
-    if (interpreter_->block().has(letter)) {
-        const std::size_t place = interpreter_->block().place(letter);
-        errors_.push_back(line.error(place, word_text(line, place) + " takes " + message));
-    } else {
-        errors_.push_back(line.error(0, "this takes " + message));
-    }
+    if (line.number() != line_ || !interpreter_->block().has(letter)) { return fail("this takes " + message); }
+    const std::size_t place = interpreter_->block().place(letter);
+    errors_.push_back(line.error(place, word_text(line, place) + " takes " + message));
+}
+
+/// Cutter compensation hands out a motion when a later line has been read.
+void ProgramBuilder::fail(const std::string& message) {
+    const Line& line = interpreter_->line();
+    errors_.push_back(line.number() == line_ ? line.error(0, message) : GcodeError{line_, 1, message});
 }
 
 /// A place outside the travel is reported, and returned unchanged, so that the lines behind it are checked as written.

@@ -41,6 +41,7 @@ private:
     void note(const std::string& kind, const std::string& text);
     void append(decltype(lockstep::Block::action) action);
     void fail(std::size_t axis, const std::string& message);
+    void fail(const std::string& message);
 
     const GcodeSetup& setup_;
     std::vector<std::optional<std::size_t>> places_;

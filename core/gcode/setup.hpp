@@ -21,6 +21,8 @@ struct Setup {
     std::string axes = "XYZABCUVW";  // the machine's axes, of these letters
     bool skip_deletable = true;      // block delete: lines that begin with / are not run
     Limits limits;
+    /// The whole text, if it is known: a subroutine may then stand behind its call. It outlives the interpreter.
+    std::string_view program;
     /// The text of the file of a subroutine that the program calls but does not contain; the name is in small letters.
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
 };

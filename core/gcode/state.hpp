@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "core/gcode/cutter_state.hpp"
+#include "core/gcode/flat.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/text/parameters.hpp"
 
@@ -18,13 +20,6 @@ enum class FeedMode : std::uint8_t { PerMinute, InverseTime };    // G94 G93
 enum class Side : std::uint8_t { None, Left, Right };             // G40 G41 G42
 enum class Turning : std::uint8_t { Stopped, Forward, Reverse };  // M5 M3 M4
 inline constexpr int kNoMotion = -1;                              // after G80, and at the start
-
-/// A place or a vector in a plane.
-struct Flat {
-    double x = 0;  // along the plane's first axis
-    double y = 0;
-    bool operator==(const Flat&) const = default;
-};
 
 /// What a word sets and the lines after it keep.
 struct Modal {
@@ -49,7 +44,7 @@ struct Modal {
     int path_mode = 640;     // G61 610, G61.1 611, G64 640
     double path_tolerance = 0;
     Side side = Side::None;
-    double tool_radius = 0;  // of the compensation, mm
+    double tool_radius = 0;  // of the compensation, mm; 0: it has no effect
     bool operator==(const Modal&) const = default;
 };
 
@@ -97,6 +92,7 @@ struct State {
     Offsets offsets;
     CycleWords cycle;
     SplineWords spline;
+    CutterState cutter;
     int selected_tool = 0;
     int tool = 0;  // in the spindle; 0: none
     std::map<int, Tool> tools;

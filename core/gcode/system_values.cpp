@@ -1,5 +1,6 @@
 // Interpreter: the parameters that programs read but do not write.
 #include "core/gcode/interpreter.hpp"
+#include "core/gcode/run/compensation.hpp"
 
 namespace lockstep::gcode {
 namespace {
@@ -91,11 +92,11 @@ std::optional<double> Interpreter::numbered(int number) const {
     if (number >= 5400 && number <= 5413) { return numbered_tool(number); }
     if (number < 5420 || number > 5428) { return std::nullopt; }
     const auto axis = static_cast<std::size_t>(number - 5420);
-    return in_units(state_, axis, state_.program[axis]);
+    return in_units(state_, axis, shown_place(state_)[axis]);
 }
 
 std::optional<double> Interpreter::named(std::string_view name) const {
-    if (const auto axis = axis_of(name)) { return in_units(state_, *axis, state_.program[*axis]); }
+    if (const auto axis = axis_of(name)) { return in_units(state_, *axis, shown_place(state_)[*axis]); }
     if (!name.starts_with('_')) { return std::nullopt; }
     if (name.starts_with("_abs_")) {
         const auto axis = axis_of(name.substr(4));

@@ -5,6 +5,8 @@
 namespace lockstep::gcode {
 namespace {
 
+constexpr const char* kOfSubroutines = "<sub>";  // the scope of their labels; no subroutine has this name
+
 bool opens(Keyword keyword) {
     return keyword == Keyword::Sub || keyword == Keyword::If || keyword == Keyword::While || keyword == Keyword::Do ||
            keyword == Keyword::Repeat;
@@ -49,20 +51,22 @@ std::string Recorder::not_open(const OWord& word) const {
            shown_word(end_of(last.keyword), last.label);
 }
 
-std::optional<std::string> Recorder::open(const OWord& word, int number) {
+/// A label opens one thing, but for do loops, which may be opened again; subroutines have labels of their own.
+std::optional<std::string> Recorder::open(const OWord& word) {
     const bool in_subroutine = !open_.empty() && open_.front().keyword == Keyword::Sub;
     if (word.keyword == Keyword::Sub && !open_.empty()) {
         return shown_word(word.keyword, word.label) + " inside " +
                shown_word(open_.back().keyword, open_.back().label) + "; a subroutine stands by itself";
     }
-    const std::string scope = in_subroutine ? open_.front().label : "";
-    if (!labels_.insert({scope, word.label}).second) {
+    const std::string scope = word.keyword == Keyword::Sub ? kOfSubroutines : in_subroutine ? open_.front().label : "";
+    const auto [before, is_new] = labels_.try_emplace({scope, word.label}, word.keyword);
+    const bool is_do_again = word.keyword == Keyword::Do && before->second == Keyword::Do;
+    if (!is_new && !is_do_again) {
         return shown_label(word.label) + " has opened something before; write another label";
     }
     if (open_.empty()) { body_.label = word.label; }
     open_.push_back(
         {.keyword = word.keyword, .label = word.label, .line = body_.lines.size() - 1, .branches = {}, .exits = {}});
-    (void)number;
     if (word.keyword == Keyword::If) { open_.back().branches.push_back(body_.lines.size() - 1); }
     return std::nullopt;
 }
@@ -113,11 +117,11 @@ std::optional<std::string> Recorder::leave(const OWord& word) {
     return std::nullopt;
 }
 
-std::optional<std::string> Recorder::place(const OWord& word, int number) {
+std::optional<std::string> Recorder::place(const OWord& word) {
     const bool ends_do = word.keyword == Keyword::While && !open_.empty() && open_.back().keyword == Keyword::Do &&
                          open_.back().label == word.label;
     if (ends_do) { return close(word); }
-    if (opens(word.keyword)) { return open(word, number); }
+    if (opens(word.keyword)) { return open(word); }
     switch (word.keyword) {
         case Keyword::ElseIf:
         case Keyword::Else: return branch(word);
@@ -132,7 +136,7 @@ std::optional<std::string> Recorder::place(const OWord& word, int number) {
 
 std::optional<GcodeError> Recorder::take(const Line& line, const OWord& word, std::string_view text) {
     body_.lines.push_back({.number = line.number(), .text = std::string(text), .keyword = word.keyword});
-    if (const auto wrong = place(word, line.number())) {
+    if (const auto wrong = place(word)) {
         GcodeError error = line.error(word.place, *wrong);
         clear();
         return error;

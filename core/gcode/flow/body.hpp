@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <expected>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,16 +53,16 @@ private:
         bool has_else = false;
     };
 
-    std::optional<std::string> open(const OWord& word, int number);
+    std::optional<std::string> open(const OWord& word);
     std::optional<std::string> branch(const OWord& word);
     std::optional<std::string> close(const OWord& word);
     std::optional<std::string> leave(const OWord& word);
-    std::optional<std::string> place(const OWord& word, int number);
+    std::optional<std::string> place(const OWord& word);
     std::string not_open(const OWord& word) const;
 
     Body body_;
     std::vector<Open> open_;
-    std::set<std::pair<std::string, std::string>> labels_;  // by subroutine: each opens one thing
+    std::map<std::pair<std::string, std::string>, Keyword> labels_;  // what each has opened, by subroutine
 };
 
 }  // namespace lockstep::gcode

@@ -97,6 +97,8 @@ Result check_words(const Context& context, PlaneAxes axes) {
     return {};
 }
 
+}  // namespace
+
 Vector turned_axis(const State& state, std::size_t normal) {
     Offsets turn;
     turn.rotation = state.offsets.rotation;
@@ -105,8 +107,6 @@ Vector turned_axis(const State& state, std::size_t normal) {
     axis = to_machine(turn, axis);
     return {axis[0], axis[1], axis[2]};
 }
-
-}  // namespace
 
 void move_arc(Context& context, const ArcMove& move) {
     State& state = context.state;
@@ -133,6 +133,9 @@ void move_arc(Context& context, const ArcMove& move) {
 
 Result arc(Context& context) {
     if (auto checked = check_feed(context); !checked) { return checked; }
+    if (context.state.cutter.stands && !context.is_compensated()) {
+        return context.refuse_motion(kStraightAfterCompensation);
+    }
     const PlaneAxes axes = axes_of(context.state.modal.plane);
     if (auto checked = check_words(context, axes); !checked) { return checked; }
     const auto turns = turns_of(context);
@@ -145,7 +148,7 @@ Result arc(Context& context) {
     if (!centre) { return std::unexpected(centre.error()); }
     move.centre = *centre;
     if (auto checked = check_radii(context, from, *centre, to); !checked) { return checked; }
-    if (context.state.modal.side != Side::None) { return compensated_arc(context, move); }
+    if (is_offset(context.state)) { return compensated_arc(context, move); }
     move_arc(context, move);
     return {};
 }

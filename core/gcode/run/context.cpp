@@ -1,6 +1,7 @@
 #include "core/gcode/run/context.hpp"
 
 #include <cmath>
+#include <vector>
 
 namespace lockstep::gcode {
 
@@ -22,6 +23,17 @@ std::unexpected<GcodeError> Context::refuse_motion(const std::string& what) cons
         }
     }
     return std::unexpected(line.error(0, what));
+}
+
+Result Context::refuse_compensated(Group group) const {
+    if (!is_compensated()) { return {}; }
+    return refuse(group, " while cutter compensation is on; write G40 before it");
+}
+
+void Context::emit(const Action& action) const {
+    std::vector<Waiting>& waiting = state.cutter.waiting;
+    if (waiting.empty()) { return sink(action, line.number()); }
+    waiting.push_back({line.number(), action});
 }
 
 std::optional<double> Context::axis_word(std::size_t axis) const {

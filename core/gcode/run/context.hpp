@@ -37,7 +37,12 @@ struct Context {
     /// At the motion's word, or at the block's first axis word.
     std::unexpected<GcodeError> refuse_motion(const std::string& what) const;
 
-    void emit(const Action& action) const { sink(action, line.number()); }
+    /// Error where cutter compensation is on, which the word does not go with.
+    Result refuse_compensated(Group group) const;
+    bool is_compensated() const { return state.modal.side != Side::None; }
+
+    /// Behind the motion that cutter compensation keeps waiting, if there is one.
+    void emit(const Action& action) const;
     void event(EventKind kind, int index = 0, double value = 0) const { emit(Event{kind, index, value, {}}); }
 
     /// Millimetres of a length, or degrees of an angle, as the program gives it.

@@ -33,7 +33,7 @@ Result keep_word(const Context& context, char letter, std::optional<double> word
 
 Result check_cycle(const Context& context, PlaneAxes axes) {
     const Modal& modal = context.state.modal;
-    if (modal.side != Side::None) {
+    if (context.is_compensated()) {
         return context.refuse_motion(" while cutter compensation is on; write G40 before it");
     }
     for (const char letter : std::string_view("ABCUVW")) {

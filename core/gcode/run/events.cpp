@@ -1,6 +1,7 @@
 // What moves no axis: messages, spindle, tools, outputs, coolant, overrides, dwells and stops.
 #include <algorithm>
 
+#include "core/gcode/run/compensation.hpp"
 #include "core/gcode/run/steps.hpp"
 #include "core/number_text.hpp"
 #include "core/program.hpp"
@@ -116,6 +117,7 @@ Result spindle_speed(Context& context) {
 Result outputs(Context& context) {
     const int code = context.block.code(Group::Output);
     if (code == Block::kNoCode) { return {}; }
+    if (auto checked = context.refuse_compensated(Group::Output); !checked) { return checked; }
     if (code == 660) { return wait_for_input(context); }
     if (code == 670 || code == 680) { return analog_output(context); }
     const auto index = output_index(context, 'P');
@@ -168,6 +170,7 @@ Result overrides(Context& context) {
     Modal& modal = context.state.modal;
     const int code = context.block.code(Group::Override);
     if (code == Block::kNoCode) { return {}; }
+    if (auto checked = context.refuse_compensated(Group::Override); !checked) { return checked; }
     const bool on = code == 480 || (code != 490 && context.block.find('P').value_or(1) != 0);
     const auto set = [&](bool& value, EventKind kind) {
         value = on;
@@ -206,6 +209,7 @@ Result stop(Context& context) {
             after.path_mode = state.modal.path_mode;
             after.path_tolerance = state.modal.path_tolerance;
             after.centres_absolute = state.modal.centres_absolute;
+            end_compensation(context);
             state.modal = after;
             begin_system(state, 0);
             context.event(EventKind::End);

@@ -20,12 +20,10 @@ Result go_home(Context& context) {
     State& state = context.state;
     const int code = context.block.code(Group::NonModal);
     const int first = code < 300 ? kHomeParameter : kSecondHomeParameter;
+    if (auto checked = context.refuse_compensated(Group::NonModal); !checked) { return checked; }
     if (code == 281 || code == 301) {
         set_place(state.parameters, first, state.machine);
         return {};
-    }
-    if (state.modal.side != Side::None) {
-        return context.refuse(Group::NonModal, " while cutter compensation is on; write G40 before it");
     }
     move(context, context.target(), 0);
     Point machine = state.machine;

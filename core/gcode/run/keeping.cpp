@@ -41,7 +41,11 @@ void restore(Context& context, const Modal& modal) {
     state.modal.motion = before.motion;
     state.modal.side = before.side;
     state.modal.tool_radius = before.tool_radius;
-    if (modal.system != before.system) { begin_system(state, modal.system); }
+    if (context.is_compensated()) {
+        state.modal.plane = before.plane;
+        state.modal.system = before.system;
+    }
+    if (state.modal.system != before.system) { begin_system(state, modal.system); }
     restore_spindle(context, before);
     restore_coolant(context, before);
     restore_switches(context, before);

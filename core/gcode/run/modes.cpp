@@ -40,7 +40,7 @@ Result set_plane(Context& context) {
     const int code = context.block.code(Group::Plane);
     if (code == Block::kNoCode) { return {}; }
     const Plane plane = code == 170 ? Plane::XY : code == 180 ? Plane::ZX : Plane::YZ;
-    if (context.state.modal.side != Side::None && plane != context.state.modal.plane) {
+    if (context.is_compensated() && plane != context.state.modal.plane) {
         return context.refuse(Group::Plane, " while cutter compensation is on; write G40 before it");
     }
     context.state.modal.plane = plane;
@@ -50,6 +50,7 @@ Result set_plane(Context& context) {
 Result set_path_mode(Context& context) {
     const int code = context.block.code(Group::PathMode);
     if (code == Block::kNoCode) { return {}; }
+    if (auto checked = context.refuse_compensated(Group::PathMode); !checked) { return checked; }
     Modal& modal = context.state.modal;
     modal.path_mode = code;
     modal.path_tolerance = code == 640 ? context.length(context.block.find('P').value_or(0)) : 0;

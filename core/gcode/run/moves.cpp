@@ -28,10 +28,7 @@ Result check_machine_coordinates(const Context& context) {
         return context.refuse(Group::NonModal,
                               " is about machine coordinates, which are absolute; write G90 before it");
     }
-    if (context.state.modal.side != Side::None) {
-        return context.refuse(Group::NonModal, " while cutter compensation is on; write G40 before it");
-    }
-    return {};
+    return context.refuse_compensated(Group::NonModal);
 }
 
 double norm(const Point& from, const Point& to, std::size_t first, std::size_t last) {
@@ -63,24 +60,41 @@ double feed_of(const Context& context, const Point& from, const Point& to, std::
     return context.block['F'] * (linear > 0 ? linear : norm(from, to, 3, 6));
 }
 
-Point machine_target(const State& state, const Point& program) {
-    Point result = to_machine(state.offsets, program);
-    const bool turned = state.offsets.rotation != 0;
-    const bool leaves_xy = program[0] != state.program[0] || program[1] != state.program[1];
+Point machine_target(const Offsets& offsets, const Standing& from, const Point& program) {
+    Point result = to_machine(offsets, program);
+    const bool turned = offsets.rotation != 0;
+    const bool leaves_xy = program[0] != from.program[0] || program[1] != from.program[1];
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
-        const bool leaves = turned && axis < 2 ? leaves_xy : program[axis] != state.program[axis];
-        if (!leaves) { result[axis] = state.machine[axis]; }
+        const bool leaves = turned && axis < 2 ? leaves_xy : program[axis] != from.program[axis];
+        if (!leaves) { result[axis] = from.machine[axis]; }
     }
     return result;
 }
 
+Point machine_target(const State& state, const Point& program) {
+    return machine_target(state.offsets, {state.program, state.machine}, program);
+}
+
+/// The first one after cutter compensation begins where the tool's centre is.
 void move(Context& context, const Point& target, double feed) {
     State& state = context.state;
     const Point machine = machine_target(state, target);
-    if (machine != state.machine) { context.emit(Straight{machine, feed, feed == 0}); }
+    const Point& from = state.cutter.stands ? state.cutter.stands->machine : state.machine;
+    if (machine != from) { context.emit(Straight{machine, feed, feed == 0}); }
+    state.cutter.stands.reset();
     state.machine = machine;
     state.program = target;
 }
+
+namespace {
+
+/// The motion that leads back from cutter compensation moves the plane's axes too: F is then per minute of theirs.
+const Point& start_of_feed(const State& state) {
+    const bool leads_back = state.cutter.stands && state.modal.feed_mode == FeedMode::PerMinute;
+    return leads_back ? state.cutter.stands->program : state.program;
+}
+
+}  // namespace
 
 Result straight(Context& context) {
     Point target;
@@ -94,8 +108,8 @@ Result straight(Context& context) {
     if (!rapid) {
         if (auto checked = check_feed(context); !checked) { return checked; }
     }
-    if (context.state.modal.side != Side::None) { return compensated_straight(context, target, rapid); }
-    move(context, target, rapid ? 0 : feed_of(context, context.state.program, target));
+    if (is_offset(context.state)) { return compensated_straight(context, target, rapid); }
+    move(context, target, rapid ? 0 : feed_of(context, start_of_feed(context.state), target));
     return {};
 }
 

@@ -87,8 +87,11 @@ Result set_system(Context& context) {
     const auto system = system_of(context);
     if (!system) { return std::unexpected(system.error()); }
     const bool by_place = whole(block['L']) == 20;
+    for (const char letter : {'I', 'J'}) {
+        if (block.has(letter)) { return context.refuse(letter, " is an angle of a tool (G10 L1); take it out"); }
+    }
     if (by_place && block.has('R')) { return context.refuse('R', " with L20; a rotation is set with L2"); }
-    if (context.state.modal.side != Side::None && *system == context.state.modal.system) {
+    if (context.is_compensated() && *system == context.state.modal.system) {
         return context.refuse(Group::NonModal,
                               " changes the offsets in use while cutter compensation is on; write G40");
     }
@@ -109,18 +112,14 @@ Result choose_system(Context& context) {
     const int code = context.block.code(Group::System);
     if (code == Block::kNoCode) { return {}; }
     const auto system = static_cast<std::size_t>(code <= 590 ? (code - 540) / 10 : 5 + code - 590);
-    if (context.state.modal.side != Side::None && system != context.state.modal.system) {
-        return context.refuse(Group::System, " while cutter compensation is on; write G40 before it");
-    }
+    if (auto checked = context.refuse_compensated(Group::System); !checked) { return checked; }
     if (system != context.state.modal.system) { begin_system(context.state, system); }
     return {};
 }
 
 Result offset_axes(Context& context) {
     const int code = context.block.code(Group::NonModal);
-    if (context.state.modal.side != Side::None) {
-        return context.refuse(Group::NonModal, " while cutter compensation is on; write G40 before it");
-    }
+    if (auto checked = context.refuse_compensated(Group::NonModal); !checked) { return checked; }
     if (code == 520) { return shift(context); }
     return code == 920 ? name_place(context) : clear_or_restore(context, code);
 }

@@ -56,7 +56,8 @@ Result resolve_polar(Context& context) {
     const double unit = context.length(1);
     const double before = std::hypot(at[0], at[1]) / unit;
     const double before_degrees = std::atan2(at[1], at[0]) * kDegrees;
-    const bool relative = context.state.modal.relative;
+    const bool relative =
+        block.has(Group::Distance) ? block.code(Group::Distance) == 910 : context.state.modal.relative;
     if (before == 0 && relative) {
         return std::unexpected(
             context.line.error(0, "@ or ^ in G91 at the program's zero has no direction to begin with; write G90"));

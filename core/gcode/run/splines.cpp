@@ -1,7 +1,7 @@
 // G5 cubic and G5.1 quadratic splines, and G5.2 to G5.3 NURBS, in the plane of X and Y.
 #include <utility>
 
-#include "core/gcode/run/arc_geometry.hpp"
+#include "core/gcode/run/compensation.hpp"
 #include "core/gcode/run/steps.hpp"
 
 namespace lockstep::gcode {
@@ -11,9 +11,10 @@ Result check_spline(const Context& context) {
     if (context.state.modal.plane != Plane::XY) {
         return context.refuse_motion(" is in the plane of X and Y; write G17 before it");
     }
-    if (context.state.modal.side != Side::None) {
+    if (context.is_compensated()) {
         return context.refuse_motion(" while cutter compensation is on; write G40 before it");
     }
+    if (context.state.cutter.stands) { return context.refuse_motion(kStraightAfterCompensation); }
     for (const char letter : std::string_view("ZABCUVW")) {
         if (context.block.has(letter)) { return context.refuse(letter, " in a spline, which moves X and Y alone"); }
     }

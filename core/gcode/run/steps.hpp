@@ -69,6 +69,7 @@ double feed_of(const Context& context, const Point& from, const Point& to, std::
 /// Straight to a place of the program, which becomes the axes'. Feed 0: rapid.
 void move(Context& context, const Point& target, double feed);
 /// The machine's coordinates of a place of the program; axes that do not leave theirs keep it exactly.
+Point machine_target(const Offsets& offsets, const Standing& from, const Point& program);
 Point machine_target(const State& state, const Point& program);
 
 }  // namespace lockstep::gcode

@@ -9,11 +9,6 @@ std::string no_tool(int tool) {
     return ": tool " + std::to_string(tool) + " is not in the tool table; add it, or take the word out";
 }
 
-Result check_no_compensation(const Context& context, Group group) {
-    if (context.state.modal.side == Side::None) { return {}; }
-    return context.refuse(group, " while cutter compensation is on; write G40 before it");
-}
-
 /// G43: the offset of the tool in the spindle, or of that which H names.
 std::expected<Point, GcodeError> tool_offset(const Context& context) {
     const Block& block = context.block;
@@ -95,7 +90,7 @@ Result change_tool(Context& context) {
     State& state = context.state;
     const int code = context.block.code(Group::Tool);
     if (code == Block::kNoCode) { return {}; }
-    if (auto checked = check_no_compensation(context, Group::Tool); !checked) { return checked; }
+    if (auto checked = context.refuse_compensated(Group::Tool); !checked) { return checked; }
     if (code == 60) {
         state.tool = state.selected_tool;
         state.modal.spindle = Turning::Stopped;
@@ -114,7 +109,7 @@ Result change_tool(Context& context) {
 Result tool_length(Context& context) {
     const int code = context.block.code(Group::ToolLength);
     if (code == Block::kNoCode) { return {}; }
-    if (auto checked = check_no_compensation(context, Group::ToolLength); !checked) { return checked; }
+    if (auto checked = context.refuse_compensated(Group::ToolLength); !checked) { return checked; }
     Point& offset = context.state.offsets.tool;
     if (code == 490) { offset = {}; }
     if (code == 430) {

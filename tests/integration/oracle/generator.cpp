@@ -16,9 +16,11 @@ public:
         text_ += "#1=3 #2=4 #4=5\n#<name>=1.5\nG0\n";
         if (!lines_.changes_units() && lines_.one_in(3)) { text_ += "T2 M6\nG43\n"; }
         if (lines_.one_in(2)) { subroutine(); }
+        calls_later_ = lines_.one_in(4);
         for (int i = 0; i < kLines; ++i) { statement(0); }
         add(LineMaker::report());
         add("M2");
+        if (calls_later_) { later_subroutine(); }
         return text_;
     }
 
@@ -44,6 +46,10 @@ private:
     void flow(int depth) {
         lines_.set_nested(true);
         const std::string name = label();
+        if (calls_later_ && depth == 0 && lines_.one_in(4)) {
+            add("o<later> call [" + lines_.value(1, 9) + "]");
+            return lines_.set_nested(false);
+        }
         switch (lines_.below(has_subroutine_ && depth == 0 ? 6 : 4)) {
             case 0: branch(name, depth); break;
             case 1:
@@ -88,6 +94,7 @@ private:
     void count_down(const std::string& name, int depth) {
         const std::string inner = label();
         add("#6=3");
+        if (depth == 0 && lines_.one_in(3)) { add(name + " do\n" + name + " while [0]"); }
         add(name + " do");
         add("#6=[#6-1]");
         add(inner + " if [#6 eq " + std::to_string(lines_.below(4)) + "]");
@@ -110,10 +117,19 @@ private:
         has_subroutine_ = true;
     }
 
+    /// Behind the program's end, where its calls find it.
+    void later_subroutine() {
+        add("o<later> sub");
+        add("G1 X#1 F100");
+        add(LineMaker::report());
+        add("o<later> endsub");
+    }
+
     LineMaker lines_;
     std::string text_;
     int labels_ = 100;
     bool has_subroutine_ = false;
+    bool calls_later_ = false;
 };
 
 }  // namespace

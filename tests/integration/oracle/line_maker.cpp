@@ -247,7 +247,7 @@ std::string LineMaker::assignment() {
 }
 
 std::string LineMaker::block() {
-    switch (below(24)) {
+    switch (below(27)) {
         case 0:
         case 1:
         case 2:
@@ -267,6 +267,9 @@ std::string LineMaker::block() {
         case 16: return event();
         case 17:
         case 18: return assignment();
+        case 20:
+        case 21:
+        case 22: return plane_ == 2 && !one_in(20) ? straight() : compensated();
         case 19:
             return plane_ != 0 || nested_ ? straight()
                                           : "G0 @" + number(drawn(1, 50)) + " ^" + number(drawn(-180, 180));
@@ -276,12 +279,13 @@ std::string LineMaker::block() {
 
 std::string LineMaker::odd_word() {
     constexpr std::array kWords{
-        "R1",  "P1",  "P-1",  "L0",     "L2",    "Q1",     "H1",          "D1",  "I1",   "J1",  "K1",  "E1",
-        "F0",  "F-1", "S-1",  "T-1",    "T9",    "T1.5",   "G0",          "G1",  "G2",   "G4",  "G10", "G28",
-        "G43", "G53", "G80",  "G81",    "G83",   "G90",    "G91",         "G92", "G93",  "G94", "M3",  "M5",
-        "M6",  "M62", "M0",   "M2",     "X",     "X1",     "Y1",          "Z1",  "A1",   "[1",  "1]",  "#",
-        "#1",  "#0",  "#<x>", "X[1/0]", "G1.5",  "G54",    "X[sqrt[-1]]", "(",   ")",    "N5",  "G18", "M8",
-        "G61", "G98", "G49",  "G52",    "G92.1", "G10 L2", "X#<none>",    "G5",  "G5.1", "G40"};
+        "R1",       "P1",  "P-1",  "L0",  "L2",     "Q1",     "H1",     "D1",      "I1",   "J1",    "K1",
+        "E1",       "F0",  "F-1",  "S-1", "T-1",    "T9",     "T1.5",   "G0",      "G1",   "G2",    "G4",
+        "G10",      "G28", "G43",  "G53", "G80",    "G81",    "G83",    "G90",     "G91",  "G92",   "G93",
+        "G94",      "M3",  "M5",   "M6",  "M62",    "M0",     "M2",     "X",       "X1",   "Y1",    "Z1",
+        "A1",       "[1",  "1]",   "#",   "#1",     "#0",     "#<x>",   "X[1/0]",  "G1.5", "G54",   "X[sqrt[-1]]",
+        "(",        ")",   "N5",   "G18", "M8",     "G61",    "G98",    "G49",     "G52",  "G92.1", "G10 L2",
+        "X#<none>", "G5",  "G5.1", "G40", "G41 D2", "G42 D3", "G41 D1", "G42.1 D2"};
     return kWords[static_cast<std::size_t>(below(static_cast<int>(kWords.size())))];
 }
 

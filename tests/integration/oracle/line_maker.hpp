@@ -1,6 +1,7 @@
 // Random lines of G-code that are right, mostly: it keeps in mind what the lines before have set.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -36,6 +37,7 @@ private:
     std::string centre_word(char letter, int axis, double offset);
     std::string end_word(char letter, int axis, double offset);
     std::string arc_by_radius();
+    std::string compensated();
     std::string cycle();
     std::string spline();
     std::string mode();
@@ -45,6 +47,16 @@ private:
     std::string event();
     std::string assignment();
     std::string home();
+
+    // A path in a plane with cutter compensation: cutter_lines.cpp. `at` is where it is, in the program's coordinates.
+    struct PathEnd {
+        std::array<int, 2> axes{};
+        std::array<double, 2> at{};
+    };
+    std::string end_words(PathEnd& path, std::array<double, 2> step);
+    std::string cutter_on();
+    std::string cutter_straight(PathEnd& path);
+    std::string cutter_arc(PathEnd& path, double least_angle, double most_angle);
 
     std::mt19937 random_;
     bool rotates_;

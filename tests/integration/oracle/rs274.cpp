@@ -106,9 +106,9 @@ Reading read_with_ours(const std::string& text) {
     gcode::State state;
     state.tools = tools();
     CallList list;
-    gcode::Interpreter interpreter({.axes = "XYZABC", .skip_deletable = false, .limits = {}, .find_subroutine = {}},
-                                   std::move(state),
-                                   [&](const gcode::Action& action, int line) { list.take(action, line); });
+    gcode::Interpreter interpreter(
+        {.axes = "XYZABC", .skip_deletable = false, .limits = {}, .program = text, .find_subroutine = {}},
+        std::move(state), [&](const gcode::Action& action, int line) { list.take(action, line); });
     Reading reading{.calls = {}, .taken = true, .message = {}, .refused = {}, .line = 0, .ended = true};
     gcode::for_each_line(text, [&](std::string_view line, int number) {
         const auto done = interpreter.take(line, number);

@@ -43,6 +43,7 @@ inline State two_tools() {
 /// Until the first error.
 inline Ran run(std::string_view text, Setup setup = {}) {
     Ran ran;
+    setup.program = text;
     Interpreter interpreter(std::move(setup), two_tools(),
                             [&](const Action& action, int) { ran.actions.push_back(action); });
     for_each_line(text, [&](std::string_view line, int number) {

@@ -82,6 +82,35 @@ TEST(GcodeFlow, SubroutinesMayComeFromFiles) {
     EXPECT_THAT(run("o<other> call\n", setup).error->message, HasSubstr("other.ngc"));
 }
 
+TEST(GcodeFlow, SubroutineMayStandBehindItsCall) {
+    EXPECT_THAT(messages("o2 call [7]\no2 call [8]\nM2\no2 sub\n(debug,#1)\no3 call\no2 endsub\no3 sub\n(debug,a)\n"
+                         "o3 endsub\n"),
+                ElementsAre("7.000000", "a", "8.000000", "a"));
+    EXPECT_THAT(messages("o1 if [0]\no2 call\no1 endif\no2 sub\n(debug,a)\no2 endsub\no2 call\n"), ElementsAre("a"));
+    EXPECT_THAT(run("o2 call\nM2\no3 sub\no3 endsub\n").error->message, HasSubstr("calls what is not there"));
+}
+
+TEST(GcodeFlow, SubroutineBehindItsCallMayNotBeInTheProgramsWay) {
+    const Ran ran = run("o2 call\nG0 X1\no2 sub\no2 endsub\n");
+    ASSERT_TRUE(ran.error);
+    EXPECT_EQ(ran.error->line, 3);
+    EXPECT_THAT(ran.error->message, HasSubstr("behind M2"));
+}
+
+TEST(GcodeFlow, OneLabelOpensOneThing) {
+    EXPECT_THAT(run("o2 if [1]\no2 endif\no2 if [1]\no2 endif\n").error->message, HasSubstr("opened something"));
+    EXPECT_THAT(run("o2 if [1]\no2 endif\no2 do\no2 while [0]\n").error->message, HasSubstr("opened something"));
+}
+
+TEST(GcodeFlow, LabelOfADoLoopMayOpenAnother) {
+    EXPECT_THAT(messages("o2 do\n(debug,a)\no2 while [0]\no2 do\n(debug,b)\no2 while [0]\n"), ElementsAre("a", "b"));
+}
+
+TEST(GcodeFlow, SubroutinesHaveLabelsOfTheirOwn) {
+    EXPECT_THAT(messages("o2 sub\n(debug,a)\no2 endsub\no2 if [1]\n(debug,b)\no2 endif\no2 call\n"),
+                ElementsAre("b", "a"));
+}
+
 TEST(GcodeFlow, RecursionAndEndlessLoopsMeetTheirLimits) {
     EXPECT_THAT(run("o1 sub\no1 call\no1 endsub\no1 call\n").error->message, HasSubstr("call_depth"));
     gcode::Setup setup;

@@ -28,6 +28,12 @@ TEST(GcodeArcs, HaveTheCentreThatTheOffsetsGive) {
     EXPECT_DOUBLE_EQ(arc.feed, 10);
 }
 
+TEST(GcodePolar, BlocksOwnG91CountsBeforeItsCoordinates) {
+    const Point end = end_of("G0 X3 Y4\nG91 G0 @5 ^0\n");
+    EXPECT_NEAR(end[0], 6, 1e-12);
+    EXPECT_NEAR(end[1], 8, 1e-12);
+}
+
 TEST(GcodeArcs, ByRadiusAreTheShortOrTheLongWay) {
     EXPECT_THAT(only_arc("G2 X2 Y2 R2 F1").centre, ElementsAre(DoubleNear(2, 1e-12), DoubleNear(0, 1e-12), 0));
     EXPECT_THAT(only_arc("G2 X2 Y2 R-2 F1").centre, ElementsAre(DoubleNear(0, 1e-12), DoubleNear(2, 1e-12), 0));
