@@ -8,6 +8,7 @@
 
 #include "core/axis_set.hpp"
 #include "core/protocol/timing.hpp"
+#include "core/unassigned_words.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {
@@ -103,6 +104,8 @@ struct MachineConfig {
     StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
     std::string coordinator_host;                  // where it runs; empty: wherever it is started
     RealTimeConfig real_time;
+    UnassignedWords unassigned;
+    std::string subroutine_directory;  // of programs; empty: where the program is
     std::vector<AxisConfig> axes;
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

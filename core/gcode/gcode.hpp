@@ -19,6 +19,7 @@
 #include "core/gcode/setup.hpp"
 #include "core/gcode/text/error.hpp"
 #include "core/program.hpp"
+#include "core/unassigned_words.hpp"
 
 namespace lockstep {
 
@@ -44,21 +45,11 @@ struct GcodeSwitches {
     bool ignore_unassigned = false;  // words for devices that the machine does not have are passed over
 };
 
-/// A word for a device that is not configured is refused, or passed over with a warning.
-enum class Unassigned : std::uint8_t { Refuse, Ignore };
-
-struct GcodeDevices {
-    Unassigned spindle = Unassigned::Refuse;  // S M3 M4 M5
-    Unassigned coolant = Unassigned::Ignore;  // M7 M8 M9
-    Unassigned outputs = Unassigned::Refuse;  // M62 to M68
-    bool pause_at_tool_change = true;         // M6: a person changes the tool
-};
-
 struct GcodeSetup {
     std::string program_name;
     std::vector<GcodeAxis> axes;
     GcodeSwitches switches;
-    GcodeDevices devices;
+    UnassignedWords unassigned;
     double chord_tolerance_mm = 0.001;  // of arcs and splines
     gcode::Limits limits;
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;

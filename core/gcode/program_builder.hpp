@@ -37,7 +37,7 @@ private:
     double within_travel(std::size_t axis, double mm);
     double feed_along_path(const std::vector<double>& target, double feed) const;
     void event(const Event& event);
-    void unassigned(Unassigned rule, const std::string& what);
+    void unassigned(WordRule rule, const std::string& what, const std::string& key);
     void note(const std::string& kind, const std::string& text);
     void append(decltype(lockstep::Block::action) action);
     void fail(std::size_t axis, const std::string& message);

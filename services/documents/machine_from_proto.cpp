@@ -98,6 +98,24 @@ RealTimeConfig read_real_time(const proto::RealTime& message) {
     return {.priority = message.priority(), .cpus = {message.cpus().begin(), message.cpus().end()}};
 }
 
+WordRule read_rule(bool is_given, proto::WordRule rule, WordRule preset, const std::string& key, Reader& reader) {
+    if (!is_given) { return preset; }
+    if (!proto::WordRule_IsValid(rule)) {
+        reader.refuse(key, key + " is " + std::to_string(rule) + "; it is REFUSE or IGNORE");
+    }
+    return rule == proto::IGNORE ? WordRule::Ignore : WordRule::Refuse;
+}
+
+UnassignedWords read_unassigned(const proto::Unassigned& message, Reader reader) {
+    const UnassignedWords preset;
+    return {
+        .spindle = read_rule(message.has_spindle(), message.spindle(), preset.spindle, "unassigned.spindle", reader),
+        .outputs = read_rule(message.has_outputs(), message.outputs(), preset.outputs, "unassigned.outputs", reader),
+        .inputs = read_rule(message.has_inputs(), message.inputs(), preset.inputs, "unassigned.inputs", reader),
+        .coolant = read_rule(message.has_coolant(), message.coolant(), preset.coolant, "unassigned.coolant", reader),
+    };
+}
+
 /// Without std::clamp, which requires ordered limits: a file may violate that.
 double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
@@ -193,6 +211,8 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.position_directory = message.position_directory();
     draft.machine.coordinator_host = message.coordinator_host();
     draft.machine.real_time = read_real_time(message.real_time());
+    draft.machine.unassigned = read_unassigned(message.unassigned(), Reader(draft.missing));
+    draft.machine.subroutine_directory = message.subroutine_directory();
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {

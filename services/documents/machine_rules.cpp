@@ -152,6 +152,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_directory("security.directory", machine.security.directory, problems);
     check_record(machine.record, problems);
     check_directory("position_directory", machine.position_directory, problems);
+    check_directory("subroutine_directory", machine.subroutine_directory, problems);
     check_real_time(machine.real_time, problems);
     check_hosts(machine, problems);
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",

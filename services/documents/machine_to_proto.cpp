@@ -44,6 +44,15 @@ void write_real_time(const RealTimeConfig& real_time, proto::RealTime& message) 
     for (const int cpu : real_time.cpus) { message.add_cpus(cpu); }
 }
 
+proto::WordRule rule_to_proto(WordRule rule) { return rule == WordRule::Ignore ? proto::IGNORE : proto::REFUSE; }
+
+void write_unassigned(const UnassignedWords& rules, proto::Unassigned& message) {
+    message.set_spindle(rule_to_proto(rules.spindle));
+    message.set_outputs(rule_to_proto(rules.outputs));
+    message.set_inputs(rule_to_proto(rules.inputs));
+    message.set_coolant(rule_to_proto(rules.coolant));
+}
+
 void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_sequence(homing.sequence);
     message.set_toward_min(homing.toward_min);
@@ -97,6 +106,10 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     if (!machine.position_directory.empty()) { message.set_position_directory(machine.position_directory); }
     if (!machine.coordinator_host.empty()) { message.set_coordinator_host(machine.coordinator_host); }
     if (machine.real_time != RealTimeConfig{}) { write_real_time(machine.real_time, *message.mutable_real_time()); }
+    if (machine.unassigned != UnassignedWords{}) {
+        write_unassigned(machine.unassigned, *message.mutable_unassigned());
+    }
+    if (!machine.subroutine_directory.empty()) { message.set_subroutine_directory(machine.subroutine_directory); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     return message;

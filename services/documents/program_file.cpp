@@ -28,6 +28,16 @@ bool is_file_name(std::string_view name) {
         name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
 }
 
+/// From the program's directory, or else from the machine's.
+std::optional<std::string> read_subroutine(const std::vector<std::filesystem::path>& directories,
+                                           std::string_view name) {
+    if (!is_file_name(name)) { return std::nullopt; }
+    for (const std::filesystem::path& directory : directories) {
+        if (auto found = read_text_file(directory / (std::string(name) + ".ngc"))) { return *std::move(found); }
+    }
+    return std::nullopt;
+}
+
 /// Half a step of the finest linear axis: a chord then leaves its curve by less than the steps do.
 double chord_tolerance(const MachineConfig& machine) {
     double finest = 1;
@@ -48,6 +58,7 @@ Diagnostics to_diagnostics(const std::vector<GcodeError>& errors) {
 GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& start_mm, std::string program_name,
                        GcodeSwitches switches) {
     GcodeSetup setup{.program_name = std::move(program_name), .axes = {}, .switches = switches};
+    setup.unassigned = machine.unassigned;
     setup.chord_tolerance_mm = chord_tolerance(machine);
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];
@@ -70,11 +81,9 @@ std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem:
     auto text = read_text_file(path);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
     GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
-    setup.find_subroutine = [directory = path.parent_path()](std::string_view name) -> std::optional<std::string> {
-        if (!is_file_name(name)) { return std::nullopt; }
-        auto found = read_text_file(directory / (std::string(name) + ".ngc"));
-        return found ? std::optional(*std::move(found)) : std::nullopt;
-    };
+    std::vector<std::filesystem::path> directories{path.parent_path()};
+    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
+    setup.find_subroutine = [directories](std::string_view name) { return read_subroutine(directories, name); };
     auto reading = read_gcode(*text, setup);
     if (!reading) { return std::unexpected(to_diagnostics(reading.error())); }
     return ProgramFile{*std::move(text), std::move(setup), *std::move(reading)};

@@ -25,7 +25,7 @@ struct ProgramFile {
 };
 
 /// As load_gcode_file, with the words that were passed over and the program's messages. Subroutines that the text calls
-/// but does not contain are read from files name.ngc of its directory.
+/// but does not contain are read from files name.ngc of its directory, or of the machine's subroutine_directory.
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
                                                           const MachineConfig& machine,
                                                           const std::vector<double>& start_mm,

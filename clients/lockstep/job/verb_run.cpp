@@ -47,8 +47,8 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
 }
 
 /// The whole program, for the machine's position; with --from-line, for the position at its first run.
-std::expected<Program, Failure> read(const RunOptions& options, const MachineConfig& machine,
-                                     const std::vector<double>& stands_mm, Output& output) {
+std::expected<ProgramFile, Failure> read(const RunOptions& options, const MachineConfig& machine,
+                                         const std::vector<double>& stands_mm, Output& output) {
     const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
     if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
     auto file = read_program_file(options.file, machine, *started, options.switches);
@@ -56,17 +56,16 @@ std::expected<Program, Failure> read(const RunOptions& options, const MachineCon
     for (const GcodeNote& note : file->reading.notes) {
         output.warn("line " + std::to_string(note.line) + ": " + note.text);
     }
-    return std::move(file->reading.program);
+    return *std::move(file);
 }
 
 /// The program to run: all of it, or an approach and the rest, which is printed.
 std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
                                     const std::vector<double>& stands_mm, Output& output) {
-    auto program = read(options, machine, stands_mm, output);
-    if (!program) { return std::unexpected(program.error()); }
-    if (!options.is_restart()) { return Rest{*std::move(program), {}, {}}; }
-    const GcodeSetup setup = gcode_setup(machine, program->start_mm, program->name, options.switches);
-    auto rest = rest_of(*program, text, setup, options.restart, machine, stands_mm);
+    auto file = read(options, machine, stands_mm, output);
+    if (!file) { return std::unexpected(file.error()); }
+    if (!options.is_restart()) { return Rest{std::move(file->reading.program), {}, {}}; }
+    auto rest = rest_of(file->reading.program, text, file->setup, options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
     output.print("from line " + std::to_string(options.restart.from_line) + ":\n" +
                  approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));

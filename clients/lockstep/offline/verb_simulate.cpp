@@ -22,6 +22,7 @@ struct SimulateOptions {
     std::string file;
     std::string machine_file;
     std::string log;
+    GcodeSwitches switches;
     bool force = false;
     bool speed_report = false;
     bool json = false;
@@ -73,8 +74,9 @@ std::string in_words(const SimulateOptions& options, const ProgramInput& input, 
 
 ExitCode simulate_verb(const SimulateOptions& options) {
     Output output(options.json);
-    const auto input = read_program(options.file, options.machine_file, "");
+    const auto input = read_program(options.file, options.machine_file, "", options.switches);
     if (!input) { return output.fail(input.error()); }
+    warn(*input, output);
     auto log = NewLogFile::begin(options.log, options.force);
     if (!log) { return output.fail(bad_input(log.error())); }
     const StopSignal stop;
@@ -107,6 +109,8 @@ void add_simulate(CLI::App& app, Action& action) {
     verb->add_option("--log", options->log, "the LCM log to write; a log of that name is replaced")->required();
     verb->add_flag("--force", options->force, "replace the file even if it is not a log");
     verb->add_flag("--speed-report", options->speed_report, "report how fast each stage was simulated");
+    verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
+                   "pass over words for devices that the machine does not have, instead of refusing them");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"

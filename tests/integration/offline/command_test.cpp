@@ -109,6 +109,34 @@ TEST_F(Command, CheckReportsErrorsAndWordsThatArePassedOver) {
     EXPECT_NE(passed.out.find("line 2: the spindle is not configured"), std::string::npos) << passed.out;
 }
 
+TEST_F(Command, WordsForMissingDevicesArePassedOverWhereTheMachineSaysSo) {
+    std::ifstream example("deploy/examples/three-axis.textproto");
+    const std::string text{std::istreambuf_iterator<char>(example), {}};
+    const std::string machine = " --machine " + file("mill.textproto", text + "\nunassigned { spindle: IGNORE }\n");
+    const std::string words = file("words.ngc", "G0 X20 Y20\nM3 S100\n");
+    for (const std::string& verb : {"check " + words, "plan " + words, "simulate " + words + " --log " + log}) {
+        const auto passed = run(verb + machine + " 2>&1");
+        EXPECT_EQ(passed.exit, 0) << passed.out;
+        EXPECT_NE(passed.out.find("line 2: the spindle is not configured"), std::string::npos) << passed.out;
+    }
+    const auto refused = run("check " + file("output.ngc", "M64 P1\n") + machine + " 2>&1");
+    EXPECT_EQ(refused.exit, 2);
+    EXPECT_NE(refused.out.find("outputs: IGNORE"), std::string::npos) << refused.out;
+}
+
+TEST_F(Command, SubroutinesAreFoundInTheConfiguredDirectory) {
+    std::ifstream example("deploy/examples/three-axis.textproto");
+    const std::string text{std::istreambuf_iterator<char>(example), {}};
+    const auto parts = directory / "parts";
+    std::filesystem::create_directories(parts);
+    std::ofstream(parts / "hole.ngc") << "o<hole> sub\nG0 X#1\no<hole> endsub\n";
+    const std::string program = "check " + file("part.ngc", "o<hole> call [20]\n");
+    EXPECT_EQ(run(program + kMachine + " 2>&1").exit, 2);
+    const std::string machine =
+        text + "\nsubroutine_directory: \"" + std::filesystem::absolute(parts).string() + "\"\n";
+    EXPECT_EQ(run(program + " --machine " + file("mill.textproto", machine) + " 2>&1").exit, 0);
+}
+
 TEST_F(Command, ALogThatLacksItsEndDoesNotVerify) {
     ASSERT_EQ(run("simulate " + plate + " --log " + log).exit, 0);
     std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);

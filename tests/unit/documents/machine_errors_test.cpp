@@ -76,6 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{machine_with("timing { time_source: LOCAL }"), 11, 29, "LOCAL"},
         Refusal{machine_with("record { directory: \"logs\" }"), 11, 10, "an absolute path"},
         Refusal{machine_with("position_directory: \"places\""), 11, 1, "an absolute path"},
+        Refusal{machine_with("subroutine_directory: \"parts\""), 11, 1, "an absolute path"},
+        Refusal{machine_with("unassigned { spindle: WARN }"), 11, 28, "WARN"},
         Refusal{machine_with("security { directory: \"keys\" }"), 11, 12, "an absolute path"},
         Refusal{machine_with("security { }"), 11, 1, "security.directory is missing"},
         Refusal{machine_with("record { size_limit_mb: 0 }"), 11, 10, "1 to 1000000"},

@@ -55,6 +55,16 @@ TEST(MachineFile, AnAxisHasASafeHeightOnlyIfItIsGiven) {
     EXPECT_FALSE(parse(kShortest).axes.at(0).safe_height_mm);
 }
 
+TEST(MachineFile, WordsForMissingDevicesAreRefusedExceptCoolant) {
+    EXPECT_EQ(parse(kShortest).unassigned, UnassignedWords{});
+    const MachineConfig machine = parse(machine_with("unassigned { spindle: IGNORE coolant: REFUSE }"));
+    EXPECT_EQ(machine.unassigned.spindle, WordRule::Ignore);
+    EXPECT_EQ(machine.unassigned.outputs, WordRule::Refuse);
+    EXPECT_EQ(machine.unassigned.inputs, WordRule::Refuse);
+    EXPECT_EQ(machine.unassigned.coolant, WordRule::Refuse);
+    EXPECT_EQ(parse(machine_text(machine)).unassigned, machine.unassigned);
+}
+
 TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     const HomingConfig homing = parse(kShortest).axes.at(0).homing;
     EXPECT_TRUE(homing.toward_min);
@@ -103,7 +113,8 @@ TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
           machine_with("record { flight { kept: false memory_kb: 64 files: 3 } }"),
           machine_with("network { peers: \"10.0.0.1\" peers: \"mill-x\" }"), machine_with("network { one_host: true }"),
           axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
-          axis_with("method: CARRICA")}) {
+          axis_with("method: CARRICA"), machine_with("unassigned { inputs: IGNORE }"),
+          machine_with("subroutine_directory: \"/srv/subroutines\"")}) {
         const MachineConfig machine = parse(text);
         EXPECT_EQ(machine_text(parse(machine_text(machine))), machine_text(machine));
         EXPECT_EQ(config_hash(parse(machine_text(machine))), config_hash(machine));

@@ -52,6 +52,7 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Record", {"record { ", " }"}},
         {"Flight", {"record { flight { ", " } }"}},
         {"RealTime", {"real_time { ", " }"}},
+        {"Unassigned", {"unassigned { ", " }"}},
         {"Homing", {"homing { ", " }"}},
         {"Plant", {"plant { ", " }"}},
         {"Axis", {"", ""}}};

@@ -1,0 +1,18 @@
+// What becomes of words for devices that the machine does not have.
+#pragma once
+
+#include <cstdint>
+
+namespace lockstep {
+
+enum class WordRule : std::uint8_t { Refuse, Ignore };
+
+struct UnassignedWords {
+    WordRule spindle = WordRule::Refuse;  // S M3 M4
+    WordRule outputs = WordRule::Refuse;  // M62 to M65, M67 M68
+    WordRule inputs = WordRule::Refuse;   // M66
+    WordRule coolant = WordRule::Ignore;  // M7 M8
+    bool operator==(const UnassignedWords&) const = default;
+};
+
+}  // namespace lockstep

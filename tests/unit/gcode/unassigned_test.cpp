@@ -1,0 +1,63 @@
+// Words for devices that the machine does not have: refused, or passed over with a note.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/gcode/three_axes.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+struct Group {
+    const char* text;
+    WordRule UnassignedWords::*rule;
+    const char* key;
+};
+
+class UnassignedWord : public testing::TestWithParam<Group> {};
+
+TEST_P(UnassignedWord, IsRefusedOrPassedOverAsItsRuleSays) {
+    const Group& group = GetParam();
+    GcodeSetup setup = three_axes();
+    setup.unassigned.*group.rule = WordRule::Refuse;
+    const auto refused = read_gcode(group.text, setup);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().front().line, 2);
+    EXPECT_THAT(refused.error().front().message, HasSubstr(std::string(group.key) + ": IGNORE"));
+    setup.unassigned.*group.rule = WordRule::Ignore;
+    const auto read = read_gcode(group.text, setup);
+    ASSERT_TRUE(read) << read.error().front().message;
+    ASSERT_EQ(read->notes.size(), 1U);
+    EXPECT_EQ(read->notes[0].line, 2);
+    EXPECT_THAT(read->notes[0].text, HasSubstr("passed over"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, UnassignedWord,
+                         testing::Values(Group{"G0 X1\nM3 S100\n", &UnassignedWords::spindle, "spindle"},
+                                         Group{"G0 X1\nM64 P1\n", &UnassignedWords::outputs, "outputs"},
+                                         Group{"G0 X1\nM68 E1 Q2\n", &UnassignedWords::outputs, "outputs"},
+                                         Group{"G0 X1\nM66 P1 L0\n", &UnassignedWords::inputs, "inputs"},
+                                         Group{"G0 X1\nM8\nM9\n", &UnassignedWords::coolant, "coolant"}));
+
+TEST(UnassignedWords, CoolantAloneIsPassedOverByDefault) {
+    EXPECT_TRUE(read_gcode("M7\nM9\n", three_axes()));
+    for (const char* text : {"M4\n", "S5\n", "M62 P0\n", "M66 P0 L0\n"}) {
+        EXPECT_FALSE(read_gcode(text, three_axes()));
+    }
+}
+
+TEST(UnassignedWords, SwitchOfTheCommandPassesOverAll) {
+    GcodeSetup setup = three_axes();
+    setup.switches.ignore_unassigned = true;
+    EXPECT_TRUE(read_gcode("M3 S5\nM62 P0\nM66 P0 L0\nM8\n", setup));
+}
+
+TEST(UnassignedWords, ErrorHasTheWordsLineAlsoWhenCompensationKeepsItWaiting) {
+    const auto read = read_gcode("G41.1 D2 F100\nG1 X10 Y10\nM3 S5\nX50\nG40\n", three_axes());
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().front().line, 3);
+}
+
+}  // namespace
+}  // namespace lockstep
