@@ -38,8 +38,8 @@ double angle_between(Direction a, Direction b) {
 
 class ArcCut {
 public:
-    ArcCut(const PathSetup& setup, const PathArc& arc, const AxisVector& from, std::vector<Quadratic>& out)
-        : setup_(setup), arc_(arc), from_(from), to_(setup.to_steps(arc.to_mm)), out_(out) {}
+    ArcCut(const PathSetup& setup, const PathArc& arc, const AxisVector& from, std::uint32_t block, PathTrail& out)
+        : setup_(setup), arc_(arc), from_(from), to_(setup.to_steps(arc.to_mm)), block_(block), out_(out) {}
 
     std::expected<void, std::string> cut(const Quadratic& pattern) {
         pattern_ = pattern;
@@ -127,29 +127,32 @@ private:
         }
         piece.is_straight = false;
         at_ = end;
-        out_.push_back(piece);
+        out_.mark(0, block_, along_);
+        out_.add(piece);
+        along_ += piece.length;
     }
 
     const PathSetup& setup_;
     const PathArc& arc_;
     AxisVector from_;
     AxisVector to_;
-    std::vector<Quadratic>& out_;
+    std::uint32_t block_;
+    PathTrail& out_;
     Quadratic pattern_;
     double radius_begin_ = 0;  // mm
     double radius_end_ = 0;    // mm
     double sweep_ = 0;         // rad, of the whole arc
     AxisVector at_;            // where the next piece begins
+    double along_ = 0;         // mm of the arc before it
 };
 
 }  // namespace
 
 std::expected<void, std::string> cut_arc(const PathSetup& setup, const PathArc& arc, const AxisVector& from,
-                                         const MoveSettings& settings, std::int32_t line, std::vector<Quadratic>& out) {
+                                         const MoveSettings& settings, std::uint32_t block, PathTrail& out) {
     Quadratic pattern;
     pattern.feed_mm_per_tick = settings.feed_mm_per_tick;
-    pattern.line = line;
-    return ArcCut(setup, arc, from, out).cut(pattern);
+    return ArcCut(setup, arc, from, block, out).cut(pattern);
 }
 
 }  // namespace lockstep

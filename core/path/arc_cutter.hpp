@@ -7,17 +7,16 @@
 
 #include <expected>
 #include <string>
-#include <vector>
 
 #include "core/path/path_setup.hpp"
+#include "core/path/path_trail.hpp"
 #include "core/path/primitive.hpp"
-#include "core/path/quadratic.hpp"
 
 namespace lockstep {
 
-/// The pieces of an arc from `from` (steps), added to `out`. Error: its ends are not on one circle or spiral about the
-/// centre: a radius is 0.
+/// The pieces of an arc from `from` (steps), added to `out` with a mark each. Error: its ends are not on one circle or
+/// spiral about the centre: a radius is 0.
 std::expected<void, std::string> cut_arc(const PathSetup& setup, const PathArc& arc, const AxisVector& from,
-                                         const MoveSettings& settings, std::int32_t line, std::vector<Quadratic>& out);
+                                         const MoveSettings& settings, std::uint32_t block, PathTrail& out);
 
 }  // namespace lockstep

@@ -21,16 +21,15 @@ void ChordJoiner::begin(const AxisVector& at) {
     is_fit_begun_ = false;
 }
 
-void ChordJoiner::add(const AxisVector& to, const MoveSettings& settings, std::int32_t line,
-                      std::vector<Quadratic>& out) {
+void ChordJoiner::add(const AxisVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out) {
     end_ = to;
     const double length = distance_mm(points_.back().at, to, setup_.steps_per_mm);
     if (length < kLeast_mm) { return; }
-    points_.push_back({.at = to, .along = points_.back().along + length, .settings = settings, .line = line});
+    points_.push_back({.at = to, .along = points_.back().along + length, .settings = settings, .block = block});
     join(false, out);
 }
 
-void ChordJoiner::finish(const AxisVector& end, std::vector<Quadratic>& out) {
+void ChordJoiner::finish(const AxisVector& end, PathTrail& out) {
     const std::size_t last = points_.size() - 1;
     if (last > start_) {
         const double length = distance_mm(points_[last - 1].at, end, setup_.steps_per_mm);
@@ -44,7 +43,7 @@ void ChordJoiner::finish(const AxisVector& end, std::vector<Quadratic>& out) {
     begin(end);
 }
 
-void ChordJoiner::join(bool is_end, std::vector<Quadratic>& out) {
+void ChordJoiner::join(bool is_end, PathTrail& out) {
     measure_turns(is_end);
     find_corners(is_end);
     while (start_ + 1 < points_.size()) {
@@ -53,15 +52,22 @@ void ChordJoiner::join(bool is_end, std::vector<Quadratic>& out) {
         Quadratic piece;
         const std::size_t chords = longest(limit, piece);
         if (chords == 0) { break; }
-        piece.line = points_[start_ + 1].line;
         piece.feed_mm_per_tick = points_[start_ + 1].settings.feed_mm_per_tick;
         start_at_ = end_at(start_ + chords);
-        out.push_back(piece);
+        mark(chords, out);
+        out.add(piece);
         guess_ = chords;
         start_ += chords;
         is_fit_begun_ = false;
         needed_ = 0;
         drop_passed();
+    }
+}
+
+/// Where each chord of the next piece begins.
+void ChordJoiner::mark(std::size_t chords, PathTrail& out) const {
+    for (std::size_t k = start_; k < start_ + chords; ++k) {
+        out.mark(points_[k].along - points_[start_].along, points_[k + 1].block, 0);
     }
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/path/chord_fit.hpp"
 #include "core/path/path_setup.hpp"
+#include "core/path/path_trail.hpp"
 
 namespace lockstep {
 
@@ -26,11 +27,12 @@ public:
 
     /// A polyline begins at a place in steps. The one before has been finished.
     void begin(const AxisVector& at);
-    /// A chord to a place. Chords of less than kLeast_mm are left out until they add up. Pieces are added to `out`.
-    void add(const AxisVector& to, const MoveSettings& settings, std::int32_t line, std::vector<Quadratic>& out);
+    /// A chord to a place. Chords of less than kLeast_mm are left out until they add up. Pieces are added to `out`,
+    /// with a mark where each chord begins.
+    void add(const AxisVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out);
     /// The polyline ends: the remaining pieces. `end`, in steps, takes the place of its last point; the last chord is a
     /// piece of its own then, so that its tolerance and what the end was moved by do not add up.
-    void finish(const AxisVector& end, std::vector<Quadratic>& out);
+    void finish(const AxisVector& end, PathTrail& out);
     /// Where the last chord ends, in steps.
     const AxisVector& at() const { return end_; }
 
@@ -51,7 +53,8 @@ private:
     double turn_at(std::size_t k) const;
     bool is_corner(std::size_t k) const;
     Reach reach(bool is_end);
-    void join(bool is_end, std::vector<Quadratic>& out);
+    void join(bool is_end, PathTrail& out);
+    void mark(std::size_t chords, PathTrail& out) const;
     std::size_t longest(const Reach& reach, Quadratic& best);
     bool try_chords(std::size_t chords, Quadratic& best);
     AxisVector end_at(std::size_t k) const;

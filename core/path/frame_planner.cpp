@@ -23,7 +23,7 @@ void FramePlanner::begin(std::span<const Position> at) {
     at_ = {};
     for (const Position& position : at) { at_.points.push_back({position, 0, {}}); }
     held_tail_.begin(0);
-    has_begun_ = is_done_ = is_traced_ = false;
+    has_begun_ = has_made_ = is_done_ = is_traced_ = false;
 }
 
 /// The path in time from the cursor to behind the frame. False: it is not known so far; the next call goes on from
@@ -62,16 +62,16 @@ std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
         at_.w0 = window_.interval(at_.interval).reach;
         has_begun_ = true;
     }
-    const std::int32_t line = window_.shape_of(window_.interval(at_.interval)).line;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         if (!trace()) { return std::nullopt; }
-        PathFrame frame{.ticks = end_of_frame(), .line = line};
+        PathFrame frame{.ticks = end_of_frame(), .begin = trail_.place_of(path_.spot_at(0))};
         frame.last = window_.is_finished() && path_.passages().back().interval + 1 == window_.end() &&
                      rounded_up(path_.end()) <= frame.ticks;
         Cursor behind;
         std::optional<FitFailure> failure = fit_body(frame, behind);
         if (!failure && !frame.last && !fit_tail(frame, behind)) { failure = FitFailure{frame.ticks, false}; }
         if (!failure) {
+            frame.rest = place_of_rest(frame, behind);
             take(std::move(behind));
             is_done_ = frame.last;
             std::swap(held_tail_, tail_);
@@ -80,13 +80,14 @@ std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
         }
         slow_down(*failure, frame.ticks, attempt);
     }
-    if (held_tail_.phases().empty()) { return std::unexpected(PathStuck{line}); }
-    return brake(line);
+    if (held_tail_.phases().empty()) { return std::unexpected(PathStuck{trail_.place_of(path_.spot_at(0))}); }
+    return brake();
 }
 
 /// The tail of the last frame, piece by piece, is always a way to go on. At its end the machine rests.
-PathFrame FramePlanner::brake(std::int32_t line) {
-    PathFrame frame{.ticks = setup_.frame_ticks, .line = line, .axes = std::move(last_.axes)};
+PathFrame FramePlanner::brake() {
+    PathFrame frame{.ticks = setup_.frame_ticks, .rest = last_.rest, .axes = std::move(last_.axes)};
+    frame.begin = trail_.place_of(held_tail_.spot_at(0));
     Cursor behind = cursor_at(held_tail_, frame.ticks, true);
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         AxisTrack& track = frame.axes[i];
@@ -145,6 +146,7 @@ FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, boo
     cursor.w0 = speed * speed;
     cursor.w1.reset();
     cursor.u = phases[k].along(at);
+    if (is_braking) { cursor.interval = window_.interval_at({phases[k].piece, cursor.u}); }
     return cursor;
 }
 
@@ -184,6 +186,14 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
     return true;
 }
 
+/// The tail's end. Without a tail the machine rests where the frame ends: at the end of the path, or in a rest, which
+/// begins anew.
+PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const Cursor& behind) const {
+    if (frame.last) { return trail_.place_of(path_.end_spot()); }
+    if (!tail_.passages().empty()) { return trail_.place_of(tail_.end_spot()); }
+    return trail_.place_of({window_.interval(behind.interval).piece, 0});
+}
+
 /// Lowers the speeds at the nodes before a place, but not below what the hardest braking from the frame's beginning
 /// gives. A frame that is full before its end is slowed down as a whole, by as much as it lacks.
 void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt) {
@@ -207,8 +217,19 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));
 }
 
+/// The interval under way is finished as planned.
+bool FramePlanner::turn(const Overrides& overrides) {
+    if (is_done_) { return false; }
+    SpeedWindow turned = window_;
+    if (!turned.turn(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0))) { return false; }
+    window_ = std::move(turned);
+    is_traced_ = false;
+    return true;
+}
+
 void FramePlanner::take(Cursor next) {
     is_traced_ = false;
+    has_made_ = true;
     at_ = std::move(next);
     const bool is_cut = !at_.w1 && at_.interval < window_.end();
     if (is_cut) { window_.cut(at_.interval, at_.u, at_.w0); }

@@ -19,25 +19,33 @@ namespace lockstep {
 /// What a Frame carries of the path.
 struct PathFrame {
     Ticks ticks;
-    bool last = false;      // the path ends with it, at rest
-    std::int32_t line = 0;  // of the program, in which it begins
+    bool last = false;  // the path ends with it, at rest
+    PathPlace begin;    // where on the program it begins,
+    PathPlace rest;     // and where the machine rests if it is the last one that is run
     std::vector<AxisTrack> axes;
 };
 
 /// Not even from rest a frame keeps the limits: they contradict each other.
 struct PathStuck {
-    std::int32_t line = 0;
+    PathPlace at;
 };
 
 class FramePlanner {
 public:
-    FramePlanner(const PathSetup& setup, SpeedWindow& window) : setup_(setup), window_(window) {}
+    FramePlanner(const PathSetup& setup, SpeedWindow& window, const PathTrail& trail)
+        : setup_(setup), window_(window), trail_(trail) {}
 
     /// The axes rest at `at`, where the window's path begins.
     void begin(std::span<const Position> at);
     /// The next frame; nothing while too little of the path is known. Not after the last one.
     std::expected<std::optional<PathFrame>, PathStuck> next();
     bool is_done() const { return is_done_; }
+    /// Since begin().
+    bool has_made() const { return has_made_; }
+    /// The window was made anew, and no frame has been made.
+    void restart() { has_begun_ = is_traced_ = false; }
+    /// New overrides, from the next node behind the last frame. False: not from there.
+    bool turn(const Overrides& overrides);
     /// Frames that had to be made again, slower.
     std::int64_t slowed() const { return slowed_; }
     /// Frames that went along the tail of the one before.
@@ -61,7 +69,8 @@ private:
     void trace_tail(const Cursor& from);
     Cursor cursor_at(const TimedPath& path, Ticks t, bool is_braking) const;
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
-    PathFrame brake(std::int32_t line);
+    PathFrame brake();
+    PathPlace place_of_rest(const PathFrame& frame, const Cursor& behind) const;
     void take(Cursor next);
 
     static constexpr int kAttempts = 16;
@@ -72,13 +81,15 @@ private:
 
     const PathSetup& setup_;
     SpeedWindow& window_;
+    const PathTrail& trail_;
     Cursor at_;
     TimedPath path_;
     TimedPath tail_;
-    TimedPath held_tail_;  // of the last frame
+    TimedPath held_tail_;  // of the last frame; its times and ways only are used
     PathFrame last_;
     bool is_traced_ = false;  // path_ begins at the cursor
     bool has_begun_ = false;
+    bool has_made_ = false;
     bool is_done_ = false;
     std::int64_t slowed_ = 0;
     std::int64_t braked_ = 0;

@@ -64,17 +64,24 @@ double IntervalBounds::least_after(double w0) const {
     return w1;
 }
 
-double IntervalBounds::cap() const {
+/// Overrides turn the feed; of rapid moves they turn the speeds that the axes allow, which they never exceed.
+double IntervalBounds::cap(const Overrides& overrides) const {
+    const bool has_feed = piece_.shape.feed_mm_per_tick > 0;
+    if (!has_feed) { return limit(std::min(1.0, overrides.rapid())); }
+    const double feed = piece_.shape.feed_mm_per_tick * overrides.feed();
+    return std::min(feed * feed, limit());
+}
+
+double IntervalBounds::limit(double speed_share) const {
     const Quadratic& shape = piece_.shape;
-    const bool has_feed = shape.feed_mm_per_tick > 0;
-    double w = has_feed ? shape.feed_mm_per_tick * shape.feed_mm_per_tick : kUnbounded;
+    double w = kUnbounded;
     for (std::size_t i = 0; i < setup_.limits.size(); ++i) {
         const AxisLimits& axis = setup_.limits[i];
         const double slope =
             std::max(std::abs(shape.slope_at(i, interval_.from)), std::abs(shape.slope_at(i, interval_.to)));
         double bend = std::abs(shape.bend.begin()[i]);
         if (piece_.is_charged) { bend = std::max(bend, std::abs(piece_.charged.begin()[i])); }
-        const double speed = axis.max_velocity * (shape.is_straight ? 1 : kCurvedSpeedShare);
+        const double speed = axis.max_velocity * speed_share * (shape.is_straight ? 1 : kCurvedSpeedShare);
         if (slope > kNothing) { w = std::min(w, speed * speed / (slope * slope)); }
         if (bend > kNothing) { w = std::min(w, weaker(axis) / bend); }
     }

@@ -15,6 +15,7 @@
 
 #include <span>
 
+#include "core/overrides.hpp"
 #include "core/path/path_setup.hpp"
 #include "core/path/quadratic.hpp"
 
@@ -40,6 +41,7 @@ struct Interval {
     double acceleration = 0;  // mm per tick^2: Straight
     double deceleration = 0;
     double turn = 0;   // at its beginning: the greatest jump of an axis over its start velocity, per mm per tick
+    double joint = 0;  // w that the jump at its beginning allows
     double reach = 0;  // w at its beginning from which all that follows can be kept
 
     double length() const { return to - from; }
@@ -57,8 +59,10 @@ public:
     double after(double w0) const;
     /// The least w at the end that can follow `w0`; below 0: it can come to rest within.
     double least_after(double w0) const;
-    /// The greatest w anywhere in it.
-    double cap() const;
+    /// The greatest w anywhere in it that feed and overrides ask for, and that the axes allow.
+    double cap(const Overrides& overrides) const;
+    /// The greatest w anywhere in it that the axes allow, with a share of their greatest speeds.
+    double limit(double speed_share = 1) const;
 
 private:
     template <typename Visit>

@@ -5,46 +5,62 @@
 namespace lockstep {
 
 PathPlanner::PathPlanner(const PathSetup& setup)
-    : setup_(setup), joiner_(setup_), window_(setup_), frames_(setup_, window_) {}
+    : setup_(setup), joiner_(setup_), window_(setup_), frames_(setup_, window_, trail_) {}
 
 void PathPlanner::begin(std::span<const Position> at) {
-    window_ = SpeedWindow(setup_);
-    frames_.begin(at);
-    pieces_.clear();
+    trail_.clear();
+    ready_ = passed_ = 0;
+    is_finished_ = false;
     at_.clear();
     for (const Position& position : at) { at_.append(position.as_steps()); }
     joiner_.begin(at_);
+    resume({}, at);
 }
 
-void PathPlanner::line(const PathLine& line, const MoveSettings& settings, std::int32_t number) {
+void PathPlanner::resume(const PathPlace& place, std::span<const Position> at) {
+    begins_.clear();
+    frames_.begin(at);
+    seek(place);
+}
+
+/// The window is filled anew, from a place on.
+void PathPlanner::seek(const PathPlace& place) {
+    start_ = place;
+    is_sought_ = true;
+    window_ = SpeedWindow(setup_, overrides_);
+    pass_on(ready_);
+    if (is_finished_) { window_.finish(); }
+}
+
+void PathPlanner::line(const PathLine& line, const MoveSettings& settings, std::uint32_t block) {
     at_ = setup_.to_steps(line.to_mm);
-    joiner_.add(at_, settings, number, pieces_);
-    pass_on();
-    if (settings.mode == PathMode::ExactStop) { rest(kLeastRest, number); }
+    joiner_.add(at_, settings, block, trail_);
+    settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
 }
 
 std::expected<void, std::string> PathPlanner::arc(const PathArc& arc, const MoveSettings& settings,
-                                                  std::int32_t number) {
-    joiner_.finish(at_, pieces_);
-    pass_on();
-    if (auto cut = cut_arc(setup_, arc, at_, settings, number, pieces_); !cut) { return cut; }
+                                                  std::uint32_t block) {
+    joiner_.finish(at_, trail_);
+    pass_on_but_last();
+    if (auto cut = cut_arc(setup_, arc, at_, settings, block, trail_); !cut) { return cut; }
     at_ = setup_.to_steps(arc.to_mm);
     joiner_.begin(at_);
-    pass_on();
-    if (settings.mode == PathMode::ExactStop) { rest(kLeastRest, number); }
+    settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
     return {};
 }
 
-void PathPlanner::rest(Ticks ticks, std::int32_t number) {
+void PathPlanner::rest(Ticks ticks, std::uint32_t block) {
     come_to_rest();
     Quadratic rest{.from = at_, .slope = zeros(at_.size()), .bend = zeros(at_.size())};
     rest.rest = std::max(ticks, kLeastRest);
-    rest.line = number;
-    window_.add(rest);
+    trail_.add_rest(rest, block);
+    pass_on(trail_.end());
 }
 
 void PathPlanner::finish() {
     come_to_rest();
+    pass_on(trail_.end());
+    is_finished_ = true;
     window_.finish();
 }
 
@@ -52,24 +68,58 @@ void PathPlanner::finish() {
 void PathPlanner::come_to_rest() {
     AxisVector end = at_;
     for (double& steps : end) { steps = std::round(steps); }
-    joiner_.finish(end, pieces_);
+    joiner_.finish(end, trail_);
     at_ = end;
-    if (pieces_.empty()) { return; }
-    Quadratic& last = pieces_.back();
+    if (trail_.end() == ready_) { return; }
+    Quadratic& last = trail_.back();
     bool moves = false;
     for (std::size_t i = 0; i < end.size(); ++i) {
         last.slope[i] = (end[i] - last.from[i]) / last.length;
         moves = moves || last.slope[i] != 0;
     }
-    if (!moves) { pieces_.pop_back(); }
-    for (const Quadratic& piece : pieces_) { window_.add(piece); }
-    pieces_.clear();
+    if (!moves) { trail_.pop_back(); }
 }
 
-void PathPlanner::pass_on() {
-    if (pieces_.size() < 2) { return; }
-    for (std::size_t k = 0; k + 1 < pieces_.size(); ++k) { window_.add(pieces_[k]); }
-    pieces_.erase(pieces_.begin(), pieces_.end() - 1);
+void PathPlanner::pass_on_but_last() {
+    if (trail_.end() > ready_) { pass_on(trail_.end() - 1); }
+}
+
+/// Before the place where the path goes on nothing is kept.
+void PathPlanner::pass_on(std::size_t ready) {
+    ready_ = ready;
+    if (is_sought_) {
+        const auto spot = trail_.spot_of(start_);
+        passed_ = spot ? spot->piece : ready;
+        if (!spot) { return trail_.drop_before(ready); }
+        window_ = SpeedWindow(setup_, overrides_, *spot);
+        is_sought_ = false;
+    }
+    for (; passed_ < ready; ++passed_) { window_.add(trail_.piece(passed_)); }
+}
+
+bool PathPlanner::turn(const Overrides& overrides) {
+    if (frames_.has_made()) {
+        if (!frames_.turn(overrides)) { return false; }
+        overrides_ = overrides;
+        return true;
+    }
+    overrides_ = overrides;
+    frames_.restart();
+    seek(start_);
+    return true;
+}
+
+std::expected<std::optional<PathFrame>, PathStuck> PathPlanner::next() {
+    auto frame = frames_.next();
+    if (frame && *frame) { remember(**frame); }
+    return frame;
+}
+
+void PathPlanner::remember(const PathFrame& frame) {
+    begins_.push_back(trail_.spot_of(frame.begin)->piece);
+    if (begins_.size() <= kFramesKept) { return; }
+    begins_.pop_front();
+    trail_.drop_before(begins_.front());
 }
 
 }  // namespace lockstep

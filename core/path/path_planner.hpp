@@ -1,17 +1,19 @@
 // From a program's moves to frames: geometry, look-ahead and fit in time, as a stream.
 //
 // Moves go in with line(), arc(), rest() and finish(); frames come out of next(). Memory depends on the distance to
-// stop, not on the program's length. The frames do not depend on when moves went in, only on where finish() was called.
+// stop, not on the program's length. The frames do not depend on when moves went in, only on where finish() was called
+// and behind which frames the machine was resumed or the overrides were turned.
 #pragma once
 
+#include <deque>
 #include <expected>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/path/arc_cutter.hpp"
 #include "core/path/chord_joiner.hpp"
 #include "core/path/frame_planner.hpp"
+#include "core/path/path_trail.hpp"
 
 namespace lockstep {
 
@@ -23,35 +25,59 @@ public:
 
     /// The axes rest at `at`.
     void begin(std::span<const Position> at);
+    /// The axes rest at `at`, where one of the last kFramesKept frames rests, or where the path begins. The next frame
+    /// goes on from there.
+    ///
+    /// A planner that was begun where the first of the stream's moves begins, and then gets these moves, goes on in the
+    /// same way from any place: it makes no frames up to there.
+    void resume(const PathPlace& place, std::span<const Position> at);
 
-    void line(const PathLine& line, const MoveSettings& settings, std::int32_t number);
+    /// `block`: the move's number in its program; they ascend.
+    void line(const PathLine& line, const MoveSettings& settings, std::uint32_t block);
     /// Error: the arc has no radius.
-    std::expected<void, std::string> arc(const PathArc& arc, const MoveSettings& settings, std::int32_t number);
+    std::expected<void, std::string> arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block);
     /// The machine rests on whole steps for so long, at least for kLeastRest.
-    void rest(Ticks ticks, std::int32_t number);
+    void rest(Ticks ticks, std::uint32_t block);
     /// The machine comes to rest on whole steps at the end of what was given.
     void finish();
 
+    /// New overrides, from the next node of the path behind the last frame. False: the axes cannot follow from there,
+    /// so that the ones before still hold. Behind a later frame they may.
+    bool turn(const Overrides& overrides);
+    const Overrides& overrides() const { return overrides_; }
+
     /// The next frame; nothing while too few moves are known. Not after the last one.
-    std::expected<std::optional<PathFrame>, PathStuck> next() { return frames_.next(); }
+    std::expected<std::optional<PathFrame>, PathStuck> next();
     bool is_done() const { return frames_.is_done(); }
     std::int64_t slowed() const { return frames_.slowed(); }
     std::int64_t braked() const { return frames_.braked(); }
-    /// Intervals that wait for their frames: what memory depends on.
+    /// Intervals that wait for their frames, and pieces that are kept: what memory depends on.
     std::size_t waiting() const { return window_.end() - window_.first(); }
+    std::size_t kept() const { return trail_.end() - trail_.first(); }
 
     static constexpr Ticks kLeastRest{64};
+    static constexpr std::size_t kFramesKept = 64;  // far more frames than can be in flight
 
 private:
+    void seek(const PathPlace& place);
     void come_to_rest();
-    void pass_on();
+    void pass_on(std::size_t ready);
+    void pass_on_but_last();
+    void remember(const PathFrame& frame);
 
     PathSetup setup_;
+    Overrides overrides_;
     ChordJoiner joiner_;
+    PathTrail trail_;
     SpeedWindow window_;
     FramePlanner frames_;
-    AxisVector at_;                  // where the last move ends, steps
-    std::vector<Quadratic> pieces_;  // made and not passed on: the last one, whose end may have to be a whole step
+    AxisVector at_;           // where the last move ends, steps
+    PathPlace start_;         // where the path goes on,
+    bool is_sought_ = false;  // which is not known on the geometry yet
+    std::size_t ready_ = 0;   // pieces that do not change: the last one's end may have to be a whole step
+    std::size_t passed_ = 0;  // and that the window has
+    bool is_finished_ = false;
+    std::deque<std::size_t> begins_;  // the pieces in which the last frames begin
 };
 
 }  // namespace lockstep

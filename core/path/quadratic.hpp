@@ -6,8 +6,6 @@
 // mm up to the square of a small angle).
 #pragma once
 
-#include <cstdint>
-
 #include "core/path/axis_vector.hpp"
 #include "core/units.hpp"
 
@@ -21,7 +19,6 @@ struct Quadratic {
     double feed_mm_per_tick = 0;  // 0: as fast as the axes allow
     bool is_straight = true;      // bend is 0
     Ticks rest;                   // where length is 0: how long
-    std::int32_t line = 0;        // of the program, in which it begins
 
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;

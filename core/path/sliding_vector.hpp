@@ -18,6 +18,9 @@ public:
     T& back() { return items_.back(); }
     const T& back() const { return items_.back(); }
     void push_back(const T& value) { items_.push_back(value); }
+    void insert(std::size_t at, const T& value) { items_.insert(items_.begin() + place(at), value); }
+    /// Drops what is behind the first `size` elements.
+    void truncate(std::size_t size) { items_.erase(items_.begin() + place(size), items_.end()); }
 
     /// Moves the others down only when half of the memory is unused: amortized constant work for each element.
     void drop_front(std::size_t count) {
@@ -32,6 +35,8 @@ public:
     }
 
 private:
+    std::ptrdiff_t place(std::size_t i) const { return static_cast<std::ptrdiff_t>(first_ + i); }
+
     std::vector<T> items_;
     std::size_t first_ = 0;
 };

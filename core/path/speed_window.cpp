@@ -9,21 +9,20 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kNothing = 1e-12;        // steps per mm
-constexpr double kMost = 1e6;             // w where nothing moves
 constexpr double kStopShare = 0.8;        // of the start velocity, where the path begins or ends: joints follow
 constexpr double kRestShare = 0.4;        // where it rests for a short time: two jumps follow each other
 constexpr std::size_t kChargedParts = 4;  // a straight piece whose joints are paid for needs nodes to change speed at
 
 double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
 
-/// The angle by which a piece turns, rad.
-double turn_of(const Quadratic& piece, std::span<const double> steps_per_mm) {
+/// The angle by which a piece turns over `length`, rad.
+double turn_of(const Quadratic& piece, double length, std::span<const double> steps_per_mm) {
     double square = 0;
     for (std::size_t i = 0; i < steps_per_mm.size(); ++i) {
         const double bend = piece.bend.begin()[i] / steps_per_mm[i];
         square += bend * bend;
     }
-    return std::sqrt(square) * piece.length;
+    return std::sqrt(square) * length;
 }
 
 }  // namespace
@@ -35,14 +34,18 @@ void SpeedWindow::add(const Quadratic& piece) {
 }
 
 void SpeedWindow::finish() {
+    close_end();
+    look_ahead();
+    final_ = end();
+}
+
+void SpeedWindow::close_end() {
     if (pending_) {
         end_cap_ = joint(&*pending_, nullptr).cap;
         close_pending(nullptr);
     }
     pending_.reset();
     is_finished_ = true;
-    look_ahead();
-    final_ = end();
 }
 
 /// Of the ends of two pieces; null: the machine rests there.
@@ -52,7 +55,8 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
     const bool is_rest = (before != nullptr && before->length == 0) || (after != nullptr && after->length == 0);
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
-        const double t1 = after == nullptr || after->length == 0 ? 0 : after->slope_at(i, 0);
+        const double t1 =
+            after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? begin_u_ : 0);
         const double jump = std::abs(t1 - t0);
         if (jump < kNothing) { continue; }
         const double start = setup_.limits[i].start_velocity;
@@ -91,42 +95,57 @@ struct SpeedWindow::FastPassage {
 
 /// Jumps from and to rest stand alone. Of the others, each piece recovers half of those at its ends, so that they never
 /// add up to more than one. Where it is too short for that, what its joints turn counts as bend, spread over the piece.
-void SpeedWindow::charge(JoinedPiece& piece, const Joint& begin, const Joint& end, const Quadratic* next) const {
+void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
     const Quadratic& shape = piece.shape;
-    const Interval whole{.kind = IntervalKind::Curved, .to = shape.length};
-    const double top = IntervalBounds(setup_, piece, whole).cap();
+    const Interval whole{.kind = IntervalKind::Curved, .from = before == nullptr ? begin_u_ : 0, .to = shape.length};
+    const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     double path_acceleration = kUnbounded;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
     }
-    const FastPassage fast(std::min(begin.cap, top), std::min(end.cap, top), top, path_acceleration, shape.length);
-    const bool follows = before_ && before_->length > 0;
+    const double w0 = std::min(joint(before, &shape).cap, top);
+    const double w1 = std::min(joint(&shape, next).cap, top);
+    const FastPassage fast(w0, w1, top, path_acceleration, whole.length());
+    const bool follows = before != nullptr && before->length > 0;
     const bool goes_on = next != nullptr && next->length > 0;
     piece.charged = shape.bend;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
-        const double turn0 = follows ? shape.slope_at(i, 0) - before_->slope_at(i, before_->length) : 0;
+        const double turn0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
         const double turn1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
         const double jumps = (turn0 * fast.v0 + turn1 * fast.v1) / 2;
         const double recovered =
             shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
         if (std::abs(jumps) > recovered) { piece.is_charged = true; }
-        piece.charged[i] += (turn0 + turn1) / (2 * shape.length);
+        piece.charged[i] += (turn0 + turn1) / (2 * whole.length());
     }
 }
 
 void SpeedWindow::close_pending(const Quadratic* next) {
+    if (is_passed(*pending_, next)) {
+        begin_u_ = 0;
+        ++first_piece_;
+        return;
+    }
     JoinedPiece piece{.shape = *pending_};
-    const Joint begin = joint(before_ ? &*before_ : nullptr, &*pending_);
-    if (piece.shape.length > 0) { charge(piece, begin, joint(&*pending_, next), next); }
-    cut_piece(piece, begin);
+    if (piece.shape.length > 0) { charge(piece, before(), next); }
+    cut_piece(piece, joint(before(), &*pending_));
     before_ = pending_;
+}
+
+/// The path begins at the end of the piece. Where the machine is to rest there, the last bit of it counts.
+bool SpeedWindow::is_passed(const Quadratic& piece, const Quadratic* next) const {
+    if (before_ || piece.length == 0) { return false; }
+    const bool goes_on = next != nullptr && next->length > 0;
+    return piece.length - begin_u_ <= (goes_on ? kLeastBegin_mm : 0);
 }
 
 void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin) {
     const Quadratic& shape = piece.shape;
+    const double from = before_ ? 0 : begin_u_;
+    const double length = shape.length - from;
     pieces_.push_back(piece);
-    Interval part{.piece = first_piece_ + pieces_.size() - 1, .turn = begin.turn};
+    Interval part{.piece = first_piece_ + pieces_.size() - 1, .turn = begin.turn, .joint = begin.cap};
     double cap = begin.cap;
     std::size_t parts = 1;
     if (shape.length == 0) {
@@ -141,22 +160,35 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin) {
             part.deceleration = std::min(part.deceleration, setup_.limits[i].max_deceleration / slope);
         }
     } else {
-        const double by_length = shape.length / kMaxInterval_mm;
-        const double by_turn = turn_of(shape, setup_.steps_per_mm) / kMaxTurn;
+        const double by_length = length / kMaxInterval_mm;
+        const double by_turn = turn_of(shape, length, setup_.steps_per_mm) / kMaxTurn;
         parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
         if (shape.is_straight) { parts = std::max(parts, kChargedParts); }
     }
     for (std::size_t k = 0; k < parts; ++k) {
-        part.from = shape.length * static_cast<double>(k) / static_cast<double>(parts);
+        part.from = from + length * static_cast<double>(k) / static_cast<double>(parts);
         part.to =
-            k + 1 == parts ? shape.length : shape.length * static_cast<double>(k + 1) / static_cast<double>(parts);
-        part.top = part.kind == IntervalKind::Rest ? kMost : IntervalBounds(setup_, piece, part).cap();
+            k + 1 == parts ? shape.length : from + length * static_cast<double>(k + 1) / static_cast<double>(parts);
+        part.top = part.kind == IntervalKind::Rest ? kMost : IntervalBounds(setup_, piece, part).cap(overrides_);
         part.cap = std::min(cap, part.top);
         if (k == 0 && !intervals_.empty()) { part.cap = std::min(part.cap, intervals_.back().top); }
         intervals_.push_back(part);
         cap = part.top;
         part.turn = 0;
+        part.joint = kMost;
     }
+}
+
+std::size_t SpeedWindow::interval_at(const PathSpot& spot) const {
+    std::size_t low = first_;
+    std::size_t high = end();
+    while (high - low > 1) {
+        const std::size_t middle = (low + high) / 2;
+        const Interval& part = interval(middle);
+        const bool is_behind = part.piece > spot.piece || (part.piece == spot.piece && part.from > spot.u);
+        (is_behind ? high : low) = middle;
+    }
+    return low;
 }
 
 double SpeedWindow::reach_behind(std::size_t number) const {
@@ -191,6 +223,7 @@ void SpeedWindow::cut(std::size_t number, double u, double w) {
     part.from = u;
     part.cap = part.reach = w;
     part.turn = 0;
+    part.joint = kMost;
 }
 
 void SpeedWindow::lower(std::size_t number, double cap) {
@@ -205,7 +238,7 @@ void SpeedWindow::lower(std::size_t number, double cap) {
 void SpeedWindow::drop_before(std::size_t number) {
     const std::size_t piece = number < end() ? interval(number).piece : first_piece_ + pieces_.size();
     intervals_.drop_front(number - first_);
-    while (first_piece_ < piece) {
+    while (first_piece_ + 1 < piece) {  // may_rise looks back at the piece before
         pieces_.pop_front();
         ++first_piece_;
     }

@@ -15,13 +15,16 @@
 #include <optional>
 
 #include "core/path/interval.hpp"
+#include "core/path/path_trail.hpp"
 #include "core/path/sliding_vector.hpp"
 
 namespace lockstep {
 
 class SpeedWindow {
 public:
-    explicit SpeedWindow(const PathSetup& setup) : setup_(setup) {}
+    /// The path begins at rest at `begin`, on the first piece that is added.
+    explicit SpeedWindow(const PathSetup& setup, const Overrides& overrides = {}, const PathSpot& begin = {})
+        : setup_(setup), overrides_(overrides), begin_u_(begin.u), first_piece_(begin.piece) {}
 
     /// A piece that begins where the last one ends; length 0: a rest.
     void add(const Quadratic& piece);
@@ -34,6 +37,8 @@ public:
     std::size_t end() const { return first_ + intervals_.size(); }
     std::size_t known() const;
     const Interval& interval(std::size_t number) const { return intervals_[number - first_]; }
+    /// The interval in which a spot is.
+    std::size_t interval_at(const PathSpot& spot) const;
     const JoinedPiece& piece_of(const Interval& part) const { return pieces_[part.piece - first_piece_]; }
     const Quadratic& shape_of(const Interval& part) const { return piece_of(part).shape; }
     IntervalBounds bounds(const Interval& part) const { return {setup_, piece_of(part), part}; }
@@ -48,6 +53,11 @@ public:
     void update(std::size_t first, std::size_t last);
     /// Forgets what is before an interval.
     void drop_before(std::size_t number);
+    /// New overrides, from an interval's end where it `is_under_way`, else from its beginning; `w` is the speed there.
+    /// Speeds that the hardest braking from there passes are allowed. A piece that was begun gets faster only if it can
+    /// still recover the jumps at its ends. False, and the window is of no use: the axes cannot follow, or too little
+    /// of the path is known to say.
+    bool turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
 
     static constexpr double kJointShare = 0.975;  // of the start velocity
     static constexpr double kMaxInterval_mm = 0.25;
@@ -61,13 +71,23 @@ private:
     };
     struct FastPassage;
 
+    const Quadratic* before() const { return before_ ? &*before_ : nullptr; }
     void close_pending(const Quadratic* next);
+    void close_end();
+    bool is_passed(const Quadratic& piece, const Quadratic* next) const;
     Joint joint(const Quadratic* before, const Quadratic* after) const;
-    void charge(JoinedPiece& piece, const Joint& begin, const Joint& end, const Quadratic* next) const;
+    void charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
     void cut_piece(const JoinedPiece& piece, const Joint& begin);
     void look_ahead();
+    bool may_rise(std::size_t piece) const;
+    void turn_piece(std::size_t number, bool is_under_way);
+    void recut_behind(std::size_t piece);
+    bool allow_braking(std::size_t number, double w);
+    bool split_braking(std::size_t number, double w);
 
     PathSetup setup_;
+    Overrides overrides_;
+    double begin_u_ = 0;              // of the first piece: where the path begins
     std::deque<JoinedPiece> pieces_;  // phases refer to them
     SlidingVector<Interval> intervals_;
     std::size_t first_ = 0;
@@ -80,6 +100,8 @@ private:
     bool is_finished_ = false;
 
     static constexpr std::size_t kLeastPass = 32;
+    static constexpr double kMost = 1e6;            // w where nothing moves
+    static constexpr double kLeastBegin_mm = 1e-9;  // less of the first piece than that is left out
 };
 
 }  // namespace lockstep

@@ -35,42 +35,58 @@ void TimedPath::add_phase(const PathPhase& phase) {
 }
 
 /// The speed's square changes steadily from w0 to w1 over `mm`.
-void TimedPath::add(const Quadratic& shape, std::size_t number, double mm, double u, double w0, double w1) {
+void TimedPath::add(PathPhase phase, double mm, double u, double w0, double w1) {
     if (mm <= 0) { return; }
-    const double v0 = std::sqrt(w0);
+    phase.u = u;
+    phase.v = std::sqrt(w0);
     const double v1 = std::sqrt(w1);
-    const double ticks = 2 * mm / (v0 + v1);
-    add_phase({.shape = &shape, .interval = number, .ticks = ticks, .u = u, .v = v0, .a = (v1 - v0) / ticks});
+    phase.ticks = 2 * mm / (phase.v + v1);
+    phase.a = (v1 - phase.v) / phase.ticks;
+    add_phase(phase);
 }
 
 void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, w1, phases_.size()});
-    stop_ = {.shape = &shape, .interval = number, .ticks = 0x1p40, .u = part.to};
+    const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};
+    stop_ = here;
+    stop_.ticks = 0x1p40;
+    stop_.u = part.to;
     breaks_ = part.turn * std::sqrt(w0) > kBreak || part.kind == IntervalKind::Rest;
     if (part.kind == IntervalKind::Rest) {
-        add_phase({.shape = &shape, .interval = number, .ticks = static_cast<double>(shape.rest.value)});
+        PathPhase rest = here;
+        rest.ticks = static_cast<double>(shape.rest.value);
+        add_phase(rest);
         breaks_ = true;
         return;
     }
     const double mm = part.length();
-    if (part.kind == IntervalKind::Curved) { return add(shape, number, mm, part.from, w0, w1); }
+    if (part.kind == IntervalKind::Curved) { return add(here, mm, part.from, w0, w1); }
     const double up = part.acceleration;
     const double down = part.deceleration;
     const double peak = (2 * up * down * mm + down * w0 + up * w1) / (up + down);
     const double top = std::max({std::min(peak, part.top), w0, w1});
     const double rise = std::min((top - w0) / (2 * up), mm);
     const double fall = std::min((top - w1) / (2 * down), mm - rise);
-    add(shape, number, rise, part.from, w0, top);
-    add(shape, number, mm - rise - fall, part.from + rise, top, top);
-    add(shape, number, fall, part.to - fall, top, w1);
+    add(here, rise, part.from, w0, top);
+    add(here, mm - rise - fall, part.from + rise, top, top);
+    add(here, fall, part.to - fall, top, w1);
 }
 
 void TimedPath::brake(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, 0, phases_.size()});
     breaks_ = part.turn * std::sqrt(w0) > kBreak;
     const double mm = w0 > 0 ? part.length() * w0 / (w0 - w1) : 0;
-    stop_ = {.shape = &shape, .interval = number, .ticks = 0x1p40, .u = part.from + mm};
-    add(shape, number, mm, part.from, w0, 0);
+    const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};
+    stop_ = here;
+    stop_.ticks = 0x1p40;
+    stop_.u = part.from + mm;
+    add(here, mm, part.from, w0, 0);
+}
+
+PathSpot TimedPath::spot_at(double t) const {
+    std::size_t k = 0;
+    while (k + 1 < phases_.size() && phases_[k].end() <= t) { ++k; }
+    return {phases_[k].piece, phases_[k].along(t)};
 }
 
 void TimedPath::shift(Ticks ticks) {

@@ -11,6 +11,7 @@ namespace lockstep {
 struct PathPhase {
     const Quadratic* shape = nullptr;
     std::size_t interval = 0;  // its number
+    std::size_t piece = 0;     // and its piece's
     double begin = 0;          // ticks
     double ticks = 0;
     double u = 0;         // mm, at its beginning
@@ -51,11 +52,15 @@ public:
 
     /// Behind the last interval, or when it came to rest.
     double end() const { return end_; }
+    /// Where that is on the geometry.
+    PathSpot end_spot() const { return {stop_.piece, stop_.u}; }
+    /// At a time within the phases.
+    PathSpot spot_at(double t) const;
     const std::vector<PathPhase>& phases() const { return phases_; }
     const std::vector<Passage>& passages() const { return passages_; }
 
 private:
-    void add(const Quadratic& shape, std::size_t number, double mm, double u, double w0, double w1);
+    void add(PathPhase phase, double mm, double u, double w0, double w1);
     void add_phase(const PathPhase& phase);
 
     static constexpr double kBreak = 0.05;  // of the start velocity: a greater jump is not passed over

@@ -68,14 +68,14 @@ constexpr MoveSettings kSettings{.feed_mm_per_tick = 100e-6};
 void Geometry(benchmark::State& state) {
     const auto places = program(static_cast<Kind>(state.range(0)));
     const PathSetup setup = mill();
-    std::vector<Quadratic> pieces;
     for (auto _ : state) {
+        PathTrail trail;
         ChordJoiner joiner(setup);
         joiner.begin(zeros(3));
         for (const auto& place : places) {
-            joiner.add(setup.to_steps(place), kSettings, 1, pieces);
-            benchmark::DoNotOptimize(pieces.data());
-            pieces.clear();
+            joiner.add(setup.to_steps(place), kSettings, 1, trail);
+            benchmark::DoNotOptimize(trail.end());
+            trail.drop_before(trail.end());
         }
     }
     per_line(state);
@@ -85,15 +85,15 @@ BENCHMARK(Geometry)->Name("path/geometry")->DenseRange(0, 4)->Unit(benchmark::kM
 void LookAhead(benchmark::State& state) {
     const auto places = program(static_cast<Kind>(state.range(0)));
     const PathSetup setup = mill();
-    std::vector<Quadratic> pieces;
     for (auto _ : state) {
+        PathTrail trail;
         ChordJoiner joiner(setup);
         SpeedWindow window(setup);
         joiner.begin(zeros(3));
         for (const auto& place : places) {
-            joiner.add(setup.to_steps(place), kSettings, 1, pieces);
-            for (const Quadratic& piece : pieces) { window.add(piece); }
-            pieces.clear();
+            joiner.add(setup.to_steps(place), kSettings, 1, trail);
+            for (std::size_t k = trail.first(); k < trail.end(); ++k) { window.add(trail.piece(k)); }
+            trail.drop_before(trail.end());
             window.drop_before(window.known());
         }
         benchmark::DoNotOptimize(window.end());
@@ -109,9 +109,9 @@ void Frames(benchmark::State& state) {
     for (auto _ : state) {
         PathPlanner planner(setup);
         planner.begin(std::vector<Position>(3));
-        std::int32_t line = 0;
+        std::uint32_t block = 0;
         for (const auto& place : places) {
-            planner.line({place}, kSettings, ++line);
+            planner.line({place}, kSettings, ++block);
             while (true) {
                 const auto frame = planner.next();
                 if (!frame || !*frame) { break; }

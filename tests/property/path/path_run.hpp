@@ -76,8 +76,9 @@ struct TestProgram {
 
 struct PathRun {
     std::vector<PathFrame> frames;
-    std::int64_t slowed = 0;  // frames made again
-    std::int64_t braked = 0;  // frames that go along a tail
+    std::vector<Position> from;  // where it begins; empty: at 0
+    std::int64_t slowed = 0;     // frames made again
+    std::int64_t braked = 0;     // frames that go along a tail
     std::size_t most_waiting = 0;
 
     double seconds() const {
@@ -95,7 +96,7 @@ struct PathRun {
 inline void drain(PathPlanner& planner, PathRun& run) {
     while (!planner.is_done()) {
         auto frame = planner.next();
-        ASSERT_TRUE(frame) << "stuck in line " << frame.error().line;
+        ASSERT_TRUE(frame) << "stuck in block " << frame.error().at.block;
         if (!*frame) { break; }
         run.frames.push_back(std::move(**frame));
     }
@@ -113,7 +114,7 @@ inline PathRun run_path(
     PathRun run;
     for (std::size_t k = 0; k < program.moves.size(); ++k) {
         const TestMove& move = program.moves[k];
-        planner.line({move.to}, move.settings, static_cast<std::int32_t>(k + 1));
+        planner.line({move.to}, move.settings, static_cast<std::uint32_t>(k + 1));
         if (drains(k)) { drain(planner, run); }
     }
     planner.finish();
@@ -169,7 +170,7 @@ private:
 inline void expect_within_limits(const PathSetup& setup, const PathRun& run) {
     for (std::size_t i = 0; i < setup.axes(); ++i) {
         SpeedWatch watch(setup.limits[i]);
-        Position at;
+        Position at = run.from.empty() ? Position{} : run.from[i];
         for (std::size_t k = 0; k < run.frames.size(); ++k) {
             const PathFrame& frame = run.frames[k];
             const AxisTrack& track = frame.axes[i];

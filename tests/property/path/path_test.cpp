@@ -1,67 +1,18 @@
 // What every planned path keeps: the limits of the axes, the program within a step, and exact ends.
-#include "tests/property/path/path_run.hpp"
+#include "tests/property/path/random_path.hpp"
 
 namespace lockstep {
 namespace {
 
-std::vector<TestAxis> random_axes(Random& random, std::size_t count) {
-    std::vector<TestAxis> axes;
-    for (std::size_t i = 0; i < count; ++i) {
-        TestAxis axis{log_uniform(random, 20, 800), log_uniform(random, 0.5, 15), log_uniform(random, 20, 200),
-                      log_uniform(random, 200, 8000), 0};
-        axis.deceleration = random() % 2 == 0 ? axis.acceleration : log_uniform(random, 200, 8000);
-        axes.push_back(axis);
-    }
-    return axes;
-}
-
-double thousandth(double mm) { return std::round(mm * 1000) / 1000; }
-
-/// Moves in all directions, of all lengths; or a winding line of short chords.
-TestProgram random_program(Random& random, std::size_t axes, bool winds) {
-    TestProgram program;
-    Place at(axes, 0);
-    double heading = 0;
-    double feed = log_uniform(random, 5, 200);
-    for (int k = 0; k < (winds ? 1500 : 150); ++k) {
-        if (random() % 50 == 0) { feed = log_uniform(random, 5, 200); }
-        const double length = winds ? 0.03 : log_uniform(random, 0.02, 20);
-        heading += uniform(random, -0.1, 0.1);
-        for (std::size_t i = 0; i < axes; ++i) {
-            const double part = winds ? std::cos(heading + static_cast<double>(i)) : uniform(random, -1, 1);
-            at[i] = thousandth(at[i] + part * length);
-        }
-        program.add(at, feed);
-        MoveSettings& settings = program.moves.back().settings;
-        if (random() % 40 == 0) { settings.mode = PathMode::ExactStop; }
-        if (random() % 20 == 0) { settings.mode = PathMode::ExactPath; }
-        if (random() % 100 == 0) { settings.feed_mm_per_tick = 0; }
-    }
-    return program;
-}
-
-struct Case {
-    PathSetup setup;
-    TestProgram program;
-};
-
-Case random_case(std::uint64_t seed) {
-    Random random(seed);
-    const std::size_t axes = 1 + random() % 4;
-    const Ticks frame{random() % 3 == 0 ? 5'000 : 230'000};
-    const PathSetup setup = setup_of(random_axes(random, axes), frame);
-    return {setup, random_program(random, axes, random() % 2 == 0)};
-}
-
 class RandomPath : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomPath, KeepsTheLimitsOfEveryAxisInFramesAndTails) {
-    const Case c = random_case(GetParam());
+    const RandomCase c = random_case(GetParam());
     expect_within_limits(c.setup, run_path(c.setup, c.program));
 }
 
 TEST_P(RandomPath, FollowsTheProgramWithinHalfAStepAndEndsExactly) {
-    const Case c = random_case(GetParam());
+    const RandomCase c = random_case(GetParam());
     const PathRun run = run_path(c.setup, c.program);
     const std::vector<Place> polyline = c.program.polyline(c.setup);
     const std::vector<Place> places = samples_of(run, 4'000);
@@ -73,13 +24,13 @@ TEST_P(RandomPath, FollowsTheProgramWithinHalfAStepAndEndsExactly) {
 
 /// What pulses add is half a step more.
 TEST_P(RandomPath, ComesWithinAStepOfEveryProgrammedPlace) {
-    const Case c = random_case(GetParam());
+    const RandomCase c = random_case(GetParam());
     EXPECT_EQ(first_astray(c.program.polyline(c.setup), samples_of(run_path(c.setup, c.program), 200), 1.0),
               std::nullopt);
 }
 
 TEST_P(RandomPath, DoesNotDependOnWhenMovesArrive) {
-    const Case c = random_case(GetParam());
+    const RandomCase c = random_case(GetParam());
     Random random(GetParam());
     const PathRun one_by_one = run_path(c.setup, c.program);
     const PathRun all = run_path(c.setup, c.program, [](std::size_t) { return false; });
@@ -94,7 +45,7 @@ TEST_P(RandomPath, DoesNotDependOnWhenMovesArrive) {
 }
 
 TEST_P(RandomPath, HasTailsThatEndOnThePath) {
-    const Case c = random_case(GetParam());
+    const RandomCase c = random_case(GetParam());
     const PathRun run = run_path(c.setup, c.program);
     const std::vector<Place> polyline = c.program.polyline(c.setup);
     const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 40);
@@ -145,7 +96,7 @@ TEST(PathFrames, AreSlowedDownWhereTheyHaveNoRoomForTheirPieces) {
 
 /// The frames of this case are so short that slowing down comes too late in a few of them.
 TEST(PathFrames, GoAlongTheTailBeforeWhereNothingElseKeepsTheLimits) {
-    Case c = random_case(22);
+    RandomCase c = random_case(22);
     c.setup.frame_ticks = Ticks{5'000};
     const PathRun run = run_path(c.setup, c.program);
     EXPECT_GT(run.braked, 0);
@@ -159,15 +110,18 @@ TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
     planner.begin(std::vector<Position>(3));
     PathRun run;
     std::size_t waiting = 0;
-    for (int k = 1; k <= 100'000; ++k) {
+    std::size_t kept = 0;
+    for (std::uint32_t k = 1; k <= 100'000; ++k) {
         const double angle = 0.0005 * k;
         planner.line({{20 * std::sin(angle), 20 - 20 * std::cos(angle), 0.5 * std::sin(3 * angle)}},
                      {.feed_mm_per_tick = 100e-6}, k);
         run.frames.clear();
         ASSERT_NO_FATAL_FAILURE(drain(planner, run));
         waiting = std::max(waiting, planner.waiting());
+        kept = std::max(kept, planner.kept());
     }
     EXPECT_LT(waiting, 500U);
+    EXPECT_LT(kept, 2'000U);
 }
 
 }  // namespace

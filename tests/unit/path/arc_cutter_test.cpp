@@ -35,8 +35,10 @@ Shape shape_of(const std::vector<Quadratic>& pieces, double x, double y, double 
 }
 
 std::vector<Quadratic> cut(const PathArc& arc, const std::vector<double>& from_mm) {
+    PathTrail trail;
+    EXPECT_TRUE(cut_arc(mill(), arc, mill().to_steps(from_mm), {}, 1, trail));
     std::vector<Quadratic> pieces;
-    EXPECT_TRUE(cut_arc(mill(), arc, mill().to_steps(from_mm), {}, 1, pieces));
+    for (std::size_t k = 0; k < trail.end(); ++k) { pieces.push_back(trail.piece(k)); }
     return pieces;
 }
 
@@ -85,8 +87,8 @@ TEST(ArcCutter, SpiralsWhereTheRadiiDiffer) {
 }
 
 TEST(ArcCutter, RefusesAnArcWithoutARadius) {
-    std::vector<Quadratic> pieces;
-    EXPECT_FALSE(cut_arc(mill(), {.to_mm = {1, 0, 0}}, mill().to_steps(std::vector<double>{0, 0, 0}), {}, 1, pieces));
+    PathTrail trail;
+    EXPECT_FALSE(cut_arc(mill(), {.to_mm = {1, 0, 0}}, mill().to_steps(std::vector<double>{0, 0, 0}), {}, 1, trail));
 }
 
 }  // namespace

@@ -14,14 +14,24 @@ struct Chords {
     MoveSettings settings;
 };
 
-std::vector<Quadratic> join(const Chords& chords) {
-    ChordJoiner joiner(plane());
-    joiner.begin(zeros(2));
+std::vector<Quadratic> pieces_of(const PathTrail& trail) {
     std::vector<Quadratic> pieces;
-    for (const auto& [x, y] : chords.to_mm) { joiner.add({x * 80, y * 80}, chords.settings, 1, pieces); }
-    joiner.finish(joiner.at(), pieces);
+    for (std::size_t k = 0; k < trail.end(); ++k) { pieces.push_back(trail.piece(k)); }
     return pieces;
 }
+
+/// Chord k has block k.
+PathTrail trail_of(const Chords& chords) {
+    ChordJoiner joiner(plane());
+    joiner.begin(zeros(2));
+    PathTrail trail;
+    std::uint32_t block = 0;
+    for (const auto& [x, y] : chords.to_mm) { joiner.add({x * 80, y * 80}, chords.settings, ++block, trail); }
+    joiner.finish(joiner.at(), trail);
+    return trail;
+}
+
+std::vector<Quadratic> join(const Chords& chords) { return pieces_of(trail_of(chords)); }
 
 double length_of(const std::vector<Quadratic>& pieces) {
     double mm = 0;
@@ -87,12 +97,29 @@ TEST(ChordJoiner, JoinsMoreWithAWiderTolerance) {
 TEST(ChordJoiner, EndsPiecesWhereTheFeedChanges) {
     ChordJoiner joiner(plane());
     joiner.begin(zeros(2));
-    std::vector<Quadratic> pieces;
-    for (int k = 1; k <= 40; ++k) { joiner.add({8.0 * k, 0}, {.feed_mm_per_tick = k <= 20 ? 1e-4 : 2e-4}, k, pieces); }
-    joiner.finish(joiner.at(), pieces);
+    PathTrail trail;
+    for (std::uint32_t k = 1; k <= 40; ++k) {
+        joiner.add({8.0 * k, 0}, {.feed_mm_per_tick = k <= 20 ? 1e-4 : 2e-4}, k, trail);
+    }
+    joiner.finish(joiner.at(), trail);
     double slow_mm = 0;
-    for (const Quadratic& piece : pieces) { slow_mm += piece.feed_mm_per_tick < 1.5e-4 ? piece.length : 0; }
+    for (const Quadratic& piece : pieces_of(trail)) { slow_mm += piece.feed_mm_per_tick < 1.5e-4 ? piece.length : 0; }
     EXPECT_NEAR(slow_mm, 2, 1e-9);
+}
+
+/// A chord that is too short counts for the one behind it.
+TEST(ChordJoiner, MarksWhereEachChordBegins) {
+    Chords chords;
+    for (int k = 1; k <= 50; ++k) { chords.to_mm.emplace_back(0.1 * k, 0); }
+    chords.to_mm[20] = {2.0 + 1e-7, 0};
+    const PathTrail trail = trail_of(chords);
+    for (std::uint32_t block = 1; block <= 50; ++block) {
+        const auto spot = trail.spot_of({block, {}});
+        ASSERT_TRUE(spot);
+        const double at = trail.piece(spot->piece).place(0, spot->u) / 80;
+        EXPECT_NEAR(at, 0.1 * (block == 21 ? 20 : block == 22 ? 20 : block - 1), 1e-6) << block;
+    }
+    EXPECT_EQ(trail.spot_of({21, {}}), trail.spot_of({22, {}}));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(PathPlanner, RestsBehindEachMoveWhereAskedTo) {
     PathPlanner planner(setup_of(mill()));
     planner.begin(std::vector<Position>(3));
     const MoveSettings stops{.feed_mm_per_tick = 100e-6, .mode = PathMode::ExactStop};
-    for (int k = 1; k <= 5; ++k) { planner.line({{1.0 * k, 0, 0}}, stops, k); }
+    for (std::uint32_t k = 1; k <= 5; ++k) { planner.line({{1.0 * k, 0, 0}}, stops, k); }
     EXPECT_NEAR(static_cast<double>(ticks_at_rest(finish(planner))),
                 static_cast<double>(5 * PathPlanner::kLeastRest.value), 10);
 }
@@ -72,7 +72,7 @@ TEST(PathPlanner, KeepsTheLimitsThroughRests) {
     const PathSetup setup = setup_of(mill(), Ticks{5'000});
     PathPlanner planner(setup);
     planner.begin(std::vector<Position>(3));
-    for (int k = 1; k <= 30; ++k) {
+    for (std::uint32_t k = 1; k <= 30; ++k) {
         planner.line({{k % 2 == 0 ? 0.0 : 3.0, 0.2 * k, 0}}, kFast, k);
         planner.rest(Ticks{k % 3 == 0 ? 100 : 7'000}, k);
     }
@@ -112,6 +112,87 @@ TEST(PathPlanner, BeginsAnewFromWhereItRests) {
     const PathRun run = finish(planner);
     EXPECT_EQ(run.frames.front().axes[0].from, at[0]);
     EXPECT_NEAR(samples_of(run, 1'000).back()[0], 480, 1e-9);
+}
+
+TEST(PathPlanner, NamesTheMoveInWhichAFrameBeginsAndRests) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    for (std::uint32_t k = 0; k < 50; ++k) { planner.line({{2.0 * (k + 1), 0, 0}}, kFast, 10 + k); }
+    const PathRun run = finish(planner);
+    Position at;
+    for (const PathFrame& frame : run.frames) {
+        EXPECT_NEAR(at.as_steps() / 80, 2 * (frame.begin.block - 10.0) + frame.begin.along.as_steps(), 1e-3);
+        for (const Piece& piece : frame.axes[0].body) { at = at + piece.covered(); }
+        Position rest = at;
+        for (const Piece& piece : frame.axes[0].tail) { rest = rest + piece.covered(); }
+        EXPECT_NEAR(rest.as_steps() / 80, 2 * (frame.rest.block - 10.0) + frame.rest.along.as_steps(), 1e-6);
+    }
+    EXPECT_EQ(run.frames.back().rest.block, 59U);
+}
+
+/// The tail of the last frame but one ends where the path does.
+TEST(PathPlanner, HasNothingLeftWhereTheTailReachedTheEnd) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    planner.line({{5, 0, 0}}, kFast, 1);
+    planner.finish();
+    const std::vector<Position> at{Position::steps(400), {}, {}};
+    planner.resume({1, {Int128{5} << 64}}, at);
+    EXPECT_FALSE(*planner.next());
+    EXPECT_TRUE(planner.is_done());
+}
+
+TEST(PathPlanner, EndsOnAWholeStepFromANearPlace) {
+    const PathSetup setup = setup_of(mill());
+    for (const int bits : {4, 20, 30, 45, 50}) {
+        PathPlanner planner(setup);
+        planner.begin(std::vector<Position>(3));
+        planner.line({{5, 0, 0}}, kFast, 1);
+        planner.finish();
+        const Displacement left{Int128{1} << (64 - bits)};
+        const std::vector<Position> at{{(Int128{400} << 64) - 80 * left.raw}, {}, {}};
+        planner.resume({1, {(Int128{5} << 64) - left.raw}}, at);
+        PathRun run{.frames = {}, .from = at};
+        drain(planner, run);
+        ASSERT_TRUE(planner.is_done()) << bits;
+        expect_within_limits(setup, run);
+        EXPECT_EQ(samples_of(run, 1'000).back()[0], 400) << bits;
+    }
+}
+
+/// Before the first frame was run: an axis vetoed it.
+TEST(PathPlanner, GoesOnFromTheBeginningAgain) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    planner.line({{30, 20, 0}}, kFast, 1);
+    planner.finish();
+    PathRun first;
+    drain(planner, first);
+    planner.resume({}, std::vector<Position>(3));
+    PathRun again;
+    drain(planner, again);
+    ASSERT_EQ(again.frames.size(), first.frames.size());
+    for (std::size_t k = 0; k < first.frames.size(); ++k) { EXPECT_EQ(again.frames[k].axes, first.frames[k].axes); }
+}
+
+/// A dwell that was begun is begun anew.
+TEST(PathPlanner, RestsAgainWhereItWasInterruptedInADwell) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    planner.line({{5, 0, 0}}, kFast, 1);
+    planner.rest(Ticks{2'000'000}, 2);
+    planner.line({{10, 0, 0}}, kFast, 3);
+    planner.finish();
+    PathRun run;
+    for (int k = 0; k < 3; ++k) { run.frames.push_back(**planner.next()); }
+    const PathPlace place = run.frames.back().rest;
+    EXPECT_EQ(place, (PathPlace{2, {}}));
+    const std::vector<Position> at{Position::steps(400), {}, {}};
+    planner.resume(place, at);
+    PathRun rest{.frames = {}, .from = at};
+    drain(planner, rest);
+    EXPECT_NEAR(static_cast<double>(ticks_at_rest(rest)), 2'000'000, 2);
 }
 
 }  // namespace

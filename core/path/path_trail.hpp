@@ -1,0 +1,62 @@
+// The geometry of a stream, in order, and where on it the moves of the program are.
+//
+// A PathPlace names a move by its block; `along` is the way along this move in 2^-64 mm. Pieces and places depend on
+// the program only, so a place leads to the same spot in every planner that gets the same moves.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "core/path/quadratic.hpp"
+#include "core/path_place.hpp"
+
+namespace lockstep {
+
+/// A place on the geometry.
+struct PathSpot {
+    std::size_t piece = 0;  // its number since the beginning of the stream
+    double u = 0;           // mm
+    bool operator==(const PathSpot&) const = default;
+};
+
+class PathTrail {
+public:
+    void clear();
+
+    /// At u of the piece that is added next the path is `along` mm from the begin of a move. Each piece has a mark at
+    /// its begin and one for each move that begins on it. Blocks ascend; all marks of a move are added before a place
+    /// in it is looked for.
+    void mark(double u, std::uint32_t block, double along);
+    void add(const Quadratic& piece) { pieces_.push_back(piece); }
+    /// A rest, as a move of its own or at the end of the last move.
+    void add_rest(const Quadratic& rest, std::uint32_t block);
+    /// Takes the last piece away, with its marks.
+    void pop_back();
+    /// Forgets the pieces before this one.
+    void drop_before(std::size_t piece);
+
+    /// The pieces kept have the numbers from first() up to end().
+    std::size_t first() const { return first_; }
+    std::size_t end() const { return first_ + pieces_.size(); }
+    const Quadratic& piece(std::size_t number) const { return pieces_[number - first_]; }
+    Quadratic& back() { return pieces_.back(); }
+
+    /// Of a piece that is kept.
+    PathPlace place_of(const PathSpot& spot) const;
+    /// Nothing: the move has not been added. A move without a length has no spot of its own, so the next one's begin
+    /// stands for it.
+    std::optional<PathSpot> spot_of(const PathPlace& place) const;
+
+private:
+    struct Mark {
+        PathSpot at;
+        std::uint32_t block = 0;
+        Displacement along;
+    };
+
+    std::deque<Quadratic> pieces_;
+    std::deque<Mark> marks_;
+    std::size_t first_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,104 @@
+// New overrides in the middle of a path. All that follows the place from which they hold is limited and cut anew, as if
+// it had just arrived. The machine may be faster there than the new overrides ask for: it brakes as hard as it may.
+#include <algorithm>
+
+#include "core/path/speed_window.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kHair = 1 + 1e-6;
+
+}  // namespace
+
+bool SpeedWindow::turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w) {
+    const bool was_finished = is_finished_;
+    const std::size_t piece = interval(number).piece;
+    overrides_ = overrides;
+    is_finished_ = false;
+    turn_piece(number, is_under_way);
+    recut_behind(piece);
+    if (was_finished) { close_end(); }
+    final_ = number + 1;
+    if (!allow_braking(is_under_way ? number + 1 : number, w)) { return false; }
+    look_ahead();
+    if (is_finished_) { final_ = end(); }
+    return true;
+}
+
+/// Whether a piece that was begun recovers the jumps at its ends as before, although it gets faster.
+bool SpeedWindow::may_rise(std::size_t piece) const {
+    const std::size_t k = piece - first_piece_;
+    if (pieces_[k].is_charged) { return true; }
+    JoinedPiece turned{.shape = pieces_[k].shape};
+    const Quadratic* before = k > 0 ? &pieces_[k - 1].shape : nullptr;
+    const Quadratic* next = k + 1 < pieces_.size() ? &pieces_[k + 1].shape : pending_ ? &*pending_ : nullptr;
+    charge(turned, before, next);
+    return !turned.is_charged;
+}
+
+/// What is left of the piece in which the new overrides begin. Its joint is behind.
+void SpeedWindow::turn_piece(std::size_t number, bool is_under_way) {
+    const std::size_t piece = interval(number).piece;
+    if (interval(number).kind == IntervalKind::Rest) { return; }
+    const bool rises = may_rise(piece);
+    for (std::size_t k = is_under_way ? number + 1 : number; k < end() && interval(k).piece == piece; ++k) {
+        Interval& part = intervals_[k - first_];
+        const double top = bounds(part).cap(overrides_);
+        part.top = rises ? top : std::min(top, part.top);
+        if (k > number) { part.cap = std::min(part.top, interval(k - 1).top); }
+    }
+}
+
+void SpeedWindow::recut_behind(std::size_t piece) {
+    std::vector<Quadratic> ahead;
+    while (first_piece_ + pieces_.size() > piece + 1) {
+        ahead.push_back(pieces_.back().shape);
+        pieces_.pop_back();
+    }
+    std::ranges::reverse(ahead);
+    if (pending_) { ahead.push_back(*pending_); }
+    while (interval(end() - 1).piece > piece) { intervals_.truncate(intervals_.size() - 1); }
+    final_ = std::min(final_, end());
+    before_ = pieces_.back().shape;
+    pending_.reset();
+    for (const Quadratic& shape : ahead) { add(shape); }
+}
+
+/// From the beginning of an interval at w.
+bool SpeedWindow::allow_braking(std::size_t number, double w) {
+    for (std::size_t k = number; w > 0; ++k) {
+        if (k == end()) { return is_finished_ && w <= kHair * end_cap_; }
+        Interval& part = intervals_[k - first_];
+        const bool is_rest = part.kind == IntervalKind::Rest;
+        if (w > kHair * (is_rest ? part.joint : std::min(part.joint, bounds(part).limit()))) { return false; }
+        part.cap = std::max(part.cap, w);
+        if (is_rest) { return true; }
+        const double behind = bounds(part).least_after(w);
+        if (split_braking(k, w)) {
+            w = interval(k + 1).cap;
+        } else {
+            part.top = std::max(part.top, part.kind == IntervalKind::Straight ? behind : w);
+            w = behind;
+        }
+    }
+    return true;
+}
+
+/// Where a straight interval is entered too fast, its beginning becomes an interval of its own, for braking.
+bool SpeedWindow::split_braking(std::size_t number, double w) {
+    Interval& part = intervals_[number - first_];
+    if (part.kind != IntervalKind::Straight || w <= part.top) { return false; }
+    const double mm = (w - part.top) / (2 * part.deceleration);
+    if (mm >= part.length()) { return false; }
+    Interval rest = part;
+    rest.from = part.from + mm;
+    rest.cap = part.top;
+    rest.joint = kMost;
+    rest.turn = 0;
+    part.to = rest.from;
+    intervals_.insert(number + 1 - first_, rest);
+    return true;
+}
+
+}  // namespace lockstep

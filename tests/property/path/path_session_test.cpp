@@ -1,0 +1,98 @@
+// What holds of a path that is interrupted, resumed and turned, wherever that happens.
+#include "tests/property/path/path_session.hpp"
+
+namespace lockstep {
+namespace {
+
+bool always(std::size_t) { return true; }
+bool never(std::size_t) { return false; }
+
+class RandomSession : public testing::TestWithParam<std::uint64_t> {
+protected:
+    void SetUp() override {
+        Random random(GetParam() + 1'000);
+        case_ = random_case(GetParam());
+        events_ = random_events(random, case_.setup);
+    }
+
+    RandomCase case_;
+    std::deque<PathEvent> events_;
+};
+
+TEST_P(RandomSession, KeepsTheLimitsAndGoesOnWhereItRests) {
+    PathSession session(case_.setup, events_);
+    ASSERT_NO_FATAL_FAILURE(session.run(case_.program, always));
+    std::vector<Position> at(case_.setup.axes());
+    for (const PathRun& run : session.runs()) {
+        EXPECT_EQ(run.from, at);
+        expect_within_limits(case_.setup, run);
+        at = end_of(run);
+    }
+}
+
+TEST_P(RandomSession, FollowsTheWholeProgramAndEndsExactly) {
+    PathSession session(case_.setup, events_);
+    ASSERT_NO_FATAL_FAILURE(session.run(case_.program, always));
+    std::vector<Place> places;
+    for (const PathRun& run : session.runs()) {
+        for (const Place& place : samples_of(run, 200)) { places.push_back(place); }
+    }
+    const std::vector<Place> polyline = case_.program.polyline(case_.setup);
+    EXPECT_EQ(first_astray(places, polyline, 0.5), std::nullopt);
+    EXPECT_EQ(first_astray(polyline, places, 1.0), std::nullopt);
+    for (std::size_t i = 0; i < case_.setup.axes(); ++i) {
+        EXPECT_NEAR(places.back()[i], std::round(polyline.back()[i]), 1e-6) << "axis " << i;
+    }
+}
+
+/// Frames of the two runs that follow each other in the same order.
+void expect_equal(const std::vector<PathFrame>& a, const std::vector<PathFrame>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        ASSERT_EQ(a[k].ticks, b[k].ticks) << "frame " << k;
+        ASSERT_EQ(a[k].axes, b[k].axes) << "frame " << k;
+        ASSERT_EQ(a[k].begin, b[k].begin) << "frame " << k;
+        ASSERT_EQ(a[k].rest, b[k].rest) << "frame " << k;
+    }
+}
+
+TEST_P(RandomSession, DependsOnTheFramesOfItsEventsAndNotOnWhenMovesArrive) {
+    PathSession live(case_.setup, events_);
+    ASSERT_NO_FATAL_FAILURE(live.run(case_.program, always));
+    Random random(GetParam());
+    for (const bool is_all_known : {true, false}) {
+        PathSession again(case_.setup, live.happened());
+        const auto some = [&](std::size_t) { return random() % 7 == 0; };
+        ASSERT_NO_FATAL_FAILURE(is_all_known ? again.run(case_.program, never) : again.run(case_.program, some));
+        expect_equal(again.frames(), live.frames());
+    }
+}
+
+/// As a coordinator does that takes over: it knows the program, the place and the positions, and nothing else.
+TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
+    const PathRun run = run_path(case_.setup, case_.program);
+    const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 5);
+    for (std::size_t ran = 1; ran + 1 < run.frames.size(); ran += every) {
+        PathSession session(case_.setup, {{.made = ran + 1, .turn = {}, .unrun = 1}});
+        ASSERT_NO_FATAL_FAILURE(session.run(case_.program, never));
+        const std::vector<PathFrame>& frames = session.frames();
+
+        PathPlanner other(case_.setup);
+        other.begin(std::vector<Position>(case_.setup.axes()));
+        other.resume(run.frames[ran - 1].rest, end_of(run_to_rest(run, ran)));
+        PathRun rest;
+        for (std::size_t k = 0; k < case_.program.moves.size(); ++k) {
+            const TestMove& move = case_.program.moves[k];
+            other.line({move.to}, move.settings, static_cast<std::uint32_t>(k + 1));
+            ASSERT_NO_FATAL_FAILURE(drain(other, rest));
+        }
+        other.finish();
+        ASSERT_NO_FATAL_FAILURE(drain(other, rest));
+        expect_equal({frames.begin() + static_cast<std::ptrdiff_t>(ran + 1), frames.end()}, rest.frames);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, testing::Range<std::uint64_t>(1, 41));
+
+}  // namespace
+}  // namespace lockstep
