@@ -80,7 +80,8 @@ std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
         }
         slow_down(*failure, frame.ticks, attempt);
     }
-    if (held_tail_.phases().empty()) { return std::unexpected(PathStuck{trail_.place_of(path_.spot_at(0))}); }
+    const bool is_at_rest = held_tail_.phases().empty() || held_tail_.end() <= 0;
+    if (is_at_rest) { return std::unexpected(PathStuck{trail_.place_of(path_.spot_at(0))}); }
     return brake();
 }
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lockstep {
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kNothing = 1e-12;        // steps per mm
 constexpr double kStopShare = 0.8;        // of the start velocity, where the path begins or ends: joints follow
 constexpr double kRestShare = 0.4;        // where it rests for a short time: two jumps follow each other
@@ -99,7 +97,7 @@ void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quad
     const Quadratic& shape = piece.shape;
     const Interval whole{.kind = IntervalKind::Curved, .from = before == nullptr ? begin_u_ : 0, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
-    double path_acceleration = kUnbounded;
+    double path_acceleration = kMost;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
@@ -152,7 +150,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin) {
         part.kind = IntervalKind::Rest;
     } else if (shape.is_straight && !piece.is_charged) {
         part.kind = IntervalKind::Straight;
-        part.acceleration = part.deceleration = kUnbounded;
+        part.acceleration = part.deceleration = kMost;
         for (std::size_t i = 0; i < setup_.axes(); ++i) {
             const double slope = std::abs(shape.slope.begin()[i]);
             if (slope <= kNothing) { continue; }

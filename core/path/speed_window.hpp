@@ -100,7 +100,7 @@ private:
     bool is_finished_ = false;
 
     static constexpr std::size_t kLeastPass = 32;
-    static constexpr double kMost = 1e6;            // w where nothing moves
+    static constexpr double kMost = 1e6;            // w, or mm per tick^2, where no axis moves
     static constexpr double kLeastBegin_mm = 1e-9;  // less of the first piece than that is left out
 };
 

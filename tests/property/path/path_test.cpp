@@ -66,6 +66,8 @@ TEST_P(RandomPath, HasTailsThatEndOnThePath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, testing::Range<std::uint64_t>(1, 25));
+/// One axis, whose shortest moves there and back are joined to a piece in which it does not move.
+INSTANTIATE_TEST_SUITE_P(ThereAndBack, RandomPath, testing::Values(61));
 
 /// Random short moves of axes that accelerate fast: more pieces than a frame has room for.
 TEST(PathFrames, AreSlowedDownWhereTheyHaveNoRoomForTheirPieces) {
