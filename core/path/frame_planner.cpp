@@ -19,6 +19,20 @@ Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(tic
 
 }  // namespace
 
+FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, SpeedWindow& window,
+                           const PathTrail& trail)
+    : setup_(setup),
+      window_(window),
+      trail_(trail),
+      at_(other.at_),
+      held_tail_(other.held_tail_),
+      last_(other.last_),
+      has_begun_(other.has_begun_),
+      has_made_(other.has_made_),
+      is_done_(other.is_done_),
+      slowed_(other.slowed_),
+      braked_(other.braked_) {}
+
 void FramePlanner::begin(std::span<const Position> at) {
     at_ = {};
     for (const Position& position : at) { at_.points.push_back({position, 0, {}}); }
@@ -52,25 +66,41 @@ Ticks FramePlanner::end_of_frame() const {
     return std::min(setup_.frame_ticks, std::max(rounded_up(path_.end()), Ticks{1}));
 }
 
-std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
-    if (!has_begun_) {
-        if (window_.known() == window_.first()) {
-            is_done_ = window_.is_finished();
-            return std::nullopt;
-        }
-        at_.interval = window_.first();
-        at_.w0 = window_.interval(at_.interval).reach;
-        has_begun_ = true;
+/// False: nothing of the path is known yet, or it has no length.
+bool FramePlanner::start() {
+    if (has_begun_) { return true; }
+    if (window_.known() == window_.first()) {
+        is_done_ = window_.is_finished();
+        return false;
     }
+    at_.interval = window_.first();
+    at_.w0 = window_.interval(at_.interval).reach;
+    has_begun_ = true;
+    return true;
+}
+
+bool FramePlanner::is_ready() { return !is_done_ && start() && trace(); }
+
+void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
+    const double part = to_double(frame.ticks) / static_cast<double>(frame.places.size());
+    for (std::size_t k = 0; k < frame.places.size(); ++k) {
+        frame.places[k] = trail_.place_of(path.spot_at(part * static_cast<double>(k)));
+    }
+    frame.begin = frame.places[0];
+}
+
+std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
+    if (!start()) { return std::nullopt; }
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         if (!trace()) { return std::nullopt; }
-        PathFrame frame{.ticks = end_of_frame(), .begin = trail_.place_of(path_.spot_at(0))};
+        PathFrame frame{.ticks = end_of_frame()};
         frame.last = window_.is_finished() && path_.passages().back().interval + 1 == window_.end() &&
                      rounded_up(path_.end()) <= frame.ticks;
         Cursor behind;
         std::optional<FitFailure> failure = fit_body(frame, behind);
         if (!failure && !frame.last && !fit_tail(frame, behind)) { failure = FitFailure{frame.ticks, false}; }
         if (!failure) {
+            note_places(frame, path_);
             frame.rest = place_of_rest(frame, behind);
             take(std::move(behind));
             is_done_ = frame.last;
@@ -88,7 +118,7 @@ std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
 /// The tail of the last frame, piece by piece, is always a way to go on. At its end the machine rests.
 PathFrame FramePlanner::brake() {
     PathFrame frame{.ticks = setup_.frame_ticks, .rest = last_.rest, .axes = std::move(last_.axes)};
-    frame.begin = trail_.place_of(held_tail_.spot_at(0));
+    note_places(frame, held_tail_);
     Cursor behind = cursor_at(held_tail_, frame.ticks, true);
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         AxisTrack& track = frame.axes[i];
@@ -119,7 +149,7 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
     frame.axes.resize(setup_.axes());
     for (std::size_t i = 0; i < setup_.axes(); ++i) { frame.axes[i].from = points[i].position; }
     PieceFit fit(setup_, path_);
-    if (const auto failure = fit.fit(frame.ticks, kMaxBodyPieces, points, pieces)) { return failure; }
+    if (const auto failure = fit.fit(frame.ticks, setup_.body_pieces, points, pieces)) { return failure; }
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         for (const Piece& piece : pieces[i]) { frame.axes[i].body.append(piece); }
         if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
@@ -219,13 +249,14 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
 }
 
 /// The interval under way is finished as planned.
-bool FramePlanner::turn(const Overrides& overrides) {
-    if (is_done_) { return false; }
+TurnResult FramePlanner::turn(const Overrides& overrides) {
+    if (is_done_) { return TurnResult::CannotFollow; }
     SpeedWindow turned = window_;
-    if (!turned.turn(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0))) { return false; }
+    const TurnResult result = turned.turn(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0));
+    if (result != TurnResult::Taken) { return result; }
     window_ = std::move(turned);
     is_traced_ = false;
-    return true;
+    return result;
 }
 
 void FramePlanner::take(Cursor next) {

@@ -6,6 +6,7 @@
 // from there.
 #pragma once
 
+#include <array>
 #include <expected>
 #include <optional>
 #include <string>
@@ -19,9 +20,10 @@ namespace lockstep {
 /// What a Frame carries of the path.
 struct PathFrame {
     Ticks ticks;
-    bool last = false;  // the path ends with it, at rest
-    PathPlace begin;    // where on the program it begins,
-    PathPlace rest;     // and where the machine rests if it is the last one that is run
+    bool last = false;                 // the path ends with it, at rest
+    PathPlace begin;                   // where on the program it begins,
+    PathPlace rest;                    // and where the machine rests if it is the last one that is run
+    std::array<PathPlace, 16> places;  // where it is at the begin of each sixteenth of the frame
     std::vector<AxisTrack> axes;
 };
 
@@ -34,18 +36,24 @@ class FramePlanner {
 public:
     FramePlanner(const PathSetup& setup, SpeedWindow& window, const PathTrail& trail)
         : setup_(setup), window_(window), trail_(trail) {}
+    /// A copy that goes on by itself, with copies of what the other one refers to.
+    FramePlanner(const FramePlanner& other, const PathSetup& setup, SpeedWindow& window, const PathTrail& trail);
+    FramePlanner(const FramePlanner&) = delete;
+    FramePlanner& operator=(const FramePlanner&) = delete;
 
     /// The axes rest at `at`, where the window's path begins.
     void begin(std::span<const Position> at);
     /// The next frame; nothing while too little of the path is known. Not after the last one.
     std::expected<std::optional<PathFrame>, PathStuck> next();
+    /// The path is known far enough for it.
+    bool is_ready();
     bool is_done() const { return is_done_; }
     /// Since begin().
     bool has_made() const { return has_made_; }
     /// The window was made anew, and no frame has been made.
     void restart() { has_begun_ = is_traced_ = false; }
-    /// New overrides, from the next node behind the last frame. False: not from there.
-    bool turn(const Overrides& overrides);
+    /// New overrides, from the next node behind the last frame. Nothing has changed unless they were taken.
+    TurnResult turn(const Overrides& overrides);
     /// Frames that had to be made again, slower.
     std::int64_t slowed() const { return slowed_; }
     /// Frames that went along the tail of the one before.
@@ -62,7 +70,9 @@ private:
         std::vector<MotionPoint> points;
     };
 
+    bool start();
     bool trace();
+    void note_places(PathFrame& frame, const TimedPath& path) const;
     Ticks end_of_frame() const;
     std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
     bool fit_tail(PathFrame& frame, const Cursor& from);

@@ -7,6 +7,21 @@ namespace lockstep {
 PathPlanner::PathPlanner(const PathSetup& setup)
     : setup_(setup), joiner_(setup_), window_(setup_), frames_(setup_, window_, trail_) {}
 
+PathPlanner::PathPlanner(const PathPlanner& other)
+    : setup_(other.setup_),
+      overrides_(other.overrides_),
+      joiner_(other.joiner_),
+      trail_(other.trail_),
+      window_(other.window_),
+      frames_(other.frames_, setup_, window_, trail_),
+      at_(other.at_),
+      start_(other.start_),
+      is_sought_(other.is_sought_),
+      ready_(other.ready_),
+      passed_(other.passed_),
+      is_finished_(other.is_finished_),
+      begins_(other.begins_) {}
+
 void PathPlanner::begin(std::span<const Position> at) {
     trail_.clear();
     ready_ = passed_ = 0;
@@ -32,8 +47,8 @@ void PathPlanner::seek(const PathPlace& place) {
     if (is_finished_) { window_.finish(); }
 }
 
-void PathPlanner::line(const PathLine& line, const MoveSettings& settings, std::uint32_t block) {
-    at_ = setup_.to_steps(line.to_mm);
+void PathPlanner::line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
+    at_ = to;
     joiner_.add(at_, settings, block, trail_);
     settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
 }
@@ -97,16 +112,16 @@ void PathPlanner::pass_on(std::size_t ready) {
     for (; passed_ < ready; ++passed_) { window_.add(trail_.piece(passed_)); }
 }
 
-bool PathPlanner::turn(const Overrides& overrides) {
+TurnResult PathPlanner::turn(const Overrides& overrides) {
     if (frames_.has_made()) {
-        if (!frames_.turn(overrides)) { return false; }
-        overrides_ = overrides;
-        return true;
+        const TurnResult result = frames_.turn(overrides);
+        if (result == TurnResult::Taken) { overrides_ = overrides; }
+        return result;
     }
     overrides_ = overrides;
     frames_.restart();
     seek(start_);
-    return true;
+    return TurnResult::Taken;
 }
 
 std::expected<std::optional<PathFrame>, PathStuck> PathPlanner::next() {

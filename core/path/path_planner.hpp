@@ -20,7 +20,8 @@ namespace lockstep {
 class PathPlanner {
 public:
     explicit PathPlanner(const PathSetup& setup);
-    PathPlanner(const PathPlanner&) = delete;
+    /// A copy goes on in the same way.
+    PathPlanner(const PathPlanner& other);
     PathPlanner& operator=(const PathPlanner&) = delete;
 
     /// The axes rest at `at`.
@@ -33,7 +34,11 @@ public:
     void resume(const PathPlace& place, std::span<const Position> at);
 
     /// `block`: the move's number in its program; they ascend.
-    void line(const PathLine& line, const MoveSettings& settings, std::uint32_t block);
+    void line(const PathLine& line, const MoveSettings& settings, std::uint32_t block) {
+        line_to_steps(setup_.to_steps(line.to_mm), settings, block);
+    }
+    /// To a place in steps, or fractions of them.
+    void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
     /// Error: the arc has no radius.
     std::expected<void, std::string> arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block);
     /// The machine rests on whole steps for so long, at least for kLeastRest.
@@ -41,13 +46,15 @@ public:
     /// The machine comes to rest on whole steps at the end of what was given.
     void finish();
 
-    /// New overrides, from the next node of the path behind the last frame. False: the axes cannot follow from there,
-    /// so that the ones before still hold. Behind a later frame they may.
-    bool turn(const Overrides& overrides);
+    /// New overrides, from the next node of the path behind the last frame. Unless they are taken, the ones before
+    /// still hold; where the axes cannot follow from there, they may behind a later frame.
+    TurnResult turn(const Overrides& overrides);
     const Overrides& overrides() const { return overrides_; }
 
     /// The next frame; nothing while too few moves are known. Not after the last one.
     std::expected<std::optional<PathFrame>, PathStuck> next();
+    /// The next frame can be made.
+    bool is_ready() { return frames_.is_ready(); }
     bool is_done() const { return frames_.is_done(); }
     std::int64_t slowed() const { return frames_.slowed(); }
     std::int64_t braked() const { return frames_.braked(); }

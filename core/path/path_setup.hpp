@@ -5,14 +5,17 @@
 #include <vector>
 
 #include "core/machine.hpp"
+#include "core/motion/frame_limits.hpp"
 #include "core/path/axis_vector.hpp"
+#include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
 
 struct PathSetup {
-    std::vector<AxisLimits> limits;    // of frames: frame_limits_of
-    std::vector<double> steps_per_mm;  // or per degree
-    Ticks frame_ticks;                 // a frame's length: pieces end at the edges of frames
+    std::vector<AxisLimits> limits;            // of frames: frame_limits_of
+    std::vector<double> steps_per_mm;          // or per degree
+    Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
+    std::size_t body_pieces = kMaxBodyPieces;  // that a frame has room for, for each axis
 
     std::size_t axes() const { return limits.size(); }
     AxisVector to_steps(std::span<const double> mm) const {
@@ -21,6 +24,15 @@ struct PathSetup {
         return steps;
     }
 };
+
+inline PathSetup path_setup_of(const MachineConfig& machine) {
+    PathSetup setup{.limits = frame_limits_of(machine),
+                    .steps_per_mm = {},
+                    .frame_ticks = machine.frame_ticks(),
+                    .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing))};
+    for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
+    return setup;
+}
 
 /// How a programmed step of deviation is shared out. Whole pulses take a half; the pieces of constant acceleration get
 /// kFitShare; the rest is for joining moves, less a little for rounding.

@@ -20,6 +20,13 @@
 
 namespace lockstep {
 
+/// What becomes of new overrides.
+enum class TurnResult : std::uint8_t {
+    Taken,
+    CannotFollow,  // the axes cannot, from this place
+    LacksPath,     // too little of the path is known to say
+};
+
 class SpeedWindow {
 public:
     /// The path begins at rest at `begin`, on the first piece that is added.
@@ -55,9 +62,8 @@ public:
     void drop_before(std::size_t number);
     /// New overrides, from an interval's end where it `is_under_way`, else from its beginning; `w` is the speed there.
     /// Speeds that the hardest braking from there passes are allowed. A piece that was begun gets faster only if it can
-    /// still recover the jumps at its ends. False, and the window is of no use: the axes cannot follow, or too little
-    /// of the path is known to say.
-    bool turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
+    /// still recover the jumps at its ends. Unless they are taken, the window is of no use.
+    TurnResult turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
 
     static constexpr double kJointShare = 0.975;  // of the start velocity
     static constexpr double kMaxInterval_mm = 0.25;
@@ -82,7 +88,7 @@ private:
     bool may_rise(std::size_t piece) const;
     void turn_piece(std::size_t number, bool is_under_way);
     void recut_behind(std::size_t piece);
-    bool allow_braking(std::size_t number, double w);
+    TurnResult allow_braking(std::size_t number, double w);
     bool split_braking(std::size_t number, double w);
 
     PathSetup setup_;

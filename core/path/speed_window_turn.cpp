@@ -11,7 +11,7 @@ constexpr double kHair = 1 + 1e-6;
 
 }  // namespace
 
-bool SpeedWindow::turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w) {
+TurnResult SpeedWindow::turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w) {
     const bool was_finished = is_finished_;
     const std::size_t piece = interval(number).piece;
     overrides_ = overrides;
@@ -20,10 +20,11 @@ bool SpeedWindow::turn(const Overrides& overrides, std::size_t number, bool is_u
     recut_behind(piece);
     if (was_finished) { close_end(); }
     final_ = number + 1;
-    if (!allow_braking(is_under_way ? number + 1 : number, w)) { return false; }
+    const TurnResult result = allow_braking(is_under_way ? number + 1 : number, w);
+    if (result != TurnResult::Taken) { return result; }
     look_ahead();
     if (is_finished_) { final_ = end(); }
-    return true;
+    return result;
 }
 
 /// Whether a piece that was begun recovers the jumps at its ends as before, although it gets faster.
@@ -66,14 +67,17 @@ void SpeedWindow::recut_behind(std::size_t piece) {
 }
 
 /// From the beginning of an interval at w.
-bool SpeedWindow::allow_braking(std::size_t number, double w) {
+TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
     for (std::size_t k = number; w > 0; ++k) {
-        if (k == end()) { return is_finished_ && w <= kHair * end_cap_; }
+        if (k == end() && !is_finished_) { return TurnResult::LacksPath; }
+        if (k == end()) { return w <= kHair * end_cap_ ? TurnResult::Taken : TurnResult::CannotFollow; }
         Interval& part = intervals_[k - first_];
         const bool is_rest = part.kind == IntervalKind::Rest;
-        if (w > kHair * (is_rest ? part.joint : std::min(part.joint, bounds(part).limit()))) { return false; }
+        if (w > kHair * (is_rest ? part.joint : std::min(part.joint, bounds(part).limit()))) {
+            return TurnResult::CannotFollow;
+        }
         part.cap = std::max(part.cap, w);
-        if (is_rest) { return true; }
+        if (is_rest) { return TurnResult::Taken; }
         const double behind = bounds(part).least_after(w);
         if (split_braking(k, w)) {
             w = interval(k + 1).cap;
@@ -82,7 +86,7 @@ bool SpeedWindow::allow_braking(std::size_t number, double w) {
             w = behind;
         }
     }
-    return true;
+    return TurnResult::Taken;
 }
 
 /// Where a straight interval is entered too fast, its beginning becomes an interval of its own, for braking.

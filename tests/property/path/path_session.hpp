@@ -83,7 +83,7 @@ private:
         events_.pop_front();
         if (!event.turn) {
             interrupt(event.unrun);
-        } else if (!planner_.turn(*event.turn)) {
+        } else if (planner_.turn(*event.turn) != TurnResult::Taken) {
             return;
         }
         happened_.push_back(event);

@@ -96,7 +96,7 @@ TEST(PathTurn, InADwellHoldsForTheMoveBehindIt) {
     planner.finish();
     PathRun run;
     for (int k = 0; k < 3; ++k) { run.frames.push_back(**planner.next()); }
-    EXPECT_TRUE(planner.turn({.feed_percent = 20}));
+    EXPECT_EQ(planner.turn({.feed_percent = 20}), TurnResult::Taken);
     drain(planner, run);
     expect_within_limits(setup, run);
     EXPECT_NEAR(run.seconds(), 0.12 + 1 + 50 / 20.0, 0.05);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/property/path/path_run.hpp"
@@ -112,6 +113,69 @@ TEST(PathPlanner, BeginsAnewFromWhereItRests) {
     const PathRun run = finish(planner);
     EXPECT_EQ(run.frames.front().axes[0].from, at[0]);
     EXPECT_NEAR(samples_of(run, 1'000).back()[0], 480, 1e-9);
+}
+
+/// Short corners, far more of them than frames of these machines have pieces.
+void add_zigzag(PathPlanner& planner, std::uint32_t moves) {
+    for (std::uint32_t k = 1; k <= moves; ++k) { planner.line({{k % 2 == 0 ? 0.0 : 0.2, 0.05 * k, 0}}, kFast, k); }
+}
+
+TEST(PathPlanner, MakesNoMorePiecesThanAFrameHasRoomFor) {
+    PathSetup setup = setup_of(mill());
+    setup.body_pieces = 32;
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    add_zigzag(planner, 400);
+    const PathRun run = finish(planner);
+    expect_within_limits(setup, run);
+    std::size_t most = 0;
+    for (const PathFrame& frame : run.frames) { most = std::max(most, frame.axes[0].body.size()); }
+    EXPECT_LE(most, 32u);
+    EXPECT_GT(most, 16u) << "slowed down more than the room asks for";
+}
+
+TEST(PathPlanner, MakesTheSameFramesInACopy) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    add_zigzag(planner, 300);
+    for (int k = 0; k < 3; ++k) { ASSERT_TRUE(*planner.next()); }
+    PathPlanner copy(planner);
+    const PathRun run = finish(planner);
+    const PathRun copied = finish(copy);
+    ASSERT_EQ(run.frames.size(), copied.frames.size());
+    for (std::size_t k = 0; k < run.frames.size(); ++k) {
+        EXPECT_EQ(run.frames[k].axes, copied.frames[k].axes) << k;
+        EXPECT_EQ(run.frames[k].rest, copied.frames[k].rest) << k;
+    }
+}
+
+TEST(PathPlanner, IsReadyWhenTheNextFrameCanBeMade) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    EXPECT_FALSE(planner.is_ready());
+    for (std::uint32_t k = 1; k <= 400; ++k) {
+        planner.line({{0.5 * k, 0.0, k % 2 == 0 ? 0.0 : 0.1}}, kFast, k);
+        const bool is_ready = planner.is_ready();
+        ASSERT_EQ(planner.next().value().has_value(), is_ready) << k;
+    }
+    planner.finish();
+    while (planner.is_ready()) { ASSERT_TRUE(*planner.next()); }
+    EXPECT_TRUE(planner.is_done());
+}
+
+TEST(PathPlanner, NamesThePlacesWithinAFrameInOrder) {
+    PathPlanner planner(setup_of(mill()));
+    planner.begin(std::vector<Position>(3));
+    add_zigzag(planner, 300);
+    PathPlace last;
+    for (const PathFrame& frame : finish(planner).frames) {
+        EXPECT_EQ(frame.places[0], frame.begin);
+        for (const PathPlace& place : frame.places) {
+            EXPECT_TRUE(place.block > last.block || (place.block == last.block && place.along >= last.along));
+            last = place;
+        }
+    }
+    EXPECT_GT(last.block, 250u);
 }
 
 TEST(PathPlanner, NamesTheMoveInWhichAFrameBeginsAndRests) {
