@@ -35,6 +35,22 @@ TEST_F(Processes, AreStartedOnce) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
+/// The second has a state directory of its own, as on another host: the lock of the first does not stop it.
+TEST_F(Processes, AJobIsExactThoughASecondProcessOfAnAxisStarts) {
+    bring_up();
+    record();
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    ASSERT_TRUE(becomes("Running"));
+    const std::string second = "LOCKSTEP_STATE=" + (folder() / "other-host").string() + " exec " +
+                               beside_command("lockstep-axis") + " --no-lcm --axis X --machine ";
+    const Ran ended = Command("/bin/sh", {"-c", second + file()}).wait();
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_THAT(ended.out + ended.err, HasSubstr("already run by another process"));
+    EXPECT_EQ(run.wait().code, 0);
+    expect_verified();
+}
+
 TEST_F(Processes, ThatOthersStartedAreIgnored) {
     const Command coordinator(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"});
     ASSERT_TRUE(becomes("Waiting"));
