@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
     app.add_flag("--trace", options.trace, "print a line for each event of a run");
     app.add_flag("--verbose", options.verbose, "print a line for every run");
     CLI11_PARSE(app, argc, argv);
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a failed run is told at once, also into a file
     const Tally tally = run_all(options);
     print_tally(tally, options);
     if (!options.coverage.empty() && !save_coverage(tally.coverage, options.coverage)) {
