@@ -141,16 +141,18 @@ private:
 
     /// An axis whose device stops, or is stopped by a switch, vetoes what begins four slots after its next state, a
     /// slot or two later. While it stalls as well, the others run what they have evidence for, up to the lease; and so
-    /// does the device of a process that has ended meanwhile.
+    /// does the device of a process that has ended, or receives nothing, meanwhile.
     FrameNumber most_apart() const {
         using Kind = VirtualFault::Kind;
         const ProtocolTiming& t = recording_.machine.timing;
         const auto any = [&](const auto& is) { return std::ranges::any_of(recording_.faults, is); };
         const bool stalls =
             any([](const VirtualFault& fault) { return fault.kind == Kind::Freeze || fault.kind == Kind::StopDevice; });
-        const bool ends = any([](const VirtualFault& fault) { return fault.kind == Kind::Crash; }) &&
-                          any([](const VirtualFault& fault) { return fault.is_of_plant(); });
-        const Slot slots = stalls || ends ? t.lease_slots() : rules::kLastCheckSlots + 1;
+        const auto is_away = [](const VirtualFault& fault) {
+            return fault.kind == Kind::Crash || fault.kind == Kind::Cut;
+        };
+        const bool knows_no_veto = any(is_away) && any([](const VirtualFault& fault) { return fault.is_of_plant(); });
+        const Slot slots = stalls || knows_no_veto ? t.lease_slots() : rules::kLastCheckSlots + 1;
         return static_cast<FrameNumber>(1 + slots / t.frame_slots);
     }
 

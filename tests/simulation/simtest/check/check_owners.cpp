@@ -71,6 +71,13 @@ private:
         }
     }
 
+    /// A device that stops is lost to its axis, and what it was at is over; it may go on later.
+    bool has_given_up(const Motion& motion, Tick by) const {
+        return std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
+            return fault.is_of_device() && fault.process == motion.axis && fault.at >= motion.begin && fault.at < by;
+        });
+    }
+
     /// During a motion the axis follows the owner that moves it. A restarted process may not follow an owner yet.
     void check_followed(const Motion& motion) {
         const AxisRecord& axis = recording_.axes[motion.axis];
@@ -79,7 +86,7 @@ private:
             object(motion.axis, motion.begin, "it moves for an owner that it does not follow");
         }
         for (const Followed& f : axis.followed) {
-            const bool meanwhile = f.at > motion.begin && f.at < motion.end;
+            const bool meanwhile = f.at > motion.begin && f.at < motion.end && !has_given_up(motion, f.at);
             if (meanwhile && f.term != motion.writer && f.term != Term{}) {
                 object(motion.axis, f.at,
                        "it follows another owner while it moves, from tick " + std::to_string(motion.begin.value) +

@@ -10,7 +10,9 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     const std::int64_t claimed = state.position.count();
     const bool lacks_device = static_cast<FaultCode>(state.unproved) == FaultCode::DeviceMissing;
     if (lacks_device && state.homed) { object(axis, now, "it says that it is homed, and that it has no device"); }
-    if (lacks_device || !has_device_[axis]) { return; }  // what it says is where the device was last seen
+    if (lacks_device) { unnoticed_[axis].reset(); }
+    const bool may_not_know = has_yet_to_notice(axis);
+    if (lacks_device || !has_device_[axis] || may_not_know) { return; }  // it says where the device was last seen
     if (claimed + node.controller().zero_count() != pulses_[axis]) {
         object(axis, now,
                "it reports step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
@@ -26,11 +28,19 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it reports that it rests, but moves"); }
 }
 
+/// An axis gives its device up after as many slots of its own as it has patience, later if it stood still meanwhile.
+bool ClaimCheck::has_yet_to_notice(std::size_t axis) {
+    auto& states = unnoticed_[axis];
+    return states && ++*states <= rules::silence_slots(vm_.machine().timing) + 1;
+}
+
 /// A device that replaces another one, or is powered up again, counts from 0. While a device is stopped or its
 /// registers are overwritten, what it shows is not what it does; nor is it before its axis has looked at it again.
 void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
     if (!fault.is_of_device()) { return; }
     has_device_[fault.process] = !begins;
+    if (begins) { unnoticed_[fault.process] = 0; }
+    if (fault.kind == VirtualFault::Kind::StopDevice && !begins) { unnoticed_[fault.process].reset(); }
     if (!begins && fault.kind != VirtualFault::Kind::StopDevice) { pulses_[fault.process] = 0; }
 }
 

@@ -1,8 +1,10 @@
 // Checks that what each axis reports is true: compares every one of its states with its pulses and its slide.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/protocol/rules.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/record/recording.hpp"
 
@@ -11,19 +13,26 @@ namespace lockstep::simtest {
 class ClaimCheck : public VirtualObserver {
 public:
     ClaimCheck(VirtualMachine& vm, Recording& recording)
-        : vm_(vm), recording_(recording), pulses_(recording.axes.size(), 0), has_device_(recording.axes.size(), true) {}
+        : vm_(vm),
+          recording_(recording),
+          pulses_(recording.axes.size(), 0),
+          has_device_(recording.axes.size(), true),
+          unnoticed_(recording.axes.size()) {}
 
     void on_step(std::size_t axis, StepEdge step) override { pulses_[axis] += step.direction; }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
 private:
+    bool has_yet_to_notice(std::size_t axis);
     void object(std::size_t axis, Tick now, const std::string& what);
 
     VirtualMachine& vm_;
     Recording& recording_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<bool> has_device_;      // and the axis has taken it
+    std::vector<std::optional<Slot>>
+        unnoticed_;  // of an axis that has not noticed that its device was lost: its states
 };
 
 }  // namespace lockstep::simtest

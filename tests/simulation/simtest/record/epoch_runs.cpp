@@ -20,7 +20,8 @@ std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
     return net;
 }
 
-/// The faults that can have affected an epoch, between the creation of its first frame and the end of its last.
+/// The faults that can have affected an epoch, from the creation of its first frame until each axis has read of its
+/// device, within a slot, that the last has ended.
 std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
     const ProtocolTiming& t = recording.machine.timing;
     const Ticks slot = recording.machine.slot_ticks();
@@ -28,7 +29,7 @@ std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch&
     const SentFrame& last = epoch.frames.rbegin()->second;
     std::vector<VirtualFault> faults;
     for (const VirtualFault& fault : recording.faults) {
-        if (fault.at <= last.start + last.ticks && fault.end() >= from) { faults.push_back(fault); }
+        if (fault.at <= last.start + last.ticks + slot && fault.end() >= from) { faults.push_back(fault); }
     }
     return faults;
 }
