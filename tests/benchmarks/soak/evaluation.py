@@ -61,7 +61,8 @@ def table(result, samples, options, seconds):
              "| process | before, KB | after, KB | growth over the last half of the clients, bytes each "
              "| of the jobs, bytes each | descriptors | threads |", "|---|---|---|---|---|---|---|"]
     for process in samples.processes:
-        before, after = samples.of(process, "before")[0], samples.of(process, last.phase)[-1]
+        own = [row for row in samples.rows if row.process == process]
+        before, after = own[0], own[-1]
         each = [f"{result.growth_each.get((process, phase), 0):.0f}" for phase in PHASES]
         lines.append(f"| {process} | {before.rss_anon_kb} | {after.rss_anon_kb} | {each[0]} | {each[1]} | "
                      f"{before.descriptors} → {after.descriptors} | {before.threads} → {after.threads} |")
