@@ -1,7 +1,9 @@
-// P. Ranade, "Linear motor control without the math": the motor of the article (start 1,000 steps/s, limit 5,000
-// steps/s, acceleration limit 25,000 steps/s^2) asked for N steps within half a second, planned as in the steps after
-// Fig. 3.
+// P. Ranade, "Linear motor control without the math", Figs. 2 to 4: the motor of the article (start 1,000 steps/s,
+// limit 5,000 steps/s, acceleration limit 25,000 steps/s^2) asked for N steps within half a second, planned as in the
+// steps after Fig. 3.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "core/methods/ranade.hpp"
 #include "core/motion/profile.hpp"
@@ -32,6 +34,26 @@ TEST(RanadeFigure3, EighteenHundredStepsAreNoTriangleButATrapezoid) {
     EXPECT_EQ(profile->phases.size(), 3U);
     EXPECT_NEAR(top_speed(*profile), 5'000, 0.1);
     EXPECT_LT(acceleration(*profile), 25'000);
+}
+
+/// Fig. 4 names the waits T_1, T_2 ... between pulses; the text before it takes each for 1/speed at its beginning. The
+/// engine's waits are exact, so each lies between 1/speed at its beginning and at its end.
+TEST(RanadeFigure4, EachWaitLiesBetweenTheReciprocalsOfTheSpeedsAtItsEnds) {
+    const StepMove move{1'200, 1'000, 3'800, 11'200, 11'200};
+    const auto train = methods::ranade(move, methods::Fit::Exact);
+    ASSERT_TRUE(train.has_value()) << train.error();
+    const double top_s = (move.max - move.start) / move.acceleration;
+    const auto speed = [&](double time_s) {
+        return move.start + move.acceleration * (time_s < top_s ? time_s : 2 * top_s - time_s);
+    };
+    constexpr double kRounding_s = 2.1e-6;  // each pulse to a tick
+    for (std::size_t i = 1; i < train->times_s.size(); ++i) {
+        const double from = train->times_s[i - 1];
+        const double to = train->times_s[i];
+        const auto [slow, fast] = std::minmax({speed(from), speed(to)});
+        EXPECT_LE(to - from, 1 / slow + kRounding_s) << i;
+        if (to < top_s || from > top_s) { EXPECT_GE(to - from, 1 / fast - kRounding_s) << i; }
+    }
 }
 
 TEST(RanadePlanning, TwoThousandStepsAreInfeasibleAndTheErrorNamesThe1860ThatAreFeasible) {

@@ -1,5 +1,6 @@
-// P. Ranade, "Linear motor control without the math", Table 1: at 0.2 steps/s, checked once a second, a pulse falls
-// after 5, 10, 15, 20 and 25 seconds. Here a tick is one of the paper's seconds.
+// P. Ranade, "Linear motor control without the math", Table 1, all 27 rows: at 0.2 steps/s, checked once a second, a
+// pulse falls after 5, 10, 15, 20 and 25 seconds, and none in the rows between or in the last two. Here a tick is one
+// of the paper's seconds.
 //
 // Two conventions lead from the paper's table to the engine:
 // - The paper steps when a whole step is complete; the engine when it crosses a half. A start half a step
@@ -8,6 +9,7 @@
 //   as in the table; rounded down, every pulse would come a second late.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/step/engine.hpp"
@@ -20,7 +22,9 @@ namespace {
 constexpr std::int64_t kFifthOfAStepUp = 3689348814741910324;  // ceil(2^64 / 5)
 constexpr Position kWholeStepBehind = Position::from_count(0, 0);
 
-Segment table1(std::int64_t velocity) { return {Tick{0}, kWholeStepBehind, Piece{Ticks{26}, {velocity}, {0}}}; }
+constexpr std::int64_t kRows = 27;
+
+Segment table1(std::int64_t velocity) { return {Tick{0}, kWholeStepBehind, Piece{Ticks{kRows}, {velocity}, {0}}}; }
 
 template <typename Form>
 std::vector<std::int64_t> pulses(Form form, const Segment& segment) {
@@ -38,14 +42,33 @@ TEST(RanadeTable1, PulsesFallAfter5And10And15And20And25Seconds) {
     EXPECT_EQ(pulses([](auto& s, auto f) { for_each_step(s, f); }, segment), kColumnF);
 }
 
-TEST(RanadeTable1, TheDifferenceOfExpectedAndCurrentPositionIsThatOfColumnE) {
+/// A row of the table: column C from the engine's position, column D from its pulses before this second.
+struct Row {
+    double expected;
+    double current;
+};
+
+Row row(std::int64_t second) {
     const Segment segment = table1(kFifthOfAStepUp);
-    for (std::int64_t second = 1; second <= 26; ++second) {
-        const double expected = (segment.piece.covered(Ticks{second})).as_steps();
-        const auto current = static_cast<double>((second - 1) / 5);  // before the check of this second
-        const double column_e = static_cast<double>(1 + (second - 1) % 5) * 0.2;
-        EXPECT_NEAR(expected - current, column_e, 1e-15 * static_cast<double>(second)) << second;
+    const auto falls = pulses([](auto& s, auto f) { for_each_step(s, f); }, segment);
+    const auto before = std::ranges::count_if(falls, [&](std::int64_t tick) { return tick < second; });
+    return {segment.piece.covered(Ticks{second}).as_steps(), static_cast<double>(before)};
+}
+
+TEST(RanadeTable1, EveryRowHasTheProductTheCurrentPositionAndThePulse) {
+    for (std::int64_t second = 1; second <= kRows; ++second) {
+        const auto [expected, current] = row(second);
+        EXPECT_NEAR(expected, 0.2 * static_cast<double>(second), 1e-14) << second;
+        const bool pulse = std::ranges::find(kColumnF, second) != kColumnF.end();
+        EXPECT_EQ(expected - current >= 1, pulse) << second;
     }
+}
+
+TEST(RanadeTable1, Row27HasAProductOf5Point4APositionOf5AndNoPulse) {
+    const auto [expected, current] = row(27);
+    EXPECT_NEAR(expected, 5.4, 1e-14);
+    EXPECT_EQ(current, 5);
+    EXPECT_NEAR(expected - current, 0.4, 1e-14);
 }
 
 TEST(RanadeTable1, RoundedDownEveryPulseWouldComeASecondLate) {
