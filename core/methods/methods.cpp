@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/methods/carrica.hpp"
+#include "core/methods/carrica_off_line.hpp"
 #include "core/methods/lai.hpp"
 #include "core/methods/lam.hpp"
 #include "core/methods/ranade.hpp"
@@ -27,6 +28,8 @@ constexpr std::array kMethods{
     Method{name_of(StepMethod::Carrica),
            "D. Carrica, M. A. Funes, S. A. González, Novel stepper motor controller based on FPGA", Crossing::Whole,
            [](const StepMove& move, Fit fit) { return carrica(move, fit); }},
+    Method{"off-line", "the stored table that D. Carrica et al. compare with", Crossing::Whole,
+           [](const StepMove& move, Fit fit) { return carrica_off_line(move, fit); }},
 };
 
 }  // namespace

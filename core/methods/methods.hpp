@@ -1,4 +1,4 @@
-// The five methods by name.
+// The five methods by name, and behind them the off-line table that one of their papers compares with.
 #pragma once
 
 #include <span>

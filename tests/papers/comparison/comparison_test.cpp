@@ -1,4 +1,4 @@
-// Compares the five methods: checks that the measurements match the steps made.
+// Compares the five methods and the off-line table: checks that the measurements match the steps made.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ const Outcome& of(const Comparison& comparison, std::string_view name) {
 
 TEST(Comparison, EveryMethodMakes12000StepsOfCarricasMove) {
     const Comparison comparison = standard();
-    ASSERT_EQ(comparison.rows.size(), 5U);
+    ASSERT_EQ(comparison.rows.size(), 6U);
     for (const Row& row : comparison.rows) {
         ASSERT_TRUE(row.outcome.has_value()) << row.method.name;
         EXPECT_EQ(row.outcome->errors_us.size(), 12'000U) << row.method.name;
@@ -45,6 +45,11 @@ TEST(Comparison, TheComparatorIsNeverAheadOfItsReferenceAndLateByItsQuantisation
     EXPECT_LE(carrica.peak_speed, 6'000);
 }
 
+TEST(Comparison, TheOffLineTableIsWithinHalfACountOfTheIdealAtEveryStep) {
+    const Comparison comparison = standard();
+    EXPECT_LE(std::abs(of(comparison, "off-line").largest_error_us), 0.4 + 1e-6);  // of 0.8 us
+}
+
 TEST(Comparison, ReportsWhatAMethodCannotExpress) {
     const std::string text = to_text(standard());
     EXPECT_NE(text.find("spielauer: knows no start speed"), std::string::npos);
@@ -56,7 +61,7 @@ TEST(Comparison, ReportsWhatAMethodCannotExpress) {
 TEST(Comparison, AMethodThatRefusesHasARowButNoCurve) {
     const Comparison comparison = compare({1'000, 0, 100'000, 50'000, 50'000}, methods::methods());
     EXPECT_NE(to_text(comparison).find("refused"), std::string::npos);
-    EXPECT_EQ(comparison_figure(comparison).rows.size(), 1U + 4U);
+    EXPECT_EQ(comparison_figure(comparison).rows.size(), 1U + 5U);
     EXPECT_NE(to_report(comparison).methods(2).refusal().find("255"), std::string::npos);
 }
 
@@ -64,7 +69,7 @@ TEST(Comparison, TheReportHasEveryMethodAndLine) {
     const proto::CompareReport report = to_report(standard());
     EXPECT_EQ(report.move().steps(), 12'000);
     EXPECT_NEAR(report.ideal_duration_s(), 3.200397, 1e-6);
-    ASSERT_EQ(report.methods_size(), 5);
+    ASSERT_EQ(report.methods_size(), 6);
     EXPECT_EQ(report.methods(0).name(), "ranade");
     EXPECT_FALSE(report.methods(0).has_nearest());
     EXPECT_TRUE(report.methods(1).has_nearest());
@@ -73,12 +78,12 @@ TEST(Comparison, TheReportHasEveryMethodAndLine) {
 
 TEST(Comparison, EveryStepIsALineOfTheTable) {
     const std::string csv = to_csv(compare({100, 500, 6'000, 4'200, 4'200}, methods::methods()));
-    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 5 * 100);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 6 * 100);
 }
 
 TEST(Comparison, FiguresAndPageStayOfASizeToOpen) {
     const Comparison comparison = standard();
-    EXPECT_EQ(comparison_figure(comparison).rows.size(), 6U);
+    EXPECT_EQ(comparison_figure(comparison).rows.size(), 7U);
     EXPECT_EQ(lines_figure().rows.size(), 2U);
     EXPECT_LT(to_html(comparison).size(), 1'000'000U);
 }
