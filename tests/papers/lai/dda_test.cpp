@@ -1,8 +1,9 @@
 // C.-K. Lai, W.-N. Chien, Y.-T. Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives
-// Design": the DDA of Fig. 3, and the six lines of Figs. 14 (without it) and 15 (with it).
+// Design": the DDA of Fig. 3, its pulses of Fig. 12, and the six lines of Figs. 14 (without it) and 15 (with it).
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/methods/lai.hpp"
 #include "core/methods/lai_dda.hpp"
@@ -33,6 +34,18 @@ TEST(LaiFigure3, EveryPeriodMakesExactlyItsPulses) {
     }
 }
 
+TEST(LaiFigure3, APulseIsLessThanOneOf256ClocksBehindAnExactlyEvenSpread) {
+    for (std::int64_t pulses = 1; pulses <= kMaxPeriodPulses; ++pulses) {
+        Dda dda;
+        const auto clocks = pulses_of_a_period(dda, pulses);
+        for (std::size_t i = 0; i < clocks.size(); ++i) {
+            const double even = 256.0 * static_cast<double>(i + 1) / static_cast<double>(pulses);
+            EXPECT_GE(clocks[i], even - 1e-9);
+            EXPECT_LT(clocks[i], even + 1);
+        }
+    }
+}
+
 constexpr std::int64_t kPulsesPerUnit = 100;
 
 /// The largest deviation from the line from (from, 0) to (5, 5).
@@ -41,6 +54,27 @@ double deviation(std::int64_t from, LaiPulses how) {
     const auto periods = plan_two_axes(end, {}, LaiRounding::FromTheStart, {});
     EXPECT_EQ(total(periods), end);
     return farthest_from_line(walk_two_axes(periods, how), end);
+}
+
+/// The ports sAx0Puls and sAx1Puls while line {(1,0), (5,5)} is made, and that of the axis that is not in use. The
+/// phase signals Step0Out and Step1Out behind them belong to the drive, which takes step and direction here.
+TEST(LaiFigure12, BothAxesPulseEvenlyThroughEachPeriodAndTheThirdNot) {
+    Dda x;
+    Dda y;
+    Dda third;
+    for (const PeriodPulses& period :
+         plan_two_axes({4 * kPulsesPerUnit, 5 * kPulsesPerUnit}, {}, LaiRounding::FromTheStart, {})) {
+        for (const auto& [dda, pulses] : {std::pair{&x, period.x}, std::pair{&y, period.y}}) {
+            const auto clocks = pulses_of_a_period(*dda, pulses);
+            ASSERT_EQ(clocks.size(), static_cast<std::size_t>(pulses));
+            for (std::size_t i = 1; i < clocks.size(); ++i) {
+                EXPECT_NEAR(clocks[i] - clocks[i - 1], static_cast<double>(kDdaClocks) / static_cast<double>(pulses),
+                            1);
+            }
+            if (pulses > 0) { EXPECT_EQ(clocks.back(), kDdaClocks); }
+        }
+        EXPECT_TRUE(pulses_of_a_period(third, 0).empty());
+    }
 }
 
 TEST(LaiFigure15, WithTheDdaEveryLineStaysWithinAPulseAndAHalf) {

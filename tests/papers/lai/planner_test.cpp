@@ -1,5 +1,8 @@
 // C.-K. Lai, W.-N. Chien, Y.-T. Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives
 // Design": the simulated runs of Figs. 5 to 9.
+//
+// The paper does not say how m v becomes whole pulses. Its figures need two roundings: Fig. 6 the one from the start of
+// the move, Fig. 8 the one in each period; the tests show that neither figure comes out of the other's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,6 +52,22 @@ TEST(LaiFigure8, RoundingInEachPeriodOverInterpolatesMinus93ToMinus94) {
     EXPECT_EQ(total(periods), (PeriodPulses{107, -94}));
 }
 
+/// The figure needs a V_max of at least 9 (it names none): only there does the long axis reach its root, or one less.
+TEST(LaiFigure8, Minus94NeedsAVmaxOfAtLeast9AndTheDefaultOf4EndsAtMinus84) {
+    const auto end_with = [](std::int64_t max) {
+        return total(plan_two_axes(kFigure8, {.max = max}, LaiRounding::InEachPeriod, kUncompensated)).y;
+    };
+    for (std::int64_t max = 1; max <= 8; ++max) { EXPECT_NE(end_with(max), -94) << max; }
+    for (std::int64_t max = 9; max <= 100; ++max) { EXPECT_EQ(end_with(max), -94) << max; }
+    EXPECT_EQ(end_with(LaiSpeeds{}.max), -84);
+}
+
+TEST(LaiFigure9, WithBothCompensationsItEndsAtMinus93WhateverTheVmax) {
+    for (std::int64_t max = 1; max <= 100; ++max) {
+        EXPECT_EQ(total(plan_two_axes(kFigure8, {.max = max}, LaiRounding::InEachPeriod, {})), kFigure8) << max;
+    }
+}
+
 TEST(LaiFigure8, TheDerivativeLimitAloneDoesNotHelp) {
     const auto periods =
         plan_two_axes(kFigure8, kUncapped, LaiRounding::InEachPeriod, {.derivative = true, .remaining = false});
@@ -64,7 +83,25 @@ TEST(LaiFigure9, WithBothCompensationsItEndsAtMinus93) {
 TEST(LaiFigure6, WithAtMost3PulsesAPeriodTheShortAxisChangesSuddenlyByTwo) {
     const auto y = of_y(plan_two_axes({25, 20}, kCappedAt3, LaiRounding::FromTheStart, kUncompensated));
     EXPECT_EQ((std::vector<std::int64_t>{y.begin(), y.begin() + 4}), (std::vector<std::int64_t>{1, 1, 3, 2}));
-    EXPECT_EQ(largest_change(y), 2);
+    EXPECT_EQ(largest_change(y), 2);  // counted from rest, between the sampling instants 3 and 4
+}
+
+/// So Fig. 6 cannot come from the rounding that Fig. 8 needs.
+TEST(LaiFigure6, RoundingInEachPeriodNeverChangesTheShortAxisByMoreThanOne) {
+    for (std::int64_t x = 1; x <= 120; ++x) {
+        for (std::int64_t y = 0; y <= x; ++y) {
+            const auto periods = plan_two_axes({x, y}, kCappedAt3, LaiRounding::InEachPeriod, kUncompensated);
+            ASSERT_LE(largest_change(of_y(periods)), 1) << x << ", " << y;
+        }
+    }
+}
+
+/// Nor from the one of Fig. 6 can -94: rounded from the start, every line ends where it should.
+TEST(LaiFigure8, RoundingFromTheStartDoesNotOverInterpolate) {
+    for (std::int64_t max = 1; max <= 12; ++max) {
+        const auto periods = plan_two_axes(kFigure8, {.max = max}, LaiRounding::FromTheStart, kUncompensated);
+        EXPECT_EQ(total(periods), kFigure8) << max;
+    }
 }
 
 TEST(LaiFigure7, TheDerivativeLimitRemovesTheSuddenChange) {
