@@ -46,9 +46,9 @@ std::int64_t LaiLongAxis::next() {
     return pulses;
 }
 
-LaiShortAxis::LaiShortAxis(std::int64_t length, std::int64_t long_length, std::int64_t change, LaiRounding rounding,
+LaiShortAxis::LaiShortAxis(std::int64_t length, std::int64_t long_length, const LaiSpeeds& speeds, LaiRounding rounding,
                            LaiCompensation compensation)
-    : length_(length), long_length_(long_length), change_(change), rounding_(rounding), compensation_(compensation) {}
+    : length_(length), long_length_(long_length), speeds_(speeds), rounding_(rounding), compensation_(compensation) {}
 
 std::int64_t LaiShortAxis::follow(std::int64_t pulses) {
     const std::int64_t wanted =
@@ -63,7 +63,9 @@ std::int64_t LaiShortAxis::share(std::int64_t along) const {
 }
 
 std::int64_t LaiShortAxis::make(std::int64_t v) {
-    if (compensation_.derivative) { v = std::clamp(v, std::max<std::int64_t>(0, speed_ - change_), speed_ + change_); }
+    if (compensation_.derivative) {
+        v = std::clamp(v, std::max<std::int64_t>(0, speed_ - speeds_.change), speed_ + speeds_.change);
+    }
     if (compensation_.remaining) { v = std::min(v, whole_root(remaining())); }
     speed_ = v;
     done_ += v;
@@ -80,7 +82,7 @@ std::vector<PeriodPulses> plan_two_axes(PeriodPulses lengths, const LaiSpeeds& s
                                         LaiCompensation compensation) {
     const bool x_leads = std::abs(lengths.x) >= std::abs(lengths.y);
     const std::int64_t long_length = std::max(std::abs(lengths.x), std::abs(lengths.y));
-    LaiShortAxis follower(std::min(std::abs(lengths.x), std::abs(lengths.y)), long_length, speeds.change, rounding,
+    LaiShortAxis follower(std::min(std::abs(lengths.x), std::abs(lengths.y)), long_length, speeds, rounding,
                           compensation);
     std::vector<PeriodPulses> periods;
     const auto add = [&](std::int64_t leading, std::int64_t following) {

@@ -16,9 +16,10 @@
 // - How m v becomes whole pulses. Rounded in each period for itself, halves up, (107, -93) ends at -94 as in Fig. 8.
 //   Rounded from the start, so that the short axis is where it belongs at every sample, nothing is left over, but
 //   neighbouring periods may differ by two pulses: the sudden change of Fig. 6. Hence both.
-// - Once the long axis has arrived, a compensated short axis makes what remains of its own.
+// - Once the long axis has arrived, a compensated short axis makes what remains of its own, at V_max at most.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -74,13 +75,14 @@ inline constexpr LaiCompensation kUncompensated{false, false};
 /// The pulses of an axis that follows the long one with slope length / long_length.
 class LaiShortAxis {
 public:
-    LaiShortAxis(std::int64_t length, std::int64_t long_length, std::int64_t change, LaiRounding rounding,
+    /// Of the speeds, its own V_max and change.
+    LaiShortAxis(std::int64_t length, std::int64_t long_length, const LaiSpeeds& speeds, LaiRounding rounding,
                  LaiCompensation compensation);
 
     /// While the long axis makes its next `pulses`.
     std::int64_t follow(std::int64_t pulses);
     /// Once the long axis has arrived.
-    std::int64_t finish() { return make(remaining()); }
+    std::int64_t finish() { return make(std::min(speeds_.max, remaining())); }
     std::int64_t remaining() const { return length_ - done_; }
 
 private:
@@ -89,7 +91,7 @@ private:
 
     std::int64_t length_;
     std::int64_t long_length_;
-    std::int64_t change_;
+    LaiSpeeds speeds_;
     LaiRounding rounding_;
     LaiCompensation compensation_;
     std::int64_t speed_ = 0;

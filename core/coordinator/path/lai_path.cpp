@@ -27,8 +27,12 @@ std::int64_t change_of(const AxisLimits& axis, double period) {
 class LaiPlanner {
 public:
     LaiPlanner(std::span<const AxisLimits> limits, std::span<const double> steps_per_mm, std::int64_t tick_ns,
-               const PathBounds& bounds)
-        : limits_(limits), steps_per_mm_(steps_per_mm), period_{kPeriod_ns / tick_ns}, bounds_(bounds) {}
+               const PathBounds& bounds, LaiFollowing following)
+        : limits_(limits),
+          steps_per_mm_(steps_per_mm),
+          period_{kPeriod_ns / tick_ns},
+          bounds_(bounds),
+          published_(following == LaiFollowing::AsPublished) {}
 
     /// A dwell, or the rest of a period that was held in: by itself, from rest to rest.
     void alone(const PathMove& move, Displacement along = {}) {
@@ -38,38 +42,53 @@ public:
     /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
     void straight(const PathMove& move, std::uint32_t part) {
         AxisCounts at = move.from;
-        std::vector<std::optional<methods::LaiShortAxis>> followers = followers_of(move);
-        methods::LaiLongAxis lead(move.lead, speeds_of(move), methods::LaiLeftOver::WithinTheFall);
-        while (lead.remaining() > 0) {
-            const std::int64_t pulses = lead.next();
+        const methods::LaiSpeeds speeds = speeds_of(move);
+        Followers followers = followers_of(move, speeds);
+        methods::LaiLongAxis lead(move.lead, speeds,
+                                  published_ ? methods::LaiLeftOver::Behind : methods::LaiLeftOver::WithinTheFall);
+        const auto make = [&](std::int64_t pulses, auto of_follower) {
             AxisCounts to = at;
             for (std::size_t i = 0; i < followers.size(); ++i) {
-                const std::int64_t made = followers[i] ? followers[i]->follow(pulses) : pulses;
+                const std::int64_t made = followers[i] ? of_follower(*followers[i]) : pulses;
                 to[i] += move.to[i] < move.from[i] ? -made : made;
             }
             append(period(move, part++, at, to));
             at = to;
+        };
+        while (lead.remaining() > 0) {
+            const std::int64_t pulses = lead.next();
+            make(pulses, [&](methods::LaiShortAxis& axis) { return axis.follow(pulses); });
+        }
+        while (at != move.to) {
+            make(0, [](methods::LaiShortAxis& axis) { return axis.finish(); });
         }
     }
 
     Path take() { return std::move(path_); }
 
 private:
+    using Followers = std::vector<std::optional<methods::LaiShortAxis>>;
+
     void append(PathMove move) {
         move.start = path_.duration();
         path_.moves.push_back(move);
     }
 
     /// One for each axis but the long one.
-    std::vector<std::optional<methods::LaiShortAxis>> followers_of(const PathMove& move) const {
-        std::vector<std::optional<methods::LaiShortAxis>> followers(limits_.size());
+    Followers followers_of(const PathMove& move, const methods::LaiSpeeds& speeds) const {
+        const auto rounding = published_ ? methods::LaiRounding::InEachPeriod : methods::LaiRounding::FromTheStart;
+        const auto compensation = published_ ? methods::LaiCompensation{} : methods::kUncompensated;
+        Followers followers(limits_.size());
         bool led = false;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const std::int64_t length = std::abs(move.to[i] - move.from[i]);
             if (!led && length == move.lead) {
                 led = true;
             } else {
-                followers[i].emplace(length, move.lead, 0, methods::LaiRounding::FromTheStart, methods::kUncompensated);
+                const std::int64_t fastest = methods::whole_pulses(limits_[i].max_velocity * period());
+                const methods::LaiSpeeds own{.max = std::min(speeds.max, fastest),
+                                             .change = std::min(speeds.change, change_of(limits_[i], period()))};
+                followers[i].emplace(length, move.lead, own, rounding, compensation);
             }
         }
         return followers;
@@ -116,6 +135,7 @@ private:
     std::span<const double> steps_per_mm_;
     Ticks period_;
     PathBounds bounds_;
+    bool published_;
     Path path_;
 };
 
@@ -167,8 +187,9 @@ std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64
 }
 
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,
-                   std::span<const double> steps_per_mm, std::int64_t tick_ns, const PathBounds& bounds) {
-    LaiPlanner planner(limits, steps_per_mm, tick_ns, bounds);
+                   std::span<const double> steps_per_mm, std::int64_t tick_ns, const PathBounds& bounds,
+                   LaiFollowing following) {
+    LaiPlanner planner(limits, steps_per_mm, tick_ns, bounds, following);
     std::size_t next = 0;
     if (along > Displacement{}) { planner.alone(moves[next++], along); }
     while (next < moves.size()) {

@@ -113,13 +113,17 @@ TEST(LaiFigure7, TheDerivativeLimitRemovesTheSuddenChange) {
 }
 
 /// Checks the end of the compensations for every pair of lengths up to 60 and both roundings.
-TEST(LaiCompensations, EveryLineEndsExactlyAndNoSpeedChangesByMoreThanOne) {
+TEST(LaiCompensations, EveryLineEndsExactlyNoSpeedPassesVmaxOrChangesByMoreThanOne) {
     for (const LaiRounding rounding : {LaiRounding::InEachPeriod, LaiRounding::FromTheStart}) {
         for (std::int64_t x = 0; x <= 60; ++x) {
             for (std::int64_t y = -60; y <= 60; ++y) {
                 if (x == 0 && y == 0) { continue; }
                 const auto periods = plan_two_axes({x, y}, kCappedAt3, rounding, {});
                 ASSERT_EQ(total(periods), (PeriodPulses{x, y}));
+                for (const PeriodPulses& period : periods) {
+                    ASSERT_LE(std::abs(period.x), kCappedAt3.max) << x << ", " << y;
+                    ASSERT_LE(std::abs(period.y), kCappedAt3.max) << x << ", " << y;
+                }
                 if (std::abs(y) < x) { ASSERT_LE(largest_change(of_y(periods)), 1) << x << ", " << y; }
             }
         }

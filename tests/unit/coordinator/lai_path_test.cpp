@@ -25,13 +25,13 @@ AxisLimits axis_of(double steps_per_s, double steps_per_s2) {
 const std::vector<AxisLimits> kLimits(2, axis_of(5000, 60'000));
 const std::vector<double> kScale{80, 400};
 
-Path path_through(const std::vector<AxisCounts>& places, double feed = 0) {
+Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following = LaiFollowing::OnTheLine) {
     std::vector<PathMove> moves;
     for (std::size_t i = 1; i < places.size(); ++i) {
-        moves.push_back(make_move(places[i - 1], places[i], kLimits, kScale, feed));
+        moves.push_back(make_move(places[i - 1], places[i], kLimits, kScale, 0));
         moves.back().block = static_cast<std::uint32_t>(i);
     }
-    return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kBounds);
+    return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kBounds, following);
 }
 
 /// Runs the path to `end` as one frame, the tail behind it, and asks both axes.
@@ -100,9 +100,29 @@ TEST(LaiPath, ShortAxesAreOnTheLineToTheNearestStep) {
 }
 
 TEST(LaiPath, EveryFrameAndEveryTailKeepsTheLimits) {
-    const Path path = path_through({{0, 0}, {40, 31}, {37, 60}, {-20, 60}, {-20, 58}, {20, 0}});
-    ASSERT_LT(path.moves.size(), kMaxBodyPieces);
-    for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end); }
+    for (const LaiFollowing following : {LaiFollowing::OnTheLine, LaiFollowing::AsPublished}) {
+        const Path path = path_through({{0, 0}, {40, 31}, {37, 60}, {-20, 60}, {-20, 58}, {20, 0}}, following);
+        ASSERT_LT(path.moves.size(), kMaxBodyPieces);
+        for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end); }
+    }
+}
+
+TEST(LaiPath, AsPublishedIsThePapersPlanPeriodForPeriod) {
+    std::mt19937_64 random(11);
+    const auto length = [&] { return static_cast<std::int64_t>(random() % 401) - 200; };
+    for (int run = 0; run < 200; ++run) {
+        const AxisCounts to{length(), length()};
+        if (to[0] == 0 && to[1] == 0) { continue; }
+        const Path path = path_through({{0, 0}, to}, LaiFollowing::AsPublished);
+        const auto papers = methods::plan_two_axes({to[0], to[1]}, {.max = 31}, methods::LaiRounding::InEachPeriod, {});
+        ASSERT_EQ(path.moves.size(), papers.size()) << to[0] << ", " << to[1];
+        for (std::size_t i = 0; i < papers.size(); ++i) {
+            const PathMove& period = path.moves[i];
+            EXPECT_EQ(period.to[0] - period.from[0], papers[i].x) << i;
+            EXPECT_EQ(period.to[1] - period.from[1], papers[i].y) << i;
+        }
+        EXPECT_EQ(path.moves.back().to, to);
+    }
 }
 
 TEST(LaiPath, WhatIsLeftOfAHeldMoveIsMadeFromRestAndEndsWhereItShould) {
