@@ -76,7 +76,7 @@ std::string to_csv(const Comparison& comparison) {
 
 std::string to_html(const Comparison& comparison) {
     return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Five ways to make "
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Ways to make "
         "steps</title>\n"
         "<style>body {{ font-family: sans-serif; margin: 2em; }} pre {{ overflow-x: auto; }}</style>\n</head>\n<body>\n"
         "<pre>{}</pre>\n{}\n{}\n</body>\n</html>\n",

@@ -71,7 +71,7 @@ drawing::Chart lines_chart(std::string title, LaiPulses how) {
 
 drawing::Figure comparison_figure(const Comparison& comparison) {
     drawing::Figure figure{
-        .title = "One move, five methods", .subtitle = move_text(comparison.move), .x_label = "time, s"};
+        .title = "One move, method by method", .subtitle = move_text(comparison.move), .x_label = "time, s"};
     figure.rows.push_back(speed_chart(comparison));
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         if (comparison.rows[i].outcome) { figure.rows.push_back(error_chart(comparison.rows[i], i)); }

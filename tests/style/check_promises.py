@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each test that docs/promises.md names exists, and each folder of tests is named there.
+"""Each test that docs/promises.md and the table of papers in core/methods/README.md name exists.
 
 Usage: check_promises.py ROOT
 
@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-PROMISES = "docs/promises.md"
+DOCUMENTS = ("docs/promises.md", "core/methods/README.md")
 IN_SOURCE = re.compile(r"\b(?:TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP|INSTANTIATE_TEST_SUITE_P)"
                        r"\(\s*(\w+)\s*,\s*(\w+)")
 IN_CMAKE = re.compile(r"\b(?:NAME|add_test\(NAME)\s+([\w.]+)")
@@ -42,12 +42,12 @@ def matches(name, names):
     return any(known.startswith(name[:-1]) for known in names) if name.endswith("…") else name in names
 
 
-def breaches(root, number, line):
+def breaches(root, document, number, line):
     if not line.startswith("|") or line.count("|") < 3:
         return
     cell = line.split("|")[2]
     for path, _, listed in re.findall(r"`(tests/[^`]+)`( \(([^)]*)\))?", cell):
-        place = f"{PROMISES}:{number}"
+        place = f"{document}:{number}"
         if not (root / path).exists():
             yield f"{place}: {path} does not exist"
             continue
@@ -59,9 +59,10 @@ def breaches(root, number, line):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    lines = (root / PROMISES).read_text().splitlines()
-    found = [b for number, line in enumerate(lines, 1) for b in breaches(root, number, line)]
-    print("\n".join(found) if found else f"every test that {PROMISES} names exists")
+    found = [b for document in DOCUMENTS
+             for number, line in enumerate((root / document).read_text().splitlines(), 1)
+             for b in breaches(root, document, number, line)]
+    print("\n".join(found) if found else f"every test that {' and '.join(DOCUMENTS)} name exists")
     return 1 if found else 0
 
 

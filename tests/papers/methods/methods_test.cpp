@@ -1,4 +1,5 @@
-// The common properties of the five methods and the off-line table: each makes every required step, in order, and reports what it changed.
+// The common properties of the five methods and the off-line table: each makes every required step, in order, and
+// reports what it changed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -47,6 +47,12 @@ TEST(SpielauerTiming, TheSecondWaitIsAThirdOfTheFirstWhereItShouldBe414Thousandt
     EXPECT_GT(exact / static_cast<double>(counts[1]), 1.24);
 }
 
+TEST(SpielauerTiming, TheFirstDeceleratingWaitTakesTheSmallerRootOfTheMotionEquation) {
+    const double v = std::sqrt(600'000);  // the peak; 300 steps up, 100 down
+    const auto counts = spielauer_counts({400, 0, 1'000, 1'000, 3'000});
+    EXPECT_EQ(counts[300], std::floor(1e6 * (v - std::sqrt(v * v - 2 * 3'000)) / 3'000));
+}
+
 TEST(SpielauerCorrection, FirstAndLastFiveWaitsAreLongerByItsFactorsAndNoOther) {
     const auto plain = spielauer_counts(kLong);
     const auto corrected = spielauer_counts(kLong, {.corrected = true});
