@@ -98,7 +98,7 @@ void AxisController::end_run(AxisLoop& loop) {
         condition_.position.lose();
         own_.abandon();
         condition_.phases.happen(AxisEvent::HostStops);
-        loop.fail(FaultCode::EmergencyStopped);
+        if (condition_.phases.fault() != FaultCode::EmergencyStopped) { loop.fail(FaultCode::EmergencyStopped); }
     } else if (device.capture_overflow || (device.bad_segment && !(is_own && device.frame == 0))) {
         own_.abandon();
         loop.fail(FaultCode::DeviceFault);
@@ -154,16 +154,21 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
     switch (order.kind) {
         case AxisCommandKind::Home: return own_.home(order, is_resting(), loop);
         case AxisCommandKind::Reset: return reset(order, loop);
-        case AxisCommandKind::StopNow: stop_now(loop); return condition_.orders.end(FaultCode::None);
+        case AxisCommandKind::StopNow: condition_.orders.end(FaultCode::None); return stop_now(loop);
         case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);
         case AxisCommandKind::Halt: return own_.halt(loop);
     }
 }
 
+/// Also at rest: whatever is on its way to this axis must not move it before a person has reset it.
 void AxisController::stop_now(AxisLoop& loop) {
-    if (is_resting()) { return; }
-    loop.out.orders.emplace_back(device::StopNow{});
-    following_.veto(loop);
+    if (!is_resting()) {
+        loop.out.orders.emplace_back(device::StopNow{});
+        following_.veto(loop);
+    } else if (!condition_.phases.has_fault()) {
+        condition_.phases.happen(AxisEvent::Fails);
+    }
+    loop.fail(FaultCode::EmergencyStopped);
 }
 
 void AxisController::reset(const AxisCommand& order, AxisLoop& loop) {

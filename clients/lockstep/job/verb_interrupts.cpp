@@ -32,8 +32,8 @@ constexpr std::array kInterrupts{
               "watch it with: lockstep watch"},
     Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
-              "cease all pulses at once, also without a coordinator; positions are kept, homing is suspect",
-              "when it is safe: lockstep reset, lockstep home"},
+              "cease all pulses at once, also without a coordinator; what it stops in motion is to be homed again",
+              "when it is safe: lockstep reset; lockstep status shows which axes to home"},
     Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", ""},
 };
 
@@ -71,20 +71,25 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     return report_outcome(*session, interrupt, *reply, output);
 }
 
-/// Reports which axes are at rest, if no coordinator replies.
+/// At rest, and nothing moves it before a reset.
+bool is_stopped(const Session& session, std::size_t axis) {
+    const bool is_known = session.axis_present(axis);
+    return is_known && session.axis(axis)->state.at_rest && session.axis(axis)->state.fault != 0;
+}
+
+/// Which axes have stopped themselves, if no coordinator replies.
 ExitCode report_axes(const Session& session, Output& output) {
-    std::string at_rest;
+    std::string stopped;
     std::string other;
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        const bool rests = session.axis_present(i) && session.axis(i)->state.at_rest;
-        std::string& list = rests ? at_rest : other;
+        std::string& list = is_stopped(session, i) ? stopped : other;
         list += (list.empty() ? "" : ", ") + session.config().axes[i].name;
     }
-    if (at_rest.empty()) { return output.fail(session.silent()); }
+    if (stopped.empty()) { return output.fail(session.silent()); }
     proto::CommandReport report;
     report.set_accepted(other.empty());
-    report.set_text("no coordinator answers; at rest by themselves: " + at_rest +
-                    (other.empty() ? "" : "; in motion or not received: " + other));
+    report.set_text("no coordinator answers; stopped by themselves until a reset: " + stopped +
+                    (other.empty() ? "" : "; not known to be stopped: " + other));
     output.report(report);
     output.print("estop: " + report.text() + "\nsee: lockstep status; take the machine down: lockstep down");
     return other.empty() ? kExitDone : kExitFailed;

@@ -24,7 +24,8 @@ public:
         phase_ = kAxisTransitions[*row].to;
     }
 
-    /// A limit switch and an emergency stop have their own way through the states; every other fault leads to Fault.
+    /// A limit switch and an emergency stop in motion have their own way through the states; every other fault leads
+    /// to Fault.
     void fail(FaultCode fault) {
         if (!has_fault()) { fault_ = fault; }
         if (fault != FaultCode::LimitHit && fault != FaultCode::EmergencyStopped) { happen(AxisEvent::Fails); }

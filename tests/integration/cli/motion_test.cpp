@@ -264,7 +264,8 @@ TEST_F(Motion, CeasesOnAnEmergencyStopThoughTheCoordinatorIsStuck) {
     const Ran ran = run_lockstep({"estop", "--json"});
     kill(process("coordinator"), SIGCONT);
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_EQ(ran.json<proto::CommandReport>().text(), "no coordinator answers; at rest by themselves: X, Y");
+    EXPECT_EQ(ran.json<proto::CommandReport>().text(),
+              "no coordinator answers; stopped by themselves until a reset: X, Y");
     EXPECT_NE(run.wait().code, 0);
     ASSERT_TRUE(becomes("Fault"));
     EXPECT_EQ(status().fault().name(), "emergency-stopped") << "not that the axes fell silent";

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <string>
 
 #include "services/documents/machine_file.hpp"
 #include "services/flight/flight_source.hpp"
@@ -16,7 +18,7 @@ protected:
         std::filesystem::remove_all(folder);
         std::filesystem::create_directories(folder);
     }
-    ~FlightFolder() override { std::filesystem::remove_all(folder); }
+    ~FlightFolder() override { std::filesystem::remove_all(folder.parent_path()); }
 
     FlightSource source(const std::string& process = "axis-X") const {
         return {.machine = "mill",
@@ -29,7 +31,9 @@ protected:
     }
     std::filesystem::path rings() const { return folder / "rings"; }
 
-    std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "lockstep_flight" /
+    // By process: two programs have these tests.
+    std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
+                                   ("lockstep_flight_" + std::to_string(getpid())) /
                                    testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 

@@ -42,6 +42,7 @@ TEST_F(Ring, KeepsTheNewestInTheirOrder) {
     FlightRing ring = FlightRing::create(rings(), source(), 10).value();
     for (std::int64_t i = 1; i <= 25; ++i) { ring.add(noted(i)); }
     const auto snapshot = read_ring(ring.path());
+    ASSERT_TRUE(snapshot) << snapshot.error();
     const auto& events = snapshot->events;
     ASSERT_EQ(events.size(), 10U);
     for (std::size_t i = 0; i < events.size(); ++i) {
@@ -59,6 +60,7 @@ TEST_F(Ring, IsReadWholeEventByEventWhileItIsWritten) {
     });
     for (int i = 0; i < 2000; ++i) {
         const auto snapshot = read_ring(ring.path());
+        ASSERT_TRUE(snapshot) << snapshot.error();
         for (const NumberedEvent& read : snapshot->events) {
             const auto number = static_cast<std::int64_t>(read.number);
             ASSERT_EQ(read.event.tick, Tick{number});

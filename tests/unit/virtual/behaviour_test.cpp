@@ -146,6 +146,26 @@ TEST_F(Rig, AnEmergencyStopNeedsNoCoordinator) {
     for (std::size_t i = 0; i < 2; ++i) { EXPECT_EQ(axis_fault(i), FaultCode::EmergencyStopped); }
 }
 
+/// The coordinator has begun a job, and stands still before it sends a frame.
+TEST_F(Rig, AnEmergencyStopAtRestIsRememberedByTheAxes) {
+    home();
+    const auto at = counts();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    vm.schedule({.kind = VirtualFault::Kind::Freeze, .process = 2, .at = vm.now(), .lasts = Ticks{1'000'000}});
+    vm.command(CommandKind::EmergencyStop);
+    wait(0.5);
+    for (std::size_t i = 0; i < 2; ++i) { EXPECT_EQ(axis_fault(i), FaultCode::EmergencyStopped); }
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    EXPECT_EQ(fault(), FaultCode::EmergencyStopped);
+    wait(1);
+    EXPECT_EQ(counts(), at) << "nothing sets out when the coordinator is back";
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
+    ASSERT_EQ(run(program_of({{10, 10}}, 20)).status, ReplyStatus::Accepted) << "at rest no position is lost";
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));
+}
+
 TEST_F(Rig, AnEmergencyStopThatIsRepeatedStopsNothingAfterItsReset) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);

@@ -39,9 +39,8 @@ protected:
         file << bytes;
     }
 
-    fs::path path = fs::path(testing::TempDir()) /
-                    ("lockstep_board_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())) /
-                    "mill.states";
+    // By process: two programs have these tests.
+    fs::path path = fs::path(testing::TempDir()) / ("lockstep_board_" + std::to_string(getpid())) / "mill.states";
 };
 
 AxisState state_of(std::uint32_t axis, Slot stamp) { return {.axis = axis, .stamp = stamp}; }
