@@ -67,6 +67,11 @@ inline set_clocks() { skip }
 #define HIT_FROM_COORDINATOR(i) 1
 #define COORDINATOR_RUNS (since == NEVER || since == 0)
 
+#elif defined(TAKEOVER) /* a standby claims the machine: the owner has crashed, or continues, or stands down later */
+#define SENDER_FAILS
+#define HIT_FROM_COORDINATOR(i) 1
+#define COORDINATOR_RUNS (since == NEVER || since == 0 || !stood_down)
+
 #elif defined(AXIS_CRASH) /* its device continues */
 #define PROMISE P_BUT_FOR_THE_VICTIM
 #define SENDER_FAILS
@@ -194,6 +199,26 @@ inline set_clocks() { skip }
 #define MAY_BEGIN 1
 #endif
 
+/* ---- takeover: an axis at rest may follow the standby (ownership.pml), and takes nothing from the old owner then ---- */
+
+#ifdef TAKEOVER
+bit stood_down = 0;
+bit follows_another[N];
+#define FOLLOWS_ANOTHER(i) follows_another[i]
+/* The epoch has not begun on this axis, or its device has come to the start of a frame that it did not run. */
+#define RESTS(i) (axis[i].held == 0 || axis[i].ran == FRAMES || CLOCK(i) > START(axis[i].ran + 1))
+inline take_over() {
+    if :: since != NEVER -> stood_down = 1 :: true fi;
+    for (i : 0 .. N - 1) {
+        if :: since != NEVER && RESTS(i) -> follows_another[i] = 1 :: true fi
+    }
+    i = 0
+}
+#else
+#define FOLLOWS_ANOTHER(i) 0
+inline take_over() { skip }
+#endif
+
 /* ---- paths: the message of `age` slots ago arrives (PASSES), may arrive (MAYBE), or is lost ---- */
 
 #ifndef HIT
@@ -217,8 +242,8 @@ inline set_clocks() { skip }
 #endif
 #define PASSES(j, i, age) ARRIVES(HIT(j, i), age)
 #define MAYBE(j, i, age) MAY_ARRIVE(HIT(j, i), age)
-#define FROM_COORDINATOR_PASSES(i, age) ARRIVES(HIT_FROM_COORDINATOR(i), age)
-#define FROM_COORDINATOR_MAYBE(i, age) MAY_ARRIVE(HIT_FROM_COORDINATOR(i), age)
+#define FROM_COORDINATOR_PASSES(i, age) (ARRIVES(HIT_FROM_COORDINATOR(i), age) && !FOLLOWS_ANOTHER(i))
+#define FROM_COORDINATOR_MAYBE(i, age) (MAY_ARRIVE(HIT_FROM_COORDINATOR(i), age) && !FOLLOWS_ANOTHER(i))
 #define TO_COORDINATOR_PASSES(j, age) ARRIVES(HIT_TO_COORDINATOR(j), age)
 #define TO_COORDINATOR_MAYBE(j, age) MAY_ARRIVE(HIT_TO_COORDINATOR(j), age)
 
@@ -255,7 +280,8 @@ inline meet_fault() {
     :: else ->
         if :: since < LONG_AGO -> since++ :: else fi;
         go_on_stalling()
-    fi
+    fi;
+    take_over()
 }
 
 /* ---- stalls: decisions take effect late ---- */

@@ -32,6 +32,7 @@ CLASSES = {
     "coordinator_long_stall": "the coordinator stalls for longer",
     "all_stall": "all processes stall for up to s slots",
     "all_long_stall": "all processes stall for longer",
+    "takeover": "a standby claims the machine",
 }
 COLUMNS = {
     "and_stop_2axes": "2 axes, f = 2",
