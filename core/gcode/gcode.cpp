@@ -73,7 +73,9 @@ std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view
         if (auto wrong = slow_feed(reader.interpreter())) { reader.report(*wrong); }
     });
     if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
-    return std::move(builder).reading();
+    GcodeReading result = std::move(builder).reading();
+    result.values = gcode::kept_values(reader.interpreter().state(), gcode::park_place(setup));
+    return result;
 }
 
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup) {

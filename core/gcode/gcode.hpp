@@ -7,6 +7,7 @@
 // - Axes of longer names than a letter stay where they are.
 // - G28 and G30 go to the park position until G28.1 or G30.1 sets another; they do not home.
 // - Arcs and splines are cut into chords (chords.hpp), because the planner takes straight moves.
+// - Coordinate systems, offsets and the tool table are inputs, and come back as the program leaves them.
 // - Words for devices that the machine does not have are refused or ignored, as `unassigned` says.
 #pragma once
 
@@ -15,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/gcode/kept_values.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/setup.hpp"
 #include "core/gcode/text/error.hpp"
@@ -50,6 +52,7 @@ struct GcodeSetup {
     std::vector<GcodeAxis> axes;
     GcodeSwitches switches;
     UnassignedWords unassigned;
+    gcode::KeptValues values;
     double chord_tolerance_mm = 0.001;  // of arcs and splines
     gcode::Limits limits;
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
@@ -64,6 +67,7 @@ struct GcodeNote {
 struct GcodeReading {
     Program program;
     std::vector<GcodeNote> notes;  // each word's kind once, with its first line; messages all
+    gcode::KeptValues values;      // that the program leaves at its end
 };
 
 /// The same text and setup give the same program, bit for bit. Errors are in the order of lines.

@@ -19,6 +19,15 @@ std::optional<std::size_t> place_of_name(std::string_view name) {
     return place == std::string_view::npos ? std::nullopt : std::optional(place);
 }
 
+Point place_in(const GcodeSetup& setup, double GcodeAxis::*coordinate) {
+    Point place{};
+    const auto places = axis_places(setup);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i]) { place[*places[i]] = setup.axes[i].*coordinate; }
+    }
+    return place;
+}
+
 }  // namespace
 
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup) {
@@ -44,17 +53,12 @@ Setup interpreter_setup(const GcodeSetup& setup) {
 
 State start_state(const GcodeSetup& setup) {
     State state;
-    Point park{};
-    const auto places = axis_places(setup);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!places[i]) { continue; }
-        state.machine[*places[i]] = setup.axes[i].start_mm;
-        park[*places[i]] = setup.axes[i].park_mm;
-    }
-    set_place(state.parameters, kHomeParameter, park);
-    set_place(state.parameters, kSecondHomeParameter, park);
+    state.machine = place_in(setup, &GcodeAxis::start_mm);
+    set_kept_values(state, setup.values, park_place(setup));
     return state;
 }
+
+Point park_place(const GcodeSetup& setup) { return place_in(setup, &GcodeAxis::park_mm); }
 
 ProgramBuilder::ProgramBuilder(const GcodeSetup& setup) : setup_(setup), places_(axis_places(setup)) {
     program_.name = setup.program_name;

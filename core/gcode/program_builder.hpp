@@ -18,6 +18,8 @@ std::string axis_letters(const GcodeSetup& setup);
 /// The interpreter's setup and the state that a program of this machine begins with.
 Setup interpreter_setup(const GcodeSetup& setup);
 State start_state(const GcodeSetup& setup);
+/// Where the axes park, in the order of kAxisLetters.
+Point park_place(const GcodeSetup& setup);
 /// The axis of a G-code letter's place among kAxisLetters, for each axis of the setup; none for longer names.
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup);
 
@@ -30,7 +32,7 @@ public:
     /// What was wrong with the actions since the last call.
     std::vector<GcodeError> take_errors() { return std::exchange(errors_, {}); }
 
-    GcodeReading reading() && { return {std::move(program_), std::move(notes_)}; }
+    GcodeReading reading() && { return {std::move(program_), std::move(notes_), {}}; }
 
 private:
     void move(const Point& target, double feed, bool rapid);

@@ -4,17 +4,38 @@
 
 #include "services/documents/program_proto.hpp"
 #include "services/documents/text_source.hpp"
+#include "services/documents/values/values_document.hpp"
 
 namespace lockstep {
 
-std::vector<std::uint8_t> program_bytes(const Program& program) {
-    const proto::Program message = program_to_proto(program);
+namespace {
+
+std::expected<std::optional<gcode::ProgramValues>, std::string> values_of(const proto::Program& message) {
+    if (!message.has_values_revision()) { return std::nullopt; }
+    gcode::ProgramValues values{
+        .revision = message.values_revision(), .after = {}, .at_once = message.values_at_once()};
+    if (!message.has_values_after()) { return values; }
+    auto after = values_from_proto(message.values_after());
+    if (!after) { return std::unexpected(after.error()); }
+    values.after = std::move(after->values);
+    return values;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> program_bytes(const Program& program, const std::optional<gcode::ProgramValues>& values) {
+    proto::Program message = program_to_proto(program);
+    if (values) {
+        message.set_values_revision(values->revision);
+        message.set_values_at_once(values->at_once);
+        if (values->after) { *message.mutable_values_after() = values_to_proto({0, *values->after}); }
+    }
     std::vector<std::uint8_t> bytes(message.ByteSizeLong());
     message.SerializeWithCachedSizesToArray(bytes.data());
     return bytes;
 }
 
-std::expected<Program, std::string> program_from_bytes(std::span<const std::uint8_t> bytes) {
+std::expected<ProgramDocument, std::string> program_document_from_bytes(std::span<const std::uint8_t> bytes) {
     if (bytes.size() > kMaxProgramBytes) {
         return std::unexpected("the program has " + std::to_string(bytes.size()) + " bytes; at most " +
                                std::to_string(kMaxProgramBytes));
@@ -24,7 +45,17 @@ std::expected<Program, std::string> program_from_bytes(std::span<const std::uint
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
         return std::unexpected("these bytes are not a program");
     }
-    return program_from_proto(message);
+    auto program = program_from_proto(message);
+    if (!program) { return std::unexpected(program.error()); }
+    auto values = values_of(message);
+    if (!values) { return std::unexpected(values.error()); }
+    return ProgramDocument{*std::move(program), *std::move(values)};
+}
+
+std::expected<Program, std::string> program_from_bytes(std::span<const std::uint8_t> bytes) {
+    auto document = program_document_from_bytes(bytes);
+    if (!document) { return std::unexpected(document.error()); }
+    return std::move(document->program);
 }
 
 std::string program_text(const Program& program) {

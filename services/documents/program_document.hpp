@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/gcode/kept_values.hpp"
 #include "core/program.hpp"
 
 namespace lockstep {
@@ -18,7 +20,14 @@ namespace lockstep {
 inline constexpr std::size_t kMaxProgramBytes = 256U << 20;
 inline constexpr std::size_t kMaxProgramName = 255;
 
-std::vector<std::uint8_t> program_bytes(const Program& program);
+/// A program, with the machine's values that it was read with and leaves, if it depends on them.
+struct ProgramDocument {
+    Program program;
+    std::optional<gcode::ProgramValues> values;
+};
+
+std::vector<std::uint8_t> program_bytes(const Program& program, const std::optional<gcode::ProgramValues>& values = {});
+std::expected<ProgramDocument, std::string> program_document_from_bytes(std::span<const std::uint8_t> bytes);
 std::expected<Program, std::string> program_from_bytes(std::span<const std::uint8_t> bytes);
 
 std::string program_text(const Program& program);

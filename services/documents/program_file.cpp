@@ -73,7 +73,8 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
 
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
                                                           const MachineConfig& machine,
-                                                          const std::vector<double>& start_mm, GcodeSwitches switches) {
+                                                          const std::vector<double>& start_mm, GcodeSwitches switches,
+                                                          const gcode::KeptValues& values) {
     if (!is_start_of(machine, start_mm)) {
         return std::unexpected(Diagnostics{{.message = "the start is not one place in mm for each of the machine's " +
                                                        std::to_string(machine.axes.size()) + " axes"}});
@@ -81,6 +82,7 @@ std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem:
     auto text = read_text_file(path);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
     GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
+    setup.values = values;
     std::vector<std::filesystem::path> directories{path.parent_path()};
     if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
     setup.find_subroutine = [directories](std::string_view name) { return read_subroutine(directories, name); };

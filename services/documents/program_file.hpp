@@ -24,12 +24,14 @@ struct ProgramFile {
     GcodeReading reading;
 };
 
-/// As load_gcode_file, with the words that were passed over and the program's messages. Subroutines that the text calls
-/// but does not contain are read from files name.ngc of its directory, or of the machine's subroutine_directory.
+/// As load_gcode_file, with the machine's values that outlive programs, the words that were passed over and the
+/// program's messages. Subroutines that the text calls but does not contain are read from files name.ngc of its
+/// directory, or of the machine's subroutine_directory.
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
                                                           const MachineConfig& machine,
                                                           const std::vector<double>& start_mm,
-                                                          GcodeSwitches switches = {});
+                                                          GcodeSwitches switches = {},
+                                                          const gcode::KeptValues& values = {});
 Diagnostics to_diagnostics(const std::vector<GcodeError>& errors);
 
 /// `start_mm` is the position of each axis when the program begins, one number per axis of the machine. The program

@@ -119,5 +119,17 @@ TEST(ProgramDocument, ABlockWithAnUnknownActionIsRefused) {
     EXPECT_THAT(program_from_text("axes: \"X\"\nstart: 0").error(), HasSubstr("program:2:6"));
 }
 
+TEST(ProgramDocument, CarriesTheMachinesValuesThatAProgramDependsOnAndLeaves) {
+    gcode::ProgramValues values{.revision = 5, .after = gcode::KeptValues{}, .at_once = true};
+    values.after->g92[2] = 3;
+    const auto read = program_document_from_bytes(program_bytes(example(), values));
+    ASSERT_TRUE(read && read->values);
+    EXPECT_EQ(read->values->revision, 5U);
+    EXPECT_EQ(read->values->after, values.after);
+    EXPECT_TRUE(read->values->at_once);
+    EXPECT_FALSE(program_document_from_bytes(program_bytes(example()))->values);
+    EXPECT_FALSE(program_document_from_bytes(program_bytes(example(), gcode::ProgramValues{}))->values->after);
+}
+
 }  // namespace
 }  // namespace lockstep
