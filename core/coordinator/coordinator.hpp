@@ -21,6 +21,8 @@ public:
 
     /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
     void accept_program(std::uint64_t id, Program program) { programs_.accept(id, std::move(program)); }
+    /// A command that names it is refused from now on; its job goes on.
+    void forget_program(std::uint64_t id) { programs_.forget(id); }
 
     CoordinatorOutputs step(const CoordinatorInputs& inputs);
 

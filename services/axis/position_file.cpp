@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <utility>
-
 #include "services/axis/position_document.hpp"
 #include "services/files/directories.hpp"
 #include "services/files/text_file.hpp"
@@ -52,41 +50,6 @@ ReadPosition read_position(const std::filesystem::path& path) {
     const auto kept = position_from_text(*text);
     if (!kept) { return unreadable(path, kept.error()); }
     return {*kept, {}};
-}
-
-PositionKeeper::PositionKeeper(std::filesystem::path path, OnFailure on_failure)
-    : path_(std::move(path)), on_failure_(on_failure), thread_([this](const std::stop_token& stop) { serve(stop); }) {
-    std::error_code ignored;
-    std::filesystem::create_directories(path_.parent_path(), ignored);
-}
-
-PositionKeeper::~PositionKeeper() {
-    thread_.request_stop();
-    thread_.join();
-}
-
-void PositionKeeper::keep(KeptPosition position) {
-    {
-        const std::scoped_lock lock(mutex_);
-        next_ = std::move(position);
-    }
-    news_.notify_one();
-}
-
-void PositionKeeper::serve(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    while (news_.wait(lock, stop, [this] { return next_.has_value(); })) {
-        const KeptPosition position = *std::exchange(next_, std::nullopt);
-        lock.unlock();
-        write(position);
-        lock.lock();
-    }
-}
-
-void PositionKeeper::write(const KeptPosition& position) {
-    const auto written = replace_text_file(path_, position_text(position));
-    if (!written && !failed_) { on_failure_(written.error()); }
-    failed_ = !written;
 }
 
 }  // namespace lockstep

@@ -2,15 +2,13 @@
 // axis/device/position_claim.hpp states when the next process accepts it).
 #pragma once
 
-#include <condition_variable>
-#include <expected>
 #include <filesystem>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
+#include <utility>
 
 #include "core/axis/device/position_claim.hpp"
+#include "services/axis/position_document.hpp"
+#include "services/files/newest_file.hpp"
 
 namespace lockstep {
 
@@ -25,29 +23,17 @@ struct ReadPosition {
 /// Refuses a file that another user may have written: one of another user, or one that others may write.
 ReadPosition read_position(const std::filesystem::path& path);
 
-/// Writes in the background: keep() never waits for the disk. If positions come faster than the disk takes them, only
-/// the newest is written. A position that was not written is out of date, and the next process refuses the old one.
+/// A position that was not written is out of date, and the next process refuses the old one.
 class PositionKeeper {
 public:
-    using OnFailure = void (*)(const std::string& why);
-    /// The writing thread calls `on_failure` when a write fails after one that succeeded.
-    PositionKeeper(std::filesystem::path path, OnFailure on_failure);
-    /// Waits until everything is written.
-    ~PositionKeeper();
+    PositionKeeper(std::filesystem::path path, NewestFile::OnFailure on_failure) : file_(std::move(path), on_failure) {}
 
-    void keep(KeptPosition position);
+    void keep(const KeptPosition& position) {
+        file_.keep(position.run, [position] { return position_text(position); });
+    }
 
 private:
-    void serve(const std::stop_token& stop);
-    void write(const KeptPosition& position);
-
-    std::filesystem::path path_;
-    OnFailure on_failure_;
-    bool failed_ = false;  // the last write
-    std::mutex mutex_;
-    std::condition_variable_any news_;
-    std::optional<KeptPosition> next_;
-    std::jthread thread_;
+    NewestFile file_;
 };
 
 }  // namespace lockstep

@@ -30,6 +30,7 @@ void CoordinatorReceived::clear() {
     commands.clear();
     chunks.clear();
     healths.clear();
+    values.clear();
 }
 
 std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Setup& setup) {
@@ -52,6 +53,7 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
         received_.states.push_back(m);
     });
     bus.other_coordinators.take([&](MachineState&& m) { received_.others.push_back(std::move(m)); });
+    bus.other_values.take([&](MachineValues&& m) { received_.values.push_back(std::move(m)); });
     bus.commands.take([&](Command&& m) { received_.commands.push_back(m); });
     refused_now_ = bus.states.refusals().count + bus.commands.refusals().count + bus.chunks.refusals().count;
     return received_;
@@ -70,6 +72,10 @@ void CoordinatorNetwork::publish(const CoordinatorOutputs& out) {
 
 void CoordinatorNetwork::publish(const Reply& reply) {
     if (CoordinatorLink* const link = link_->get()) { (void)link->bus.replies.write(reply); }
+}
+
+void CoordinatorNetwork::publish(const MachineValues& values) {
+    if (CoordinatorLink* const link = link_->get()) { (void)link->bus.values.write(values); }
 }
 
 Reception CoordinatorNetwork::look(const CoordinatorLink& link, Duty duty) {

@@ -29,7 +29,8 @@ struct CoordinatorReceived {
     std::vector<MachineState> others;
     std::vector<Command> commands;
     std::vector<ProgramChunk> chunks;
-    std::vector<AxisHealth> healths;  // only for the record
+    std::vector<AxisHealth> healths;    // only for the record
+    std::vector<MachineValues> values;  // of other coordinators
     void clear();
 };
 
@@ -47,6 +48,7 @@ public:
     const CoordinatorReceived& receive();
     void publish(const CoordinatorOutputs& out);
     void publish(const Reply& reply);
+    void publish(const MachineValues& values);
 
     struct Duty {
         bool at_rest = false;

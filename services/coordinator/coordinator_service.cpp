@@ -13,7 +13,9 @@
 #include "core/protocol/names.hpp"
 #include "services/coordinator/coordinator_network.hpp"
 #include "services/coordinator/program_inbox.hpp"
+#include "services/coordinator/values_store.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/files/directories.hpp"
 #include "services/flight/check_report.hpp"
 #include "services/flight/flight_recorder.hpp"
 #include "services/flight/stuck_process.hpp"
@@ -42,10 +44,14 @@ std::string hash_text(std::uint64_t hash) {
     return {digits.data(), end};
 }
 
+void report_unwritten_values(const std::string& why) {
+    log_error("the machine's offsets and tools are not kept: " + why + "; make room or correct the folder's rights");
+}
+
 class CoordinatorService {
 public:
     CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorNetwork network,
-                       std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby)
+                       RevisedValues values, std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby)
         : machine_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
           coordinator_(machine, identity, config_hash(machine), methods::begin_steps, standby),
@@ -53,7 +59,8 @@ public:
           sink_(std::move(sink)),
           flight_log_(open_flight(machine, "", identity)),
           flight_(machine, *flight_log_),
-          recorder_(machine, identity, *sink_) {}
+          recorder_(machine, identity, *sink_),
+          values_(values_file(machine.name), std::move(values), report_unwritten_values) {}
 
     /// False: another coordinator owns this machine.
     bool loop() {
@@ -71,7 +78,11 @@ public:
         }
         network_.publish(out);
         recorder_.note(now);
-        for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
+        for (const JobEvent& event : out.jobs) {
+            recorder_.record(now, event);
+            values_.keeper().take(event);
+        }
+        tend_values();
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         tend_network(now);
         report_waiting(now);
@@ -99,7 +110,16 @@ private:
             configs_[state.axis] = state.config_hash;
         }
         for (const AxisHealth& health : received.healths) { recorder_.note_axis(health); }
+        for (const MachineValues& values : received.values) {
+            if (!coordinator_.owns_machine()) { values_.follow(values); }
+        }
         return received;
+    }
+
+    void tend_values() {
+        for (const std::uint64_t program : values_.keeper().take_outdated()) { coordinator_.forget_program(program); }
+        if (!coordinator_.owns_machine()) { return; }
+        if (const auto values = values_.step(monotonic_now(), coordinator_.term())) { network_.publish(*values); }
     }
 
     /// A held job is not at rest: it would be lost with the axes' silence.
@@ -196,7 +216,10 @@ private:
     CoordinatorFlight flight_;
     UserSignal user_signal_;  // a person requests the notes of the last seconds
     JobRecorder recorder_;
-    ProgramInbox inbox_;
+    ValuesStore values_;
+    ProgramInbox inbox_{[this](std::uint64_t id, const ProgramDocument& program) {
+        return values_.accept(id, program, {coordinator_.owns_machine(), at_rest()});
+    }};
     std::atomic<Tick> looped_;  // when the loop last ran
     Tick reported_ = clock_.now();
     AxisSet received_axes_ = 0;
@@ -211,7 +234,7 @@ int fail(const std::string& why) {
     return kServiceFailed;
 }
 
-int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) {
+int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, RevisedValues values) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
@@ -222,7 +245,8 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine) 
         CoordinatorNetwork::open({machine, MachineClock(machine.tick_ns, machine.timing.time_source), *admission});
     if (!network) { return fail(network.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
-    CoordinatorService service(machine, identity, std::move(*network), open_record(machine, "", options.record),
+    CoordinatorService service(machine, identity, std::move(*network), std::move(values),
+                               open_record(machine, "", options.record),
                                options.standby ? std::optional(options.on_takeover) : std::nullopt);
     log_info("coordinator of machine " + machine.name + " is up");
 
@@ -270,7 +294,13 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
         std::cerr << log.error() << '\n';
         return kServiceBadInput;
     }
-    return run(options, *machine);
+    auto values = read_values(values_file(machine->name));
+    if (!values) {
+        log_error(to_text(values_file(machine->name).string(), values.error()) +
+                  "correct it; or remove it, to begin without offsets and tools");
+        return kServiceBadInput;
+    }
+    return run(options, *machine, *std::move(values));
 }
 
 }  // namespace lockstep

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/faults.hpp"
-#include "services/documents/program_document.hpp"
 
 namespace lockstep {
 namespace {
@@ -42,7 +41,7 @@ ProgramInbox::Taken ProgramInbox::take(const ProgramChunk& chunk) {
             {}};
     }
     place = chunk.bytes;
-    Taken taken = --parcel.missing == 0 ? complete(parcel, reply) : Taken{reply, {}};
+    Taken taken = --parcel.missing == 0 ? complete(chunk.program, parcel, reply) : Taken{reply, {}};
     taken.is_new = true;
     return taken;
 }
@@ -60,17 +59,20 @@ ProgramInbox::Parcel& ProgramInbox::parcel_of(const ProgramChunk& chunk) {
     return parcels_.at({chunk.client, chunk.program});
 }
 
-ProgramInbox::Taken ProgramInbox::complete(Parcel& parcel, Reply reply) {
+ProgramInbox::Taken ProgramInbox::complete(std::uint64_t id, Parcel& parcel, Reply reply) const {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(parcel.bytes);
     for (auto& chunk : parcel.chunks) {
         bytes.insert(bytes.end(), chunk->begin(), chunk->end());
         chunk.emplace();
     }
-    auto program = program_from_bytes(bytes);
-    parcel.outcome = program ? reply : refuse(reply, program.error());
+    auto document = program_document_from_bytes(bytes);
+    std::expected<void, std::string> accepted;
+    if (!document) { accepted = std::unexpected(document.error()); }
+    if (document && check_) { accepted = check_(id, *document); }
+    parcel.outcome = accepted ? reply : refuse(reply, accepted.error());
     Taken taken{parcel.outcome, {}};
-    if (program) { taken.program = std::move(*program); }
+    if (accepted) { taken.program = std::move(document->program); }
     return taken;
 }
 

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <expected>
+#include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/documents/program_document.hpp"
 
 namespace lockstep {
 
@@ -21,6 +25,9 @@ public:
         std::optional<Program> program;  // once it is complete
         bool is_new = false;             // the chunk was not received before
     };
+    /// Whether a program that is complete is accepted. Error: why not.
+    using Check = std::function<std::expected<void, std::string>(std::uint64_t id, const ProgramDocument& program)>;
+    explicit ProgramInbox(Check check = {}) : check_(std::move(check)) {}
     Taken take(const ProgramChunk& chunk);
 
 private:
@@ -33,11 +40,12 @@ private:
     };
     using Key = std::pair<Identity, std::uint64_t>;
     Parcel& parcel_of(const ProgramChunk& chunk);
-    static Taken complete(Parcel& parcel, Reply reply);
+    Taken complete(std::uint64_t id, Parcel& parcel, Reply reply) const;
 
     static constexpr std::size_t kMaxParcels = 4;
     static constexpr std::uint32_t kMaxChunks = 1U << 16;
 
+    Check check_;
     std::map<Key, Parcel> parcels_;
     std::uint64_t begun_ = 0;
 };

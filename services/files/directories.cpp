@@ -38,6 +38,8 @@ fs::path record_directory(const std::string& machine) { return lasting_root() / 
 
 fs::path position_directory(const std::string& machine) { return lasting_root() / machine / "position"; }
 
+fs::path values_file(const std::string& machine) { return lasting_root() / machine / "values.textproto"; }
+
 std::vector<fs::path> memory_directories() {
     if (geteuid() != 0) { return {memory_directory()}; }
     std::vector<fs::path> all;

@@ -107,8 +107,11 @@ void JobRunner::follow(PathJob::Next next, CoordinatorLoop& loop) {
 
 void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
     if (!job_) { return; }
-    loop.out.jobs.push_back(
-        {.kind = JobEvent::Kind::Ended, .job = job_->number, .job_kind = job_->kind, .outcome = outcome});
+    loop.out.jobs.push_back({.kind = JobEvent::Kind::Ended,
+                             .job = job_->number,
+                             .job_kind = job_->kind,
+                             .outcome = outcome,
+                             .program_id = job_->program_id});
     job_.reset();
     count_.end(outcome);
     loop.enter(MachinePhase::Idle);

@@ -23,7 +23,7 @@ struct JobEvent {
     JobKind job_kind = JobKind::Run;
     JobOutcome outcome = JobOutcome::Done;   // Ended
     std::shared_ptr<const Program> program;  // Begun; null for homing
-    std::uint64_t program_id = 0;            // its Command::program
+    std::uint64_t program_id = 0;            // its Command::program; of Ended too
     Epoch epoch = 0;                         // EpochBegun: its frame 1 starts at `start`; Overridden: in it
     Tick start;
     PathPlace place;                         // EpochBegun: where on the program it starts

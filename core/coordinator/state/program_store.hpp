@@ -22,6 +22,11 @@ public:
             order_.erase(order_.begin());
         }
     }
+    /// Jobs of it go on.
+    void forget(std::uint64_t id) {
+        programs_.erase(id);
+        std::erase(order_, id);
+    }
     /// Null: it has not arrived, or was replaced by newer ones.
     std::shared_ptr<const Program> find(std::uint64_t id) const {
         const auto found = programs_.find(id);

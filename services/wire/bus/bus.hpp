@@ -46,10 +46,12 @@ struct CoordinatorBus {
     Reader<MachineState> other_coordinators{participant};
     Reader<Command> commands{participant};
     Reader<ProgramChunk> chunks{participant};
+    Reader<MachineValues> other_values{participant};
     Writer<Frame> frames{participant};
     Writer<MachineState> machine{participant};
     Writer<AxisCommand> axis_commands{participant};
     Writer<Reply> replies{participant};
+    Writer<MachineValues> values{participant};
 
     bool is_memory_replaced() const { return states.is_memory_replaced(); }
 };
@@ -69,6 +71,7 @@ struct ViewerBus {
     Reader<MachineState> machine{participant, [to = arrivals.get()] { to->notify(); }};
     Reader<AxisState> states{participant};
     Reader<AxisHealth> healths{participant};
+    Reader<MachineValues> values{participant};
 };
 
 struct ClientBus : ViewerBus {

@@ -13,11 +13,14 @@
 //
 // Commands, program parts and replies are reliable with a history of 64: a client has fewer than 64 unanswered.
 //
+// Values that outlive programs are best effort: they come again several times a second.
+//
 // Health, clock requests and replies are best effort: a copy sent again would be out of date. Only the newest few
 // matter.
 #pragma once
 
 #include "core/protocol/axis_health.hpp"
+#include "core/protocol/machine_values.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
@@ -25,6 +28,7 @@
 #include "idl/dds/health.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
+#include "idl/dds/values.h"
 
 namespace lockstep {
 
@@ -57,6 +61,7 @@ LOCKSTEP_TOPIC(MachineState, MachineState, {"lockstep/machine_state", kType, Del
 LOCKSTEP_TOPIC(Command, Command, {"lockstep/command", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(ProgramChunk, ProgramChunk, {"lockstep/program", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(Reply, Reply, {"lockstep/reply", kType, Delivery::Reliable, 64})
+LOCKSTEP_TOPIC(MachineValues, MachineValues, {"lockstep/values", kType, Delivery::BestEffort, 1})
 LOCKSTEP_TOPIC(ClockRequest, ClockRequest, {"lockstep/clock_request", kType, Delivery::BestEffort, 8})
 LOCKSTEP_TOPIC(ClockReply, ClockReply, {"lockstep/clock_reply", kType, Delivery::BestEffort, 8})
 

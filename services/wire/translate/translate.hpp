@@ -11,17 +11,21 @@
 #include <vector>
 
 #include "core/protocol/axis_health.hpp"
+#include "core/protocol/machine_values.hpp"
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
 #include "idl/dds/clock.h"
 #include "idl/dds/health.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
+#include "idl/dds/values.h"
 
 namespace lockstep {
 
 /// The most bytes a ProgramChunk may have.
 inline constexpr std::size_t kMaxChunkBytes = lockstep_wire_MAX_CHUNK_BYTES;
+/// The most bytes MachineValues may have.
+inline constexpr std::size_t kMaxValuesBytes = lockstep_wire_MAX_VALUES_BYTES;
 /// The most chunks a program may have: 128 MB.
 inline constexpr std::uint32_t kMaxChunks = 4096;
 
@@ -57,6 +61,8 @@ lockstep_wire_Command to_wire(const Command& command);
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk);
 /// A text that is too long is cut between two characters.
 lockstep_wire_Reply to_wire(const Reply& reply);
+/// Points to the values' bytes: valid as long as they are. At most kMaxValuesBytes.
+lockstep_wire_MachineValues to_wire(const MachineValues& values);
 
 template <typename T>
 using FromWire = std::expected<T, std::string>;
@@ -71,6 +77,7 @@ FromWire<ClockReply> from_wire(const lockstep_wire_ClockReply& wire);
 FromWire<Command> from_wire(const lockstep_wire_Command& wire);
 FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire);
 FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
+FromWire<MachineValues> from_wire(const lockstep_wire_MachineValues& wire);
 
 /// The same into a reused value; it keeps its content if the sample is refused.
 template <typename Wire, typename T>

@@ -34,7 +34,7 @@ TEST(Rights, OnlyACoordinatorSendsSetpoints) {
 }
 
 TEST(Rights, AnAxisWritesInItsOwnPartitionAlone) {
-    EXPECT_THAT(published(axis_member(mill(), 1)), HasSubstr("<partition>mill@5/1</partition>"));
+    EXPECT_THAT(published(axis_member(mill(), 1)), HasSubstr("<partition>mill@6/1</partition>"));
     EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("<partition>mill@5</partition>")));
     EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("mill@5/0")));
 }

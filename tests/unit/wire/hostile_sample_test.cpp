@@ -186,6 +186,13 @@ TEST(HostileChunk, IsRefused) {
     expect_refused(wire, "number of bytes");
 }
 
+TEST(HostileValues, AreRefused) {
+    const MachineValues good{.bytes = {1, 2, 3}};
+    auto wire = to_wire(good);
+    wire.bytes._length = kMaxValuesBytes + 1;
+    expect_refused(wire, "number of bytes");
+}
+
 TEST(HostileReply, IsRefused) {
     auto wire = to_wire(Reply{});
     overwrite(wire.status, 2);

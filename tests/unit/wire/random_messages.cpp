@@ -131,6 +131,13 @@ ProgramChunk RandomMessages::chunk() {
     return chunk;
 }
 
+MachineValues RandomMessages::machine_values() {
+    MachineValues values{.term = term(), .revision = bits(), .kept = bits(), .bytes = {}};
+    values.bytes.resize(index(32768 + 1));
+    for (auto& byte : values.bytes) { byte = static_cast<std::uint8_t>(bits()); }
+    return values;
+}
+
 Reply RandomMessages::reply() {
     return {.client = bits(),
             .sequence = bits(),

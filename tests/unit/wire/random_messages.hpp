@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/protocol/axis_health.hpp"
+#include "core/protocol/machine_values.hpp"
 
 namespace lockstep {
 
@@ -22,6 +23,7 @@ public:
     Command command();
     ProgramChunk chunk();
     Reply reply();
+    MachineValues machine_values();
 
     std::uint64_t bits() { return random_(); }
     std::int64_t between(std::int64_t least, std::int64_t most) {

@@ -29,6 +29,7 @@ TEST(RoundTrip, AMachineStateArrivesAsItWasSent) { expect_round_trips(&RandomMes
 TEST(RoundTrip, ACommandArrivesAsItWasSent) { expect_round_trips(&RandomMessages::command); }
 TEST(RoundTrip, AProgramChunkArrivesAsItWasSent) { expect_round_trips(&RandomMessages::chunk); }
 TEST(RoundTrip, AReplyArrivesAsItWasSent) { expect_round_trips(&RandomMessages::reply); }
+TEST(RoundTrip, MachineValuesArriveAsTheyWereSent) { expect_round_trips(&RandomMessages::machine_values); }
 
 TEST(RoundTrip, TheLargestFrameFits) {
     Frame frame{.number = 1, .ticks = {1}, .axes = std::vector<AxisTrack>(kMaxAxes)};

@@ -1,0 +1,58 @@
+// The machine's values that outlive programs: which program may use them, and when one changes them.
+//
+// A program is read with the values of a revision. It is refused with another, because its places would be wrong. The
+// values that it leaves become the machine's when it has reached its end: a program that was stopped leaves none.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <expected>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/coordinator/state/coordinator_io.hpp"
+#include "core/gcode/kept_values.hpp"
+
+namespace lockstep {
+
+class ValueKeeper {
+public:
+    ValueKeeper(std::uint64_t revision, gcode::KeptValues values) : revision_(revision), values_(std::move(values)) {}
+
+    std::uint64_t revision() const { return revision_; }
+    const gcode::KeptValues& values() const { return values_; }
+
+    struct Circumstances {
+        bool owns_machine = true;  // else the owner decides, and the program may have to be gone on with
+        bool is_idle = true;       // no job is in progress, held or paused
+    };
+    /// A program has arrived whole. Error: why it is refused.
+    std::expected<void, std::string> accept(std::uint64_t program, const gcode::ProgramValues& values,
+                                            Circumstances now);
+    void take(const JobEvent& event);
+    /// The owner's values, while another coordinator owns the machine.
+    void follow(std::uint64_t revision, gcode::KeptValues values);
+    /// Programs that have arrived and that another revision has made invalid since the last call.
+    std::vector<std::uint64_t> take_outdated() { return std::exchange(outdated_, {}); }
+
+private:
+    struct Arrived {
+        std::uint64_t program = 0;
+        std::optional<gcode::KeptValues> after;
+    };
+    static constexpr std::size_t kMostArrived = 4;  // as many as there are programs in the ProgramStore
+
+    std::expected<void, std::string> edit(const gcode::ProgramValues& values, Circumstances now);
+    void change(const gcode::KeptValues& values);
+    std::optional<gcode::KeptValues> after(std::uint64_t program) const;
+
+    std::uint64_t revision_;
+    gcode::KeptValues values_;
+    std::deque<Arrived> arrived_;     // the newest last
+    std::optional<Arrived> running_;  // of the job in progress
+    std::vector<std::uint64_t> outdated_;
+};
+
+}  // namespace lockstep

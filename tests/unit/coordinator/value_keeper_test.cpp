@@ -1,0 +1,99 @@
+#include "core/coordinator/values/value_keeper.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+gcode::KeptValues with_x(double x) {
+    gcode::KeptValues values;
+    values.systems[0].origin[0] = x;
+    return values;
+}
+
+JobEvent begun(std::uint64_t program) { return {.kind = JobEvent::Kind::Begun, .program_id = program}; }
+JobEvent ended(std::uint64_t program, JobOutcome outcome) {
+    return {.kind = JobEvent::Kind::Ended, .outcome = outcome, .program_id = program};
+}
+
+gcode::ProgramValues edit(double x) { return {.revision = 3, .after = with_x(x), .at_once = true}; }
+
+TEST(ValueKeeper, AProgramsValuesAreTheMachinesAfterItsEnd) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, {}));
+    keeper.take(begun(7));
+    EXPECT_EQ(keeper.values(), with_x(1));
+    keeper.take(ended(7, JobOutcome::Done));
+    EXPECT_EQ(keeper.values(), with_x(2));
+    EXPECT_EQ(keeper.revision(), 4U);
+}
+
+TEST(ValueKeeper, AProgramThatWasStoppedOrFailedLeavesNone) {
+    for (const JobOutcome outcome : {JobOutcome::Stopped, JobOutcome::Failed}) {
+        ValueKeeper keeper(3, with_x(1));
+        ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, {}));
+        keeper.take(begun(7));
+        keeper.take(ended(7, outcome));
+        EXPECT_EQ(keeper.values(), with_x(1));
+        EXPECT_EQ(keeper.revision(), 3U);
+    }
+}
+
+TEST(ValueKeeper, AProgramOfAnotherRevisionIsRefused) {
+    ValueKeeper keeper(3, with_x(1));
+    EXPECT_FALSE(keeper.accept(7, {2, with_x(2)}, {}));
+    EXPECT_FALSE(keeper.accept(8, {4, {}}, {}));
+}
+
+TEST(ValueKeeper, AProgramThatArrivedBeforeAChangeIsForgotten) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, {}}, {}));
+    ASSERT_TRUE(keeper.accept(8, edit(2), {}));
+    EXPECT_EQ(keeper.values(), with_x(2));
+    EXPECT_EQ(keeper.take_outdated(), std::vector<std::uint64_t>{7});
+    EXPECT_TRUE(keeper.take_outdated().empty());
+}
+
+TEST(ValueKeeper, AnEditWhileAJobIsInProgressIsRefused) {
+    ValueKeeper keeper(3, with_x(1));
+    EXPECT_FALSE(keeper.accept(8, edit(2), {.is_idle = false}));
+    EXPECT_EQ(keeper.values(), with_x(1));
+}
+
+TEST(ValueKeeper, TheSameValuesAreNoNewRevision) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(8, edit(1), {}));
+    EXPECT_EQ(keeper.revision(), 3U);
+}
+
+TEST(ValueKeeper, AJobWithoutAProgramChangesNothing) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, {}));
+    keeper.take(begun(0));
+    keeper.take(ended(0, JobOutcome::Done));
+    EXPECT_EQ(keeper.values(), with_x(1));
+}
+
+TEST(ValueKeeper, AStandbyFollowsTheOwnerAndEndsItsJob) {
+    ValueKeeper keeper(0, {});
+    const ValueKeeper::Circumstances standby{.owns_machine = false};
+    ASSERT_TRUE(keeper.accept(8, edit(9), standby)) << "an edit, which the owner decides";
+    ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, standby));
+    keeper.follow(3, with_x(1));
+    EXPECT_EQ(keeper.values(), with_x(1));
+    keeper.take(ended(7, JobOutcome::Done));  // it has taken the job over, and so there is no event of its beginning
+    EXPECT_EQ(keeper.values(), with_x(2));
+    EXPECT_EQ(keeper.revision(), 4U);
+}
+
+TEST(ValueKeeper, ProgramsThatArriveDuringAJobDoNotReplaceItsValues) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, {}));
+    keeper.take(begun(7));
+    for (std::uint64_t i = 10; i < 20; ++i) { ASSERT_TRUE(keeper.accept(i, {3, {}}, {})); }
+    keeper.take(ended(7, JobOutcome::Done));
+    EXPECT_EQ(keeper.values(), with_x(2));
+}
+
+}  // namespace
+}  // namespace lockstep
