@@ -27,6 +27,8 @@ void add_verbs(CLI::App& app, Action& action) {
     add_run(app, action);
     add_interrupts(app, action);
     add_override(app, action);
+    add_offsets(app, action);
+    add_tools(app, action);
     add_down(app, action);
     add_check(app, action);
     add_plan(app, action);

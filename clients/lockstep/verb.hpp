@@ -39,6 +39,8 @@ void add_home(CLI::App& app, Action& action);
 void add_move(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_override(CLI::App& app, Action& action);
+void add_offsets(CLI::App& app, Action& action);     // set, clear
+void add_tools(CLI::App& app, Action& action);       // set, remove
 void add_interrupts(CLI::App& app, Action& action);  // hold, resume, stop, estop, reset
 
 }  // namespace lockstep

@@ -25,6 +25,8 @@ constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordina
 constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
 constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
 
+constexpr nanoseconds kDiskPatience = 15s;  // a disk may hang for seconds
+
 static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
 
 template <typename Bus>
@@ -135,6 +137,10 @@ void Session::take_messages() {
     viewer_bus().healths.take([&](AxisHealth&& health) {
         if (health.axis < healths_.size()) { healths_[health.axis] = health; }
     });
+    viewer_bus().values.take([&](MachineValues&& values) {
+        const bool is_older = values_ && values.term < values_->term;
+        if (!is_older) { values_ = std::move(values); }
+    });
     if (!std::holds_alternative<ClientBus>(bus_)) { return; }
     client_bus().replies.take([&](Reply&& reply) {
         if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }
@@ -230,9 +236,10 @@ std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
     return replies_.extract(command.sequence).mapped();
 }
 
-std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop) {
+std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop,
+                                                    const std::optional<gcode::ProgramValues>& values) {
     const std::uint64_t id = new_identity() | 1;  // never 0, which means none
-    ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program));
+    ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program, values));
     sequence_ += chunks.count();
     nanoseconds deadline = monotonic_now() + kPlanPatience;
     while (!chunks.done()) {
@@ -247,6 +254,29 @@ std::expected<std::uint64_t, Failure> Session::send(const Program& program, cons
         }
     }
     return id;
+}
+
+std::expected<RevisedValues, Failure> Session::values() {
+    const nanoseconds deadline = monotonic_now() + kAnswerPatience;
+    while (!values_) {
+        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
+        receive(50ms);
+    }
+    auto values = values_from_bytes(values_->bytes);
+    if (!values) { return std::unexpected(failed("the coordinator's offsets and tools: " + values.error())); }
+    return *std::move(values);
+}
+
+std::expected<void, Failure> Session::await_kept(std::uint64_t revision) {
+    const nanoseconds deadline = monotonic_now() + kDiskPatience;
+    while (!values_ || values_->kept < revision) {
+        if (monotonic_now() > deadline) {
+            return std::unexpected(failed("the coordinator uses the change, but has not written it to its disk; see: " +
+                                          std::string("lockstep status, and its log")));
+        }
+        receive(50ms);
+    }
+    return {};
 }
 
 }  // namespace lockstep

@@ -11,9 +11,11 @@
 
 #include "clients/session/chosen_machine.hpp"
 #include "clients/text/failure.hpp"
+#include "core/gcode/kept_values.hpp"
 #include "core/program.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/documents/values/values_document.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus/bus.hpp"
 #include "services/wire/dds/present_processes.hpp"
@@ -76,8 +78,15 @@ public:
     /// Sends an emergency stop to coordinator and axes: axes stop by themselves. Nothing: no coordinator replied in
     /// time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
-    /// Sends a program; returns its id for a command. Error: refused, no reply, or a signal to `stop`.
-    std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr);
+    /// Sends a program, with the machine's values that it depends on and leaves; returns its id for a command. Error:
+    /// refused, no reply, or a signal to `stop`.
+    std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr,
+                                               const std::optional<gcode::ProgramValues>& values = {});
+
+    /// The machine's offsets and tools. Waits until they are received.
+    std::expected<RevisedValues, Failure> values();
+    /// Waits until the coordinator has these on its disk. Error: it cannot write them, or does not answer.
+    std::expected<void, Failure> await_kept(std::uint64_t revision);
 
 private:
     using Bus = std::variant<ViewerBus, ClientBus>;
@@ -101,6 +110,7 @@ private:
     std::uint64_t sequence_ = 0;
     std::optional<Received<MachineState>> state_;  // the owner's
     std::optional<Received<MachineState>> standby_;
+    std::optional<MachineValues> values_;  // the owner's
     std::vector<std::optional<Received<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at

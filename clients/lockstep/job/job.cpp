@@ -94,7 +94,7 @@ proto::RunReport new_report(const Job& job) {
 std::expected<Reply, Failure> begin(Session& session, const Job& job, const StopSignal& stop) {
     std::uint64_t program = 0;
     if (job.program) {
-        const auto sent = session.send(*job.program, &stop);
+        const auto sent = session.send(*job.program, &stop, job.values);
         if (!sent) { return std::unexpected(sent.error()); }
         program = *sent;
     }

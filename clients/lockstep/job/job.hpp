@@ -12,11 +12,12 @@ namespace lockstep {
 
 struct Job {
     CommandKind command = CommandKind::Run;
-    std::string kind;                     // as in the reports: "home", "move", "run", "own-move"
-    std::string name;                     // of the program
-    AxisSet axes = 0;                     // home: which; none: all
-    std::optional<Program> program = {};  // move, run, own move
-    Ticks ticks = {};                     // own move: how long it lasts; 0: as fast as allowed
+    std::string kind;                                 // as in the reports: "home", "move", "run", "own-move"
+    std::string name;                                 // of the program
+    AxisSet axes = 0;                                 // home: which; none: all
+    std::optional<Program> program = {};              // move, run, own move
+    std::optional<gcode::ProgramValues> values = {};  // run: the machine's, that it depends on and leaves
+    Ticks ticks = {};                                 // own move: how long it lasts; 0: as fast as allowed
     std::optional<double> planned_s = {};
     bool detach = false;  // ends when the job has begun
 };

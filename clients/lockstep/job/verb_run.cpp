@@ -48,10 +48,11 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
 
 /// The whole program, for the machine's position; with --from-line, for the position at its first run.
 std::expected<ProgramFile, Failure> read(const RunOptions& options, const MachineConfig& machine,
-                                         const std::vector<double>& stands_mm, Output& output) {
+                                         const std::vector<double>& stands_mm, const gcode::KeptValues& values,
+                                         Output& output) {
     const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
     if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
-    auto file = read_program_file(options.file, machine, *started, options.switches);
+    auto file = read_program_file(options.file, machine, *started, options.switches, values);
     if (!file) { return std::unexpected(bad_file(options.file, file.error())); }
     for (const GcodeNote& note : file->reading.notes) {
         output.warn("line " + std::to_string(note.line) + ": " + note.text);
@@ -59,17 +60,24 @@ std::expected<ProgramFile, Failure> read(const RunOptions& options, const Machin
     return *std::move(file);
 }
 
+struct Chosen : Rest {
+    gcode::ProgramValues values;
+};
+
 /// The program to run: all of it, or an approach and the rest, which is printed.
-std::expected<Rest, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
-                                    const std::vector<double>& stands_mm, Output& output) {
-    auto file = read(options, machine, stands_mm, output);
+std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
+                                      const std::vector<double>& stands_mm, const RevisedValues& before,
+                                      Output& output) {
+    auto file = read(options, machine, stands_mm, before.values, output);
     if (!file) { return std::unexpected(file.error()); }
-    if (!options.is_restart()) { return Rest{std::move(file->reading.program), {}, {}}; }
+    gcode::ProgramValues values{.revision = before.revision, .after = {}};
+    if (file->reading.values != before.values) { values.after = std::move(file->reading.values); }
+    if (!options.is_restart()) { return Chosen{{std::move(file->reading.program), {}, {}}, std::move(values)}; }
     auto rest = rest_of(file->reading.program, text, file->setup, options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
     output.print("from line " + std::to_string(options.restart.from_line) + ":\n" +
                  approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
-    return *std::move(rest);
+    return Chosen{*std::move(rest), std::move(values)};
 }
 
 /// A restart moves the machine before the program does: a person has seen the approach, or a script passes --yes.
@@ -97,7 +105,9 @@ ExitCode run(const RunOptions& options) {
     if (!session) { return output.fail(session.error()); }
     const auto start_mm = start_places(*session);
     if (!start_mm) { return output.fail(start_mm.error()); }
-    auto chosen = choose(options, *text, machine->config, *start_mm, output);
+    const auto values = session->values();
+    if (!values) { return output.fail(values.error()); }
+    auto chosen = choose(options, *text, machine->config, *start_mm, *values, output);
     if (!chosen) { return output.fail(chosen.error()); }
     const auto planned_s = planned_seconds(*session, chosen->program, *start_mm);
     if (!planned_s) { return output.fail(bad_file(options.file, planned_s.error().errors)); }
@@ -105,6 +115,7 @@ ExitCode run(const RunOptions& options) {
                   .kind = "run",
                   .name = chosen->program.name,
                   .program = std::move(chosen->program),
+                  .values = std::move(chosen->values),
                   .planned_s = *planned_s,
                   .detach = options.detach};
     if (options.dry_run) { return report_dry_run(job, chosen->approach, output); }

@@ -12,7 +12,24 @@
 #include "core/machine.hpp"
 #include "core/program.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace lockstep {
+
+/// The options of a verb that reads a program without a running machine.
+struct ProgramOptions {
+    std::string file;
+    std::string machine_file;
+    std::string start;   // "X=10,Y=5"; axes that it does not name are at their park positions, as after homing
+    std::string values;  // a file of offsets and tools; empty: the coordinator's on this host, if there is one
+    GcodeSwitches switches;
+    bool json = false;
+};
+
+void add_program_options(CLI::App& verb, ProgramOptions& options);
+void add_start(CLI::App& verb, ProgramOptions& options);
 
 struct ProgramInput {
     MachineConfig machine;
@@ -24,10 +41,8 @@ struct ProgramInput {
     std::vector<GcodeNote> notes;  // words that were passed over, and messages
 };
 
-/// `start`: "X=10,Y=5"; axes that it does not name are at their park positions, as after homing. Errors: everything
-/// that is wrong with the configuration, the start or the program, by line and column.
-std::expected<ProgramInput, Failure> read_program(const std::string& file, const std::string& machine_file,
-                                                  const std::string& start, GcodeSwitches switches = {});
+/// Errors: everything that is wrong with the configuration, the start, the values or the program, by line and column.
+std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options);
 /// A line for each note.
 void warn(const ProgramInput& input, Output& output);
 

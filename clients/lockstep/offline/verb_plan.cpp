@@ -15,19 +15,14 @@
 namespace lockstep {
 namespace {
 
-struct PlanOptions {
-    std::string file;
-    std::string machine_file;
-    std::string start;
+struct PlanOptions : ProgramOptions {
     std::string svg_dir;
     std::string moves;
-    GcodeSwitches switches;
-    bool json = false;
 };
 
 ExitCode plan(const PlanOptions& options) {
     Output output(options.json);
-    const auto input = read_program(options.file, options.machine_file, options.start, options.switches);
+    const auto input = read_program(options);
     if (!input) { return output.fail(input.error()); }
     warn(*input, output);
     if (!options.moves.empty()) {
@@ -52,17 +47,12 @@ void add_plan(CLI::App& app, Action& action) {
                                         "report how long a G-code file takes and the load on each axis; "
                                         "needs no running machine");
     const auto options = std::make_shared<PlanOptions>();
-    verb->add_option("file", options->file, "the G-code file")->required();
-    verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
-    verb->add_option("--start", options->start,
-                     "the start position in mm: X=10,Y=5; axes not named are at their park positions");
+    add_program_options(*verb, *options);
+    add_start(*verb, *options);
     verb->add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
     verb->add_option("--moves", options->moves,
                      "write every motion into this CSV file, arcs as arcs: line, kind, the end by axes in machine "
                      "coordinates, feed, centre");
-    verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
-                   "pass over words for devices that the machine does not have, instead of refusing them");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         footer("  lockstep plan plate.gcode --machine mill.textproto\n"
                "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"

@@ -18,14 +18,10 @@
 namespace lockstep {
 namespace {
 
-struct SimulateOptions {
-    std::string file;
-    std::string machine_file;
+struct SimulateOptions : ProgramOptions {
     std::string log;
-    GcodeSwitches switches;
     bool force = false;
     bool speed_report = false;
-    bool json = false;
 };
 
 double seconds_now() { return static_cast<double>(monotonic_now().count()) * 1e-9; }
@@ -74,7 +70,7 @@ std::string in_words(const SimulateOptions& options, const ProgramInput& input, 
 
 ExitCode simulate_verb(const SimulateOptions& options) {
     Output output(options.json);
-    const auto input = read_program(options.file, options.machine_file, "", options.switches);
+    const auto input = read_program(options);
     if (!input) { return output.fail(input.error()); }
     warn(*input, output);
     auto log = NewLogFile::begin(options.log, options.force);
@@ -100,18 +96,15 @@ ExitCode simulate_verb(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("simulate",
-                                        "home a simulated machine, run a G-code file on it, and write the same "
-                                        "log as a live run");
+    CLI::App* verb =
+        app.add_subcommand("simulate",
+                           "home a simulated machine, run a G-code file on it without its pauses, and write the same "
+                           "log as a live run");
     const auto options = std::make_shared<SimulateOptions>();
-    verb->add_option("file", options->file, "the G-code file; its pauses are skipped")->required();
-    verb->add_option("--machine", options->machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
+    add_program_options(*verb, *options);
     verb->add_option("--log", options->log, "the LCM log to write; a log of that name is replaced")->required();
     verb->add_flag("--force", options->force, "replace the file even if it is not a log");
     verb->add_flag("--speed-report", options->speed_report, "report how fast each stage was simulated");
-    verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
-                   "pass over words for devices that the machine does not have, instead of refusing them");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"
                "  lockstep verify plate.lcm\n"));

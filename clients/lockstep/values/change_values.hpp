@@ -1,0 +1,19 @@
+// Shows or changes the machine's values that outlive programs: common to offsets and tools.
+#pragma once
+
+#include <functional>
+
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/values/values_text.hpp"
+#include "clients/text/exit_code.hpp"
+
+namespace lockstep {
+
+using ValuesText = std::string (*)(const MachineConfig& machine, const gcode::KeptValues& values);
+using ChangeValues = std::function<Changed(const MachineConfig& machine, gcode::KeptValues& values)>;
+
+ExitCode show_values(const LiveOptions& options, ValuesText text);
+/// Waits until the change is on the coordinator's disk; then shows the values.
+ExitCode change_values(const LiveOptions& options, ValuesText text, const ChangeValues& change);
+
+}  // namespace lockstep
