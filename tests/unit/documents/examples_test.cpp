@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/documents/machine_file.hpp"
+#include "services/documents/program_document.hpp"
 #include "services/documents/program_file.hpp"
 
 namespace lockstep {
@@ -52,6 +53,31 @@ TEST(Examples, HomingIsShort) {
         }
     }
 }
+
+class ExampleProgram : public testing::TestWithParam<const char*> {};
+
+TEST_P(ExampleProgram, BeginsAndEndsParked) {
+    const MachineConfig mill = machine("three-axis.textproto");
+    const auto file = read_program_file(kExamples / GetParam(), mill, parked(mill));
+    ASSERT_TRUE(file) << to_text(GetParam(), file.error());
+    EXPECT_TRUE(file->reading.notes.empty());
+    const auto* end = std::get_if<LinearMove>(&file->reading.program.blocks.back().action);
+    ASSERT_NE(end, nullptr);
+    EXPECT_EQ(end->target_mm, parked(mill));
+}
+
+TEST_P(ExampleProgram, CanBeRunAgainWithTheOffsetsThatItLeaves) {
+    const MachineConfig mill = machine("three-axis.textproto");
+    const auto first = read_program_file(kExamples / GetParam(), mill, parked(mill));
+    ASSERT_TRUE(first) << to_text(GetParam(), first.error());
+    const auto again = read_program_file(kExamples / GetParam(), mill, parked(mill), {}, first->reading.values);
+    ASSERT_TRUE(again) << to_text(GetParam(), again.error());
+    EXPECT_EQ(program_bytes(again->reading.program), program_bytes(first->reading.program));
+    EXPECT_EQ(again->reading.values, first->reading.values);
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, ExampleProgram,
+                         testing::Values("plate.gcode", "pocket.gcode", "drilling.gcode", "contour.gcode"));
 
 TEST(Examples, ThePlateBeginsAndEndsParked) {
     const MachineConfig mill = machine("three-axis.textproto");
