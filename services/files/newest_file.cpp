@@ -7,10 +7,7 @@
 namespace lockstep {
 
 NewestFile::NewestFile(std::filesystem::path path, OnFailure on_failure)
-    : path_(std::move(path)), on_failure_(on_failure), thread_([this](const std::stop_token& stop) { serve(stop); }) {
-    std::error_code ignored;
-    std::filesystem::create_directories(path_.parent_path(), ignored);
-}
+    : path_(std::move(path)), on_failure_(on_failure), thread_([this](const std::stop_token& stop) { serve(stop); }) {}
 
 NewestFile::~NewestFile() {
     thread_.request_stop();
@@ -36,6 +33,8 @@ void NewestFile::serve(const std::stop_token& stop) {
 }
 
 void NewestFile::write(const Next& next) {
+    std::error_code ignored;  // the folder may have been removed, or its disk mounted later
+    std::filesystem::create_directories(path_.parent_path(), ignored);
     const auto written = replace_text_file(path_, next.text());
     if (written) { kept_ = next.number; }
     if (!written && !failed_) { on_failure_(written.error()); }

@@ -86,11 +86,13 @@ std::expected<void, std::string> write_text_file(const std::filesystem::path& pa
 }
 
 std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text) {
-    const std::filesystem::path fresh = path.string() + ".new";
+    const std::filesystem::path fresh = path.string() + ".new-" + std::to_string(::getpid());
     const bool is_replaced = write_durably(fresh, text) && ::rename(fresh.c_str(), path.c_str()) == 0 &&
                              File(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
     if (is_replaced) { return {}; }
-    return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
+    const int why = errno;
+    ::unlink(fresh.c_str());
+    return std::unexpected(path.string() + ": cannot be written: " + std::strerror(why));
 }
 
 }  // namespace lockstep

@@ -19,7 +19,8 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
 std::expected<void, std::string> write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// Atomic even if this process or its host fails: readers find the old text or the new one. The new text is on the
-/// disk on return. One writer at a time. Error: the path, and why it cannot be written.
+/// disk on return. One thread of a process at a time; processes do not disturb each other. Error: the path, and why it
+/// cannot be written.
 std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace lockstep

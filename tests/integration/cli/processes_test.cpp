@@ -144,10 +144,12 @@ TEST_F(Processes, ThatCannotKeepTheRecordAreReported) {
 /// The file that Y writes its position to is replaced by a FIFO without a reader.
 TEST_F(Processes, EndThoughTheirDiskHangs) {
     bring_up();
-    const std::filesystem::path fresh = position_directory(status().machine()) / "Y.textproto.new";
+    const pid_t hangs = process("axis-Y");
+    const auto folder = position_directory(status().machine());
+    const auto fresh = folder / ("Y.textproto.new-" + std::to_string(hangs));
+    std::filesystem::create_directories(folder);
     ASSERT_EQ(mkfifo(fresh.c_str(), 0600), 0);
     ASSERT_EQ(run_lockstep({"home"}).code, 0);
-    const pid_t hangs = process("axis-Y");
     kill(hangs, SIGTERM);
     EXPECT_TRUE(eventually([&] { return process("axis-Y") != hangs && process("axis-Y") != 0; }))
         << "it ends, and is started again";

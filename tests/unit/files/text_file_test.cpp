@@ -3,8 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "services/documents/machine_file.hpp"
 
@@ -53,6 +58,34 @@ TEST_F(TextFile, ItsRefusalIsOfTheFileAsAWhole) {
     const auto machine = load_machine_file(folder_);
     ASSERT_FALSE(machine.has_value());
     EXPECT_EQ(to_text("m.textproto", machine.error()), "m.textproto: error: this is a directory; name a file in it\n");
+}
+
+/// A child process replaces the file again and again; it is killed after each of many times.
+TEST_F(TextFile, OfAProcessThatIsKilledWhileItReplacesItIsTheOldOrTheNewOne) {
+    const auto path = folder_ / "file";
+    const std::string texts[] = {std::string(100'000, 'a'), std::string(70'000, 'b')};
+    ASSERT_TRUE(replace_text_file(path, texts[0]));
+    for (int kills = 0; kills < 50; ++kills) {
+        const pid_t writer = fork();
+        if (writer == 0) {
+            for (std::size_t i = 0;; ++i) { (void)replace_text_file(path, texts[i % 2]); }
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(500 + 137 * kills));
+        kill(writer, SIGKILL);
+        ASSERT_EQ(waitpid(writer, nullptr, 0), writer);
+        const auto text = read_text_file(path);
+        ASSERT_TRUE(text);
+        EXPECT_TRUE(*text == texts[0] || *text == texts[1]) << text->size() << " bytes after kill " << kills;
+    }
+}
+
+TEST_F(TextFile, ThatCannotBeReplacedStaysAsItWas) {
+    const auto path = write("before");
+    std::filesystem::create_directories(folder_ / ("file.new-" + std::to_string(getpid())));
+    const auto replaced = replace_text_file(path, "after");
+    ASSERT_FALSE(replaced);
+    EXPECT_THAT(replaced.error(), HasSubstr("cannot be written: "));
+    EXPECT_EQ(read_text_file(path).value(), "before");
 }
 
 TEST(Diagnostic, ReadsAsACompilersDoes) {
