@@ -24,8 +24,7 @@ constexpr nanoseconds kAnswerPatience = 3s;
 constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
 constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
 constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
-
-constexpr nanoseconds kDiskPatience = 15s;  // a disk may hang for seconds
+constexpr nanoseconds kDiskPatience = 15s;      // a disk may hang for seconds
 
 static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
 
@@ -269,10 +268,11 @@ std::expected<RevisedValues, Failure> Session::values() {
 
 std::expected<void, Failure> Session::await_kept(std::uint64_t revision) {
     const nanoseconds deadline = monotonic_now() + kDiskPatience;
-    while (!values_ || values_->kept < revision) {
+    while (!values_ || values_->revision < revision || !values_->on_disk) {
         if (monotonic_now() > deadline) {
-            return std::unexpected(failed("the coordinator uses the change, but has not written it to its disk; see: " +
-                                          std::string("lockstep status, and its log")));
+            return std::unexpected(
+                failed("the coordinator has not reported that the offsets and tools are on its disk; they may be lost "
+                       "when it ends: its log names the reason"));
         }
         receive(50ms);
     }

@@ -85,7 +85,8 @@ public:
 
     /// The machine's offsets and tools. Waits until they are received.
     std::expected<RevisedValues, Failure> values();
-    /// Waits until the coordinator has these on its disk. Error: it cannot write them, or does not answer.
+    /// Waits until the coordinator has this revision, or a later one, on its disk. Error: it cannot write it, or does
+    /// not answer.
     std::expected<void, Failure> await_kept(std::uint64_t revision);
 
 private:

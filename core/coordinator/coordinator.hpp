@@ -27,6 +27,8 @@ public:
     CoordinatorOutputs step(const CoordinatorInputs& inputs);
 
     MachinePhase phase() const { return condition_.phase(); }
+    /// In motion, held, or inherited by a takeover.
+    bool has_job() const { return jobs_.has_any(); }
     bool owns_machine() const { return ownership_.owns(); }
     /// Its own where it owns the machine; else the highest that is known.
     Term term() const { return ownership_.term(); }

@@ -1,5 +1,5 @@
-// What outlives a program: coordinate systems, the offsets of G92, the places of G28 and G30, and the tool table. A
-// program begins with these values and leaves them changed.
+// The values that outlive a program: coordinate systems, the offsets of G92, the places of G28 and G30, and the tool
+// table. A program begins with these values and leaves them changed.
 //
 // The coordinate system in use, the tool in the spindle and all other modes do not outlive it: each program begins with
 // G54 and without a tool.
@@ -37,7 +37,7 @@ struct KeptValues {
 void set_kept_values(State& state, const KeptValues& values, const Point& park);
 KeptValues kept_values(const State& state, const Point& park);
 
-/// What a program was read with, and what it leaves.
+/// The values that a program was read with and leaves.
 struct ProgramValues {
     std::uint64_t revision = 0;       // of the machine's values that it was read with
     std::optional<KeptValues> after;  // none: the same

@@ -1,4 +1,4 @@
-// What outlives programs, as the coordinator publishes it: coordinate systems, offsets and the tool table.
+// The values that outlive programs, as the coordinator publishes them: coordinate systems, offsets and the tool table.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace lockstep {
 struct MachineValues {
     Term term;                        // of the coordinator that owns the machine
     std::uint64_t revision = 0;       // increases with every change
-    std::uint64_t kept = 0;           // the revision that is on the coordinator's disk
+    bool on_disk = false;             // the coordinator's file contains this revision
     std::vector<std::uint8_t> bytes;  // Protobuf
     bool operator==(const MachineValues&) const = default;
 };

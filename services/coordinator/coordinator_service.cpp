@@ -67,6 +67,7 @@ public:
         const CoordinatorReceived& received = receive();
         const Tick now = clock_.now();
         looped_ = now;
+        forget_outdated_programs();
         if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
         const CoordinatorInputs in{now, received.states, received.others, received.commands};
         CoordinatorOutputs out = coordinator_.step(in);
@@ -76,13 +77,10 @@ public:
             out.state->lost_records = sink_->failures();
             out.state->process = {.reopened = network_.reopened(), .lost_log_lines = lost_log_lines()};
         }
+        publish_values(out.jobs);
         network_.publish(out);
         recorder_.note(now);
-        for (const JobEvent& event : out.jobs) {
-            recorder_.record(now, event);
-            values_.keeper().take(event);
-        }
-        tend_values();
+        for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         tend_network(now);
         report_waiting(now);
@@ -116,8 +114,15 @@ private:
         return received;
     }
 
-    void tend_values() {
+    /// The program of a job that was taken over is needed until its end.
+    void forget_outdated_programs() {
+        if (!coordinator_.owns_machine() || coordinator_.has_job()) { return; }
         for (const std::uint64_t program : values_.keeper().take_outdated()) { coordinator_.forget_program(program); }
+    }
+
+    /// Before the state that reports the job's end: a receiver of that state has received the values that it left.
+    void publish_values(const std::vector<JobEvent>& events) {
+        for (const JobEvent& event : events) { values_.keeper().take(event); }
         if (!coordinator_.owns_machine()) { return; }
         if (const auto values = values_.step(monotonic_now(), coordinator_.term())) { network_.publish(*values); }
     }
@@ -218,7 +223,7 @@ private:
     JobRecorder recorder_;
     ValuesStore values_;
     ProgramInbox inbox_{[this](std::uint64_t id, const ProgramDocument& program) {
-        return values_.accept(id, program, {coordinator_.owns_machine(), at_rest()});
+        return values_.accept(id, program, {coordinator_.owns_machine(), coordinator_.has_job()});
     }};
     std::atomic<Tick> looped_;  // when the loop last ran
     Tick reported_ = clock_.now();
@@ -297,7 +302,7 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
     auto values = read_values(values_file(machine->name));
     if (!values) {
         log_error(to_text(values_file(machine->name).string(), values.error()) +
-                  "correct it; or remove it, to begin without offsets and tools");
+                  "correct the file; or remove it, to begin without offsets and tools");
         return kServiceBadInput;
     }
     return run(options, *machine, *std::move(values));

@@ -72,7 +72,8 @@ ProgramInbox::Taken ProgramInbox::complete(std::uint64_t id, Parcel& parcel, Rep
     if (document && check_) { accepted = check_(id, *document); }
     parcel.outcome = accepted ? reply : refuse(reply, accepted.error());
     Taken taken{parcel.outcome, {}};
-    if (accepted) { taken.program = std::move(document->program); }
+    const bool is_edit = document && document->values && document->values->at_once;
+    if (accepted && !is_edit) { taken.program = std::move(document->program); }
     return taken;
 }
 

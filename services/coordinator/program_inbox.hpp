@@ -22,7 +22,7 @@ class ProgramInbox {
 public:
     struct Taken {
         Reply reply;                     // to the chunk
-        std::optional<Program> program;  // once it is complete
+        std::optional<Program> program;  // once it is complete; an edit has none
         bool is_new = false;             // the chunk was not received before
     };
     /// Whether a program that is complete is accepted. Error: why not.

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/coordinator/values/value_keeper.hpp"
 #include "core/protocol/machine_values.hpp"
@@ -18,9 +20,9 @@ namespace lockstep {
 
 class ValuesStore {
 public:
-    /// `loaded`: what the file contains.
+    /// `loaded`: the content of the file.
     ValuesStore(const std::filesystem::path& file, RevisedValues loaded, NewestFile::OnFailure on_failure)
-        : keeper_(loaded.revision, std::move(loaded.values)), in_file_(loaded.revision), file_(file, on_failure) {}
+        : keeper_(loaded.revision, std::move(loaded.values)), file_(file, on_failure) {}
 
     ValueKeeper& keeper() { return keeper_; }
     /// A program that has arrived, as ValueKeeper::accept.
@@ -28,24 +30,24 @@ public:
                                             ValueKeeper::Circumstances now);
     /// The owner's values, in a coordinator that does not own the machine.
     void follow(const MachineValues& values);
-    /// In each loop of the owner: writes what has changed. Returns what to publish, several times a second.
+    /// In each loop of the owner: writes a change. Returns the values to publish: after each change, and several times
+    /// a second.
     std::optional<MachineValues> step(std::chrono::nanoseconds now, const Term& term);
 
 private:
     static constexpr std::chrono::milliseconds kPublishEvery{200};
     static constexpr std::chrono::seconds kWriteAgainAfter{5};  // if it failed
 
-    /// The revision that is on the disk.
-    std::uint64_t kept() const { return file_.kept() == 0 ? in_file_ : file_.kept(); }
+    bool is_on_disk() const { return file_.kept() == keeper_.changes(); }
     void write(std::chrono::nanoseconds now);
 
     ValueKeeper keeper_;
-    std::uint64_t in_file_;  // the revision that was loaded
-    NewestFile file_;
-    std::uint64_t written_ = 0;  // the revision handed to the file last
+    NewestFile file_;                     // its numbers are the keeper's count of changes
+    std::vector<std::uint8_t> followed_;  // the owner's bytes that were read last
+    std::uint64_t written_ = 0;           // the change that was given to the file last
     std::chrono::nanoseconds written_at_{};
     std::optional<std::chrono::nanoseconds> published_at_;
-    std::uint64_t published_kept_ = 0;
+    std::pair<std::uint64_t, bool> published_;  // the change, and whether it was on the disk
 };
 
 }  // namespace lockstep

@@ -7,7 +7,6 @@
 #include "services/documents/values/values_document.hpp"
 
 namespace lockstep {
-
 namespace {
 
 std::expected<std::optional<gcode::ProgramValues>, std::string> values_of(const proto::Program& message) {

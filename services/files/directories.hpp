@@ -20,7 +20,7 @@ std::filesystem::path record_directory(const std::string& machine);
 /// For the positions that outlive the axes' processes: ROOT/MACHINE/position, with the same ROOT.
 std::filesystem::path position_directory(const std::string& machine);
 
-/// What outlives the machine's programs: ROOT/MACHINE/values.textproto, with the same ROOT.
+/// The values that outlive the machine's programs: ROOT/MACHINE/values.textproto, with the same ROOT.
 std::filesystem::path values_file(const std::string& machine);
 
 /// For memory that outlives its process, but not the host: never on a disk. /dev/shm/lockstep-UID.

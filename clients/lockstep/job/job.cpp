@@ -107,6 +107,13 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
                "known, and a stop was sent; see: lockstep status"));
 }
 
+/// The program's offsets and tools are on the coordinator's disk when its command returns.
+void await_values(Session& session, const Job& job, Output& output) {
+    if (!job.values || !job.values->after) { return; }
+    const auto kept = session.await_kept(job.values->revision + 1);
+    if (!kept) { output.warn(kept.error().errors.front().message); }
+}
+
 ExitCode end(Session& session, const Job& job, JobResult result, proto::RunReport& report, Output& output) {
     report.set_outcome(outcome_name(result));
     if (result == JobResult::Failed) {
@@ -117,6 +124,7 @@ ExitCode end(Session& session, const Job& job, JobResult result, proto::RunRepor
     const std::int32_t line = session.state()->state.line;
     if (result == JobResult::CutShort && line > 0) { report.set_line(line); }
     if (result != JobResult::InProgress) { add_final_positions(session, report); }
+    if (result == JobResult::Done) { await_values(session, job, output); }
     output.report(report);
     if (result == JobResult::InProgress) {
         output.print(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");

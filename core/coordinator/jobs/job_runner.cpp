@@ -178,9 +178,8 @@ void JobRunner::stand_down() {
 }
 
 void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
-    const bool is_open = job_ || inherited_.exists();
     state.job = count_.number();
-    state.outcome = is_open ? std::nullopt : count_.outcome();
+    state.outcome = has_any() ? std::nullopt : count_.outcome();
     state.job_begun = count_.begun_in();
     state.line = count_.line();
     path_.report_epoch(state);

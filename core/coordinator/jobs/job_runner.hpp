@@ -46,6 +46,8 @@ public:
     void note_interrupt(Slot now) { inherited_.note_interrupt(now); }
 
     bool exists() const { return job_.has_value(); }
+    /// Also one that this coordinator has taken over and not continued yet.
+    bool has_any() const { return exists() || inherited_.exists(); }
     /// An epoch of frames is in progress.
     bool is_on_path() const { return path_.is_moving(); }
     bool in_motion() const { return is_on_path() || axes_move_alone(); }

@@ -10,14 +10,14 @@ std::expected<void, std::string> ValueKeeper::accept(std::uint64_t program, cons
                                "; give the command again");
     }
     if (values.at_once) { return edit(values, now); }
-    arrived_.push_back({program, values.after});
+    arrived_.push_back({program, values.revision, values.after});
     if (arrived_.size() > kMostArrived) { arrived_.pop_front(); }
     return {};
 }
 
 std::expected<void, std::string> ValueKeeper::edit(const gcode::ProgramValues& values, Circumstances now) {
     if (!now.owns_machine || !values.after) { return {}; }
-    if (!now.is_idle) {
+    if (now.has_job) {
         return std::unexpected(
             "a job is in progress, and depends on these values; wait for its end, or: lockstep stop");
     }
@@ -26,27 +26,38 @@ std::expected<void, std::string> ValueKeeper::edit(const gcode::ProgramValues& v
 }
 
 void ValueKeeper::take(const JobEvent& event) {
-    if (event.kind == JobEvent::Kind::Begun) { running_ = Arrived{event.program_id, after(event.program_id)}; }
+    const std::uint64_t program = event.program_id;
+    if (event.kind == JobEvent::Kind::Begun) { running_ = Arrived{program, revision_, after(program)}; }
     if (event.kind != JobEvent::Kind::Ended) { return; }
-    const bool is_known = running_ && running_->program == event.program_id;
-    const auto left = is_known ? std::exchange(running_, {})->after : after(event.program_id);
-    running_.reset();
+    const auto running = std::exchange(running_, std::nullopt);
+    const auto left = running && running->program == program ? running->after : after(program);
     if (event.outcome == JobOutcome::Done && left) { change(*left); }
 }
 
 void ValueKeeper::follow(std::uint64_t revision, gcode::KeptValues values) {
+    if (revision == revision_ && values == values_) { return; }
     revision_ = revision;
     values_ = std::move(values);
+    ++changes_;
+}
+
+std::vector<std::uint64_t> ValueKeeper::take_outdated() {
+    std::vector<std::uint64_t> outdated;
+    for (const Arrived& arrived : arrived_) {
+        if (arrived.revision != revision_) { outdated.push_back(arrived.program); }
+    }
+    std::erase_if(arrived_, [this](const Arrived& arrived) { return arrived.revision != revision_; });
+    return outdated;
 }
 
 void ValueKeeper::change(const gcode::KeptValues& values) {
     if (values == values_) { return; }
     values_ = values;
     ++revision_;
-    for (const Arrived& arrived : std::exchange(arrived_, {})) { outdated_.push_back(arrived.program); }
+    ++changes_;
 }
 
-/// A job that was taken over had arrived before.
+/// The program of a job that was taken over had arrived before.
 std::optional<gcode::KeptValues> ValueKeeper::after(std::uint64_t program) const {
     for (const Arrived& arrived : arrived_) {
         if (arrived.program == program) { return arrived.after; }

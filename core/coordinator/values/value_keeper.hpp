@@ -24,9 +24,12 @@ public:
     std::uint64_t revision() const { return revision_; }
     const gcode::KeptValues& values() const { return values_; }
 
+    /// Increases whenever the values or their revision change; 0: they are as they were loaded.
+    std::uint64_t changes() const { return changes_; }
+
     struct Circumstances {
-        bool owns_machine = true;  // else the owner decides, and the program may have to be gone on with
-        bool is_idle = true;       // no job is in progress, held or paused
+        bool owns_machine = true;  // else the owner decides, and this coordinator may have to continue the program
+        bool has_job = false;      // in motion, held, or inherited by a takeover
     };
     /// A program has arrived whole. Error: why it is refused.
     std::expected<void, std::string> accept(std::uint64_t program, const gcode::ProgramValues& values,
@@ -34,12 +37,13 @@ public:
     void take(const JobEvent& event);
     /// The owner's values, while another coordinator owns the machine.
     void follow(std::uint64_t revision, gcode::KeptValues values);
-    /// Programs that have arrived and that another revision has made invalid since the last call.
-    std::vector<std::uint64_t> take_outdated() { return std::exchange(outdated_, {}); }
+    /// Removes the programs that were read with another revision. Call before a command can name one.
+    std::vector<std::uint64_t> take_outdated();
 
 private:
     struct Arrived {
         std::uint64_t program = 0;
+        std::uint64_t revision = 0;  // that it was read with
         std::optional<gcode::KeptValues> after;
     };
     static constexpr std::size_t kMostArrived = 4;  // as many as there are programs in the ProgramStore
@@ -50,9 +54,9 @@ private:
 
     std::uint64_t revision_;
     gcode::KeptValues values_;
+    std::uint64_t changes_ = 0;
     std::deque<Arrived> arrived_;     // the newest last
     std::optional<Arrived> running_;  // of the job in progress
-    std::vector<std::uint64_t> outdated_;
 };
 
 }  // namespace lockstep

@@ -24,8 +24,10 @@ std::expected<RevisedValues, Diagnostics> values_from_text(std::string_view text
 }
 
 std::expected<RevisedValues, Diagnostics> read_values(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) { return RevisedValues{}; }
+    std::error_code error;
+    if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found) {
+        return RevisedValues{};
+    }
     const auto text = read_text_file(file);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
     return values_from_text(*text);

@@ -8,7 +8,7 @@ lockstep_wire_MachineValues to_wire(const MachineValues& values) {
     return {.term = values.term.number,
             .coordinator = values.term.coordinator,
             .revision = values.revision,
-            .kept = values.kept,
+            .on_disk = values.on_disk,
             .bytes = {._maximum = size,
                       ._length = size,
                       ._buffer = const_cast<std::uint8_t*>(values.bytes.data()),  // DDS only reads it
@@ -21,7 +21,7 @@ FromWire<MachineValues> from_wire(const lockstep_wire_MachineValues& wire) {
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return MachineValues{.term = {wire.term, wire.coordinator},
                          .revision = wire.revision,
-                         .kept = wire.kept,
+                         .on_disk = wire.on_disk,
                          .bytes = {wire.bytes._buffer, wire.bytes._buffer + wire.bytes._length}};
 }
 

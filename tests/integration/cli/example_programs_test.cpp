@@ -13,6 +13,7 @@ const std::string kExamples = "deploy/examples/";
 struct Example {
     const char* program;
     int systems;  // coordinate systems that it leaves set
+    friend std::ostream& operator<<(std::ostream& out, const Example& example) { return out << example.program; }
 };
 
 class ExamplePrograms : public OwnMachine, public testing::WithParamInterface<Example> {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "idl/proto/values.pb.h"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
@@ -76,6 +77,23 @@ TEST_F(TwoCoordinators, AStoppedOwnerGivesUpTheMachineWhenItContinues) {
     EXPECT_EQ(status().axes(0).position_steps(), 800) << "nothing moved when it continued";
     EXPECT_EQ(run_lockstep({"move", "X=20", "Y=0"}).code, 0);
     expect_verified();
+}
+
+TEST_F(TwoCoordinators, AKilledOwnersOffsetsAndToolsAreThoseOfTheNext) {
+    const auto kept = [] { return run_lockstep({"tools", "--json"}).json<proto::KeptValues>(); };
+    ASSERT_TRUE(eventually([&] { return status().standby(); }));
+    ASSERT_EQ(run_lockstep({"tools", "set", "3", "D=6"}).code, 0);
+    ASSERT_EQ(run_lockstep({"run", write("job.gcode", "G10 L2 P2 X7\nG0 X5\nM2\n")}).code, 0);
+    const proto::KeptValues before = kept();
+    EXPECT_EQ(before.revision(), 2U);
+    const std::string killed = owner();
+    kill(process(killed), SIGKILL);
+    ASSERT_TRUE(eventually([&] { return owner() != killed; }));
+    ASSERT_TRUE(becomes("Idle"));
+    EXPECT_EQ(kept().SerializeAsString(), before.SerializeAsString());
+    ASSERT_EQ(run_lockstep({"offsets", "set", "G54", "X=1"}).code, 0);
+    EXPECT_EQ(kept().revision(), 3U);
+    EXPECT_EQ(kept().system_size(), 2);
 }
 
 class ContinuingCoordinators : public TwoCoordinators {

@@ -2,13 +2,18 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <fstream>
+
 #include "idl/proto/values.pb.h"
+#include "services/documents/values/values_document.hpp"
+#include "services/files/directories.hpp"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
 namespace lockstep {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class Values : public OwnMachine {
@@ -90,6 +95,31 @@ TEST_F(Values, AreTheInputOfACheckWithoutAMachine) {
     EXPECT_EQ(run_lockstep({"check", job, "--values", write("values.textproto", "revision: 1\n")}).code, 0);
     EXPECT_THAT(run_lockstep({"check", job, "--values", write("bad.textproto", "sistem {}\n")}).err,
                 HasSubstr("bad.textproto:1"));
+}
+
+TEST_F(Values, OfADamagedFileAreRefusedWithTheRemedy) {
+    ASSERT_EQ(offsets({"set", "G54", "X=1"}).code, 0);
+    const std::filesystem::path file = values_file(status().machine());
+    ASSERT_EQ(run_lockstep({"down"}).code, 0);
+    std::ofstream(file) << "revision: 1\nsystem { name: \"G5";
+    const Ran up = run_lockstep({"up"});
+    EXPECT_NE(up.code, 0);
+    EXPECT_THAT(up.out + up.err, AllOf(HasSubstr("values.textproto:2:"), HasSubstr("or remove it, to begin without")));
+    std::filesystem::remove(file);
+    bring_up();
+    EXPECT_EQ(kept().system_size(), 0);
+}
+
+TEST_F(Values, ThatCannotBeWrittenAreReported) {
+    const std::filesystem::path file = values_file(status().machine());
+    std::filesystem::create_directories(file);
+    const Ran set = offsets({"set", "G54", "X=1"});
+    EXPECT_EQ(set.code, 1);
+    EXPECT_THAT(set.err, HasSubstr("they may be lost when it ends"));
+    EXPECT_THAT(text_of_log("coordinator"), HasSubstr("the machine's offsets and tools are not kept"));
+    EXPECT_EQ(kept().system_size(), 1) << "they are used";
+    std::filesystem::remove(file);
+    EXPECT_TRUE(eventually([&] { return read_values(file)->revision == 1; })) << "the write is repeated";
 }
 
 }  // namespace

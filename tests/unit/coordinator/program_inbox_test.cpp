@@ -88,5 +88,21 @@ TEST(ProgramInbox, TheOldestUnfinishedProgramGivesWay) {
     EXPECT_TRUE(inbox.take(chunk(1, 2, second, 6)).program);
 }
 
+TEST(ProgramInbox, AnEditOfTheMachinesValuesIsNoProgramToRun) {
+    const gcode::ProgramValues edit{.revision = 0, .after = gcode::KeptValues{}, .at_once = true};
+    int checks = 0;
+    ProgramInbox inbox([&](std::uint64_t, const ProgramDocument& document) {
+        checks += document.values && document.values->at_once ? 1 : 0;
+        return std::expected<void, std::string>{};
+    });
+    const ProgramChunk whole =
+        chunk(0, 1, program_bytes({.name = "edit", .axes = {"X"}, .start_mm = {0}, .blocks = {}}, edit));
+    const auto taken = inbox.take(whole);
+    EXPECT_FALSE(taken.program);
+    EXPECT_EQ(taken.reply.status, ReplyStatus::Accepted);
+    EXPECT_EQ(inbox.take(whole).reply.status, ReplyStatus::Accepted) << "a repeated chunk";
+    EXPECT_EQ(checks, 1) << "the repeated one changes nothing";
+}
+
 }  // namespace
 }  // namespace lockstep

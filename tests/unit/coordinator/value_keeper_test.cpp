@@ -56,14 +56,41 @@ TEST(ValueKeeper, AProgramThatArrivedBeforeAChangeIsForgotten) {
 
 TEST(ValueKeeper, AnEditWhileAJobIsInProgressIsRefused) {
     ValueKeeper keeper(3, with_x(1));
-    EXPECT_FALSE(keeper.accept(8, edit(2), {.is_idle = false}));
+    EXPECT_FALSE(keeper.accept(8, edit(2), {.has_job = true}));
     EXPECT_EQ(keeper.values(), with_x(1));
+}
+
+TEST(ValueKeeper, AProgramThatArrivedDuringAJobIsForgottenIfTheJobChangesTheValues) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, {}));
+    keeper.take(begun(7));
+    ASSERT_TRUE(keeper.accept(8, {3, {}}, {.has_job = true}));
+    EXPECT_TRUE(keeper.take_outdated().empty());
+    keeper.take(ended(7, JobOutcome::Done));
+    EXPECT_EQ(keeper.take_outdated(), (std::vector<std::uint64_t>{7, 8}));
 }
 
 TEST(ValueKeeper, TheSameValuesAreNoNewRevision) {
     ValueKeeper keeper(3, with_x(1));
     ASSERT_TRUE(keeper.accept(8, edit(1), {}));
     EXPECT_EQ(keeper.revision(), 3U);
+    EXPECT_EQ(keeper.changes(), 0U);
+}
+
+TEST(ValueKeeper, AStandbyTakesTheOwnersValuesAlsoIfItsOwnHaveTheSameRevision) {
+    ValueKeeper keeper(3, with_x(1));
+    keeper.follow(3, with_x(1));
+    EXPECT_EQ(keeper.changes(), 0U);
+    keeper.follow(3, with_x(5));
+    EXPECT_EQ(keeper.values(), with_x(5));
+    EXPECT_EQ(keeper.changes(), 1U);
+}
+
+TEST(ValueKeeper, AfterATakeoverAProgramThatOnlyTheStandbyAcceptedIsForgotten) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {2, {}}, {.owns_machine = false})) << "the owner refuses it";
+    ASSERT_TRUE(keeper.accept(8, {3, {}}, {.owns_machine = false}));
+    EXPECT_EQ(keeper.take_outdated(), std::vector<std::uint64_t>{7});
 }
 
 TEST(ValueKeeper, AJobWithoutAProgramChangesNothing) {

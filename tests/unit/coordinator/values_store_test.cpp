@@ -1,9 +1,10 @@
-// The coordinator's file of values: what was kept is there for the next process, and only what is whole is read.
+// The coordinator's file of values: the next process reads the values that were kept, and refuses a damaged file.
 #include "services/coordinator/values_store.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 #include <thread>
 
@@ -53,11 +54,43 @@ TEST_F(KeptInAFile, ThePublishedStateTellsWhatIsOnTheDisk) {
     ASSERT_TRUE(published);
     EXPECT_EQ(published->revision, 1U);
     EXPECT_EQ(published->term, (Term{5, 6}));
-    for (auto now = 1s; published->kept != 1; now += 1s) {
+    for (auto now = 1s; !published->on_disk; now += 1s) {
         std::this_thread::sleep_for(1ms);
         if (const auto next = store.step(now, {5, 6})) { published = next; }
     }
     EXPECT_EQ(values_from_bytes(published->bytes)->values.systems[0].origin[0], 12.5);
+}
+
+TEST_F(KeptInAFile, AChangeIsPublishedAtOnce) {
+    ValuesStore store(folder_ / file_, {}, not_written);
+    ASSERT_TRUE(store.step(0s, {}));
+    EXPECT_TRUE(store.step(1ms, {}) == std::nullopt);
+    ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
+    const auto published = store.step(2ms, {});
+    ASSERT_TRUE(published);
+    EXPECT_EQ(published->revision, 1U);
+}
+
+/// Each of two hosts has a file of its own; both have counted to the same revision.
+TEST_F(KeptInAFile, ATakeoverReplacesTheFileByTheFormerOwnersValues) {
+    const fs::path file = folder_ / file_;
+    RevisedValues owners{.revision = 4, .values = {}};
+    owners.values.systems[2].rotation = 30;
+    {
+        ValuesStore store(file, {.revision = 4, .values = {}}, not_written);
+        store.follow({.revision = 4, .on_disk = true, .bytes = values_bytes(owners)});
+        const auto published = store.step(0s, {});
+        ASSERT_TRUE(published);
+        EXPECT_EQ(values_from_bytes(published->bytes), owners);
+    }
+    EXPECT_EQ(read_values(file), owners);
+}
+
+TEST_F(KeptInAFile, AFileThatCannotBeReadIsNotTakenForAMissingOne) {
+    const fs::path loop = folder_ / "loop";
+    fs::create_symlink(loop, loop);
+    EXPECT_FALSE(read_values(loop));
+    EXPECT_FALSE(read_values(folder_)) << "a folder";
 }
 
 TEST_F(KeptInAFile, AnUnfinishedFileOfAProcessThatDiedChangesNothing) {
@@ -67,7 +100,7 @@ TEST_F(KeptInAFile, AnUnfinishedFileOfAProcessThatDiedChangesNothing) {
         ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
         (void)store.step(0s, {});
     }
-    std::ofstream(file.string() + ".new") << "revision: 2 sys";
+    std::ofstream(file.string() + ".new-123") << "revision: 2 sys";
     EXPECT_EQ(read_values(file)->revision, 1U);
 }
 
@@ -80,17 +113,16 @@ TEST_F(KeptInAFile, ADamagedFileIsRefusedWithItsPlace) {
 }
 
 TEST_F(KeptInAFile, AWriteThatFailedIsRepeated) {
-    static int complaints = 0;
+    static std::atomic<int> failures = 0;
     const fs::path folder = folder_ / "machine";
     std::ofstream(folder) << "a file where the folder is to be";
-    ValuesStore store(folder / "values.textproto", {}, [](const std::string&) { ++complaints; });
+    ValuesStore store(folder / "values.textproto", {}, [](const std::string&) { ++failures; });
     ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
     (void)store.step(0s, {});
-    while (complaints == 0) { std::this_thread::sleep_for(1ms); }
+    while (failures == 0) { std::this_thread::sleep_for(1ms); }
     fs::remove(folder);
-    fs::create_directories(folder);
     std::optional<MachineValues> published;
-    for (auto now = 10s; !published || published->kept != 1; now += 10s) {
+    for (auto now = 10s; !published || !published->on_disk; now += 10s) {
         std::this_thread::sleep_for(1ms);
         published = store.step(now, {});
     }

@@ -132,7 +132,7 @@ ProgramChunk RandomMessages::chunk() {
 }
 
 MachineValues RandomMessages::machine_values() {
-    MachineValues values{.term = term(), .revision = bits(), .kept = bits(), .bytes = {}};
+    MachineValues values{.term = term(), .revision = bits(), .on_disk = coin(), .bytes = {}};
     values.bytes.resize(index(32768 + 1));
     for (auto& byte : values.bytes) { byte = static_cast<std::uint8_t>(bits()); }
     return values;
