@@ -39,18 +39,23 @@ install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockste
   deploy/systemd/lockstep-logger.service
   DESTINATION lib/systemd/system COMPONENT lockstep)
 
-# core, with its headers where "core/..." finds them.
+# core, the simulated device and the driver of its registers, with headers where their #include lines find them.
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR}-dev COMPONENT lockstep-dev)
-install(TARGETS lockstep_core lockstep_core_many EXPORT lockstep
+install(TARGETS lockstep_core lockstep_core_many lockstep_sim_fpga lockstep_device_driver EXPORT lockstep
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lockstep-dev
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep)
 install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep COMPONENT lockstep-dev
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
+file(GLOB DEVICE_HEADERS CONFIGURE_DEPENDS sim_fpga/*.hpp)
+install(FILES ${DEVICE_HEADERS} ${PROJECT_BINARY_DIR}/sim_fpga/registers.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep/sim_fpga COMPONENT lockstep-dev)
+install(FILES services/axis/device_driver.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep/services/axis COMPONENT lockstep-dev)
 install(DIRECTORY idl DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep COMPONENT lockstep-dev
   FILES_MATCHING PATTERN "*.idl" PATTERN "*.lcm" PATTERN "*.proto")
 install(EXPORT lockstep NAMESPACE lockstep:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)
 configure_package_config_file(deploy/lockstep-config.cmake.in ${PROJECT_BINARY_DIR}/lockstep-config.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep PATH_VARS CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lockstep-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/lockstep-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)

@@ -1,0 +1,240 @@
+// A device of one's own behind the register map (sim_fpga/REGISTERS.md), tick by tick and with additions only, as
+// hardware does it. An axis drives it if its machine file says  device: "uio:PATH".
+//
+//     own_device PATH        # until SIGTERM or SIGINT
+//
+// It has a home switch and no limit switches. pulse() is where a pin would be set.
+#include <signal.h>
+#include <time.h>
+
+#include <cstdio>
+#include <optional>
+#include <random>
+
+#include "core/step/tick_engine.hpp"
+#include "sim_fpga/register_window.hpp"
+
+namespace {
+
+using namespace lockstep;
+using namespace lockstep::registers;
+
+constexpr std::int64_t kTick_ns = 1000;
+constexpr std::int64_t kHomeCloses = -700;  // steps from where it was switched on, and below
+
+/// One word of the segment ring's entry `index`.
+std::uint64_t entry_word(const RegisterWindow& window, std::uint64_t index, std::size_t word) {
+    return window.load(kSegmentRing + index % kSegmentRingEntries * kSegmentRingEntryBytes + word);
+}
+
+class OwnDevice {
+public:
+    OwnDevice(RegisterWindow window, Tick now, std::uint64_t power_up) : window_(std::move(window)), now_(now) {
+        window_.store(kVersion, kVersionValue);
+        window_.store(kMapChecksum, kMapChecksumValue);
+        window_.store(kTickNs, kTick_ns);
+        window_.store(kPowerUp, power_up);
+        publish();
+        window_.store(kMagic, kMagicValue);  // the other words are valid from now on
+    }
+
+    void advance(Tick until) {
+        if (state_ != State::Rests && window_.load(kStop) == run_) { finish(kStatusStoppedByHost); }
+        for (decide(); now_ < until; decide()) {
+            now_ += Ticks{1};
+            if (state_ == State::InBody || state_ == State::InTail) { move(); }
+        }
+        publish();
+    }
+
+private:
+    enum class State { Rests, Waits, InBody, InTail };
+
+    std::uint64_t word(std::size_t at) const { return entry_word(window_, taken_, at); }
+    bool is_loaded() const { return taken_ != window_.load(kSegmentHead); }
+    bool is_vetoed(std::uint64_t frame) const { return window_.load(kVeto) <= frame; }
+    bool may_run(std::uint64_t frame) const {
+        return !is_vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
+    }
+    bool starts_here() const {
+        const auto start = static_cast<std::int64_t>(word(kSegmentRingStart));
+        const Position from =
+            Position::from_count(static_cast<std::int64_t>(word(kSegmentRingCount)), word(kSegmentRingPhase));
+        const bool same =
+            from == position() ||
+            (state_ == State::Waits && (from == rest_position(count_, false) || from == rest_position(count_, true)));
+        return start == now_.value && same;
+    }
+    Position position() const { return Position::from_count(count_, phase_); }
+
+    /// What is due at this tick.
+    void decide() {
+        if (state_ == State::Rests) { take_run(); }
+        if (state_ == State::Waits) { begin_first_frame(); }
+        if (state_ == State::InBody && left_ == Ticks{}) { end_piece_of_body(); }
+        if (state_ == State::InTail && left_ == Ticks{}) { end_piece_of_tail(); }
+    }
+
+    void take_run() {
+        const std::uint64_t asked = window_.load(kRunRequest);
+        while (is_loaded() && word(kSegmentRingRun) == run_) { ++taken_; }
+        if (asked == run_) { return; }
+        run_ = asked;
+        frame_ = 0;
+        ended_ = 0;
+        trigger_ = window_.load(kTrigger);
+        state_ = State::Waits;
+    }
+
+    void begin_first_frame() {
+        while (is_loaded() && word(kSegmentRingRun) != run_) { ++taken_; }
+        if (!is_loaded() || static_cast<std::int64_t>(word(kSegmentRingStart)) > now_.value) { return; }
+        if (is_vetoed(1)) { return finish(0); }
+        if (!may_run(1)) { return; }
+        if (!starts_here()) { return finish(kStatusBadSegment); }
+        begin_piece(State::InBody);
+        if (is_triggered()) { finish_by_trigger(); }
+    }
+
+    /// The frame goes on, the next one begins, or this one's tail does.
+    void end_piece_of_body() {
+        if (is_loaded() && word(kSegmentRingFrame) == frame_ && !(word(kSegmentRingFlags) & kSegmentRingFlagsTail)) {
+            return begin_piece(State::InBody);
+        }
+        if (is_last_) { return finish(0); }
+        const std::uint64_t tail = taken_;
+        while (is_loaded() && word(kSegmentRingFrame) == frame_ && word(kSegmentRingRun) == run_) { ++taken_; }
+        const bool is_next = is_loaded() && word(kSegmentRingRun) == run_ && word(kSegmentRingFrame) == frame_ + 1;
+        if (is_next && may_run(frame_ + 1)) {
+            if (starts_here()) { return begin_piece(State::InBody); }
+            ended_ |= kStatusBadSegment;
+        }
+        taken_ = tail;
+        end_piece_of_tail();
+    }
+
+    void end_piece_of_tail() {
+        const bool goes_on = is_loaded() && word(kSegmentRingRun) == run_ && word(kSegmentRingFrame) == frame_;
+        goes_on ? begin_piece(State::InTail) : finish(0);
+    }
+
+    void begin_piece(State state) {
+        state_ = state;
+        frame_ = word(kSegmentRingFrame);
+        is_last_ = (word(kSegmentRingFlags) & kSegmentRingFlagsLastFrame) != 0;
+        phase_ = word(kSegmentRingPhase);
+        left_ = Ticks{static_cast<std::int64_t>(word(kSegmentRingTicks))};
+        engine_.emplace(Position::from_count(count_, phase_),
+                        Piece{left_,
+                              {static_cast<std::int64_t>(word(kSegmentRingVelocity))},
+                              {static_cast<std::int64_t>(word(kSegmentRingAcceleration))}});
+        ++taken_;
+    }
+
+    /// One tick of the add-only engine.
+    void move() {
+        const int direction = engine_->tick();
+        phase_ = engine_->phase;
+        left_ = left_ - Ticks{1};
+        if (direction != 0) { pulse(direction); }
+    }
+
+    void pulse(int direction) {
+        count_ += direction;
+        const std::uint64_t kept = captured_ - window_.load(kCaptureTail);
+        if (kept < kCaptureRingEntries) {
+            const auto step = static_cast<std::uint64_t>(now_.value) * 2 + (direction > 0 ? 1 : 0);
+            window_.store(kCaptureRing + captured_++ % kCaptureRingEntries * kCaptureRingEntryBytes, step);
+        } else {
+            ++lost_;
+            ended_ |= kStatusCaptureOverflow;
+        }
+        if (is_triggered()) { finish_by_trigger(); }
+    }
+
+    bool is_home() const { return count_ <= kHomeCloses; }
+    bool is_triggered() const {
+        return (trigger_ == kTriggerHomeCloses && is_home()) || (trigger_ == kTriggerHomeOpens && !is_home());
+    }
+    void finish_by_trigger() {
+        trigger_count_ = count_;
+        finish(kStatusStoppedByTrigger);
+    }
+
+    void finish(std::uint64_t why) {
+        ended_ |= kStatusFinished | why | (state_ == State::InTail ? kStatusInTail : 0);
+        state_ = State::Rests;
+        engine_.reset();
+        left_ = Ticks{};
+    }
+
+    void publish() {
+        const bool moves = state_ == State::InBody || state_ == State::InTail;
+        window_.store(kSequence, ++sequence_);
+        window_.store(kTick, static_cast<std::uint64_t>(now_.value));
+        window_.store(kStatus, ended_ | (moves ? kStatusMoving : 0) | (state_ == State::InTail ? kStatusInTail : 0) |
+                                   (is_home() ? kStatusHome : 0));
+        window_.store(kCount, static_cast<std::uint64_t>(count_));
+        window_.store(kPhase, phase_);
+        window_.store(kVelocity, engine_ ? engine_->velocity : 0);
+        window_.store(kRun, run_);
+        window_.store(kFrame, frame_);
+        window_.store(kTriggerCount, static_cast<std::uint64_t>(trigger_count_));
+        window_.store(kEncoder, static_cast<std::uint64_t>(count_));
+        window_.store(kSegmentTail, taken_);
+        window_.store(kCaptureHead, captured_);
+        window_.store(kCaptureLost, lost_);
+        window_.store(kSequence, ++sequence_);
+    }
+
+    RegisterWindow window_;
+    Tick now_;
+    State state_ = State::Rests;
+    std::uint64_t run_ = 0;
+    std::uint64_t frame_ = 0;
+    bool is_last_ = false;
+    std::uint64_t trigger_ = kTriggerNone;
+    std::uint64_t ended_ = 0;  // bits of STATUS: how the run has ended
+    std::uint64_t taken_ = 0;  // entries of the segment ring
+    std::optional<Accumulator> engine_;
+    Ticks left_;  // of the piece
+    std::int64_t count_ = 0;
+    std::uint64_t phase_ = kRestPhase;
+    std::int64_t trigger_count_ = 0;
+    std::uint64_t captured_ = 0;
+    std::uint64_t lost_ = 0;
+    std::uint64_t sequence_ = 0;
+};
+
+/// Machine time, as the processes of one host share it.
+Tick machine_now() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return {(time.tv_sec * 1'000'000'000 + time.tv_nsec) / kTick_ns};
+}
+
+volatile sig_atomic_t must_end = 0;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: own_device PATH\n");
+        return 2;
+    }
+    auto window = RegisterWindow::create_file(argv[1]);
+    if (!window) {
+        std::fprintf(stderr, "own_device: %s\n", window.error().c_str());
+        return 1;
+    }
+    struct sigaction end {};
+    end.sa_handler = [](int) { must_end = 1; };
+    sigaction(SIGTERM, &end, nullptr);
+    sigaction(SIGINT, &end, nullptr);
+    OwnDevice device(*window, machine_now(), std::random_device()() | 1U);
+    while (must_end == 0) {
+        device.advance(machine_now());
+        const timespec pause{.tv_sec = 0, .tv_nsec = 500'000};
+        nanosleep(&pause, nullptr);
+    }
+}
