@@ -235,13 +235,24 @@ private:
     double radius_;  // above 0: the tool's centre is on the left
 };
 
+/// After a motion that was refused the program is read without compensation: nothing of it runs, and its other errors
+/// are found.
+Result end_if_refused(Context& context, Result result) {
+    if (result) { return result; }
+    context.state.cutter.waiting.clear();
+    leave_compensation(context);
+    return result;
+}
+
 }  // namespace
 
 Result compensated_straight(Context& context, const Point& target, bool rapid) {
-    return CutterPath(context).straight(target, rapid);
+    return end_if_refused(context, CutterPath(context).straight(target, rapid));
 }
 
-Result compensated_arc(Context& context, const ArcMove& arc) { return CutterPath(context).arc(arc); }
+Result compensated_arc(Context& context, const ArcMove& arc) {
+    return end_if_refused(context, CutterPath(context).arc(arc));
+}
 
 Point shown_place(const State& state) {
     Point place = state.program;

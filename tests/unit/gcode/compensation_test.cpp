@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/gcode/gcode.hpp"
 #include "tests/unit/gcode/actions.hpp"
 
 namespace lockstep::gcode {
@@ -10,6 +11,7 @@ namespace {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
+using testing::Field;
 using testing::HasSubstr;
 using testing::SizeIs;
 
@@ -124,6 +126,15 @@ TEST(GcodeCompensation, MotionsThatTheToolCannotReachAreRefused) {
     EXPECT_THAT(error_of("F9 G41.1 D2\nG1 X10\nX10.5\nY10\n"), HasSubstr("4: G1 makes a corner"));
     EXPECT_THAT(error_of("F9 G41.1 D2\nG1 X10\nX20\nY0.5\nX30\n"), HasSubstr("makes a corner"));
     EXPECT_THAT(error_of("F9 G41.1 D2\nG1 X10\nY2\nG3 X8 I-1\n"), HasSubstr("has a radius of 1 mm"));
+}
+
+TEST(GcodeCompensation, ProgramIsReadOnWithoutItAfterARefusedMotion) {
+    const auto program =
+        parse_gcode("G42.1 D6\nG1 X0 Y0 F3000\nX70\nY40\nG0 X-15 Y-15\nG1 X0 Y0\nY-10\nG40\nX10 Y10\nX900\n",
+                    {.program_name = "any", .axes = {{"X", -50, 200}, {"Y", -50, 200, 0, 10}}});
+    ASSERT_FALSE(program);
+    EXPECT_THAT(program.error(), ElementsAre(Field(&GcodeError::message, HasSubstr("makes a corner")),
+                                             Field(&GcodeError::message, HasSubstr("X900"))));
 }
 
 TEST(GcodeCompensation, WordsThatDoNotGoWithItAreRefused) {
