@@ -73,6 +73,9 @@ Result choose_motion(Context& context) {
 }
 
 Result check_letters(Context& context) {
+    if (context.block.code(Group::NonModal) == 40 && is_arc(context.motion)) {
+        return context.refuse(Group::NonModal, " beside an arc: both use P; use two lines");
+    }
     for (const char letter : kLettersOfCodes) {
         if (!context.block.has(letter) || is_used(context, letter)) { continue; }
         return context.refuse(letter, std::string(" belongs to no code of this block; take it out, or write the code "

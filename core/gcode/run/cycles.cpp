@@ -111,12 +111,22 @@ public:
             drill();
             go(cycle_.retract, 0);
             if (!context_.state.modal.relative) { continue; }
-            place[cycle_.axes.first] += step.x;
-            place[cycle_.axes.second] += step.y;
+            const Flat next = beyond(in_plane(cycle_.axes, place), step);
+            place[cycle_.axes.first] = next.x;
+            place[cycle_.axes.second] = next.y;
         }
     }
 
 private:
+    /// The place of the next repeat: @ and ^ add to the distance and the angle, about the program's zero.
+    Flat beyond(Flat at, Flat step) const {
+        const Block& block = context_.block;
+        if (!block.distance && !block.angle) { return at + step; }
+        const double distance = length_of(at) + context_.length(block.distance.value_or(0));
+        const double angle = std::atan2(at.y, at.x) + block.angle.value_or(0) / kDegrees;
+        return Flat{std::cos(angle), std::sin(angle)} * distance;
+    }
+
     double height() const { return context_.state.program[cycle_.axes.normal]; }
 
     void go(double to, double feed) {

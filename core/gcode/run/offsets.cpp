@@ -61,14 +61,16 @@ std::expected<std::size_t, GcodeError> system_of(const Context& context) {
     return *number == 0 ? context.state.modal.system : static_cast<std::size_t>(*number) - 1;
 }
 
-/// L20: the origin that makes the axis's place read as the word says. Where X and Y are turned, both belong together.
+/// L20: the origin that makes the axis's place read as the word says. The other axes keep their places in that system;
+/// where X and Y are turned, both belong together.
 void origin_by_place(const Context& context, std::size_t system, Point& origin) {
     const State& state = context.state;
     Offsets offsets = state.offsets;
-    offsets.origin = {};
+    offsets.origin = origin;
     offsets.rotation = state.parameters.numbered[static_cast<std::size_t>(origin_parameter(system)) + kAxes];
-    Point wanted = to_program(state.offsets, state.machine);
+    Point wanted = to_program(offsets, state.machine);
     for (std::size_t axis = 0; axis < kAxes; ++axis) { wanted[axis] = context.axis_word(axis).value_or(wanted[axis]); }
+    offsets.origin = {};
     const Point without = to_machine(offsets, wanted);
     const bool both = offsets.rotation != 0 && (context.block.has('X') || context.block.has('Y'));
     for (std::size_t axis = 0; axis < kAxes; ++axis) {

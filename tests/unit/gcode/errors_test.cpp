@@ -56,6 +56,8 @@ INSTANTIATE_TEST_SUITE_P(Words, GcodeRefused,
                                          Refusal{"G-1", 1, 1, "G-1"}, Refusal{"$1000", 1, 1, "'$'"},
                                          Refusal{"G0 X1 A5", 1, 7, "no axis A; its axes are X Y Z"},
                                          Refusal{"G0 X1 X2", 1, 7, "X2 repeats X1"}, Refusal{"F1 F1", 1, 4, "repeats"},
+                                         Refusal{"F9 G2 X1 I0.5 P1 G4", 1, 18, "both use P"},
+                                         Refusal{"F9 G2 X1 I0.5\nX2 I0.5 P1 G4", 2, 12, "both use P"},
                                          Refusal{"G0 N5 X1", 1, 4, "first"},
                                          Refusal{"N-1 G0 X1", 1, 1, "number from 0"}));
 

@@ -120,6 +120,15 @@ TEST(GcodeCycles, RetractToTheStartWithG98) {
     EXPECT_THAT(places("G0 Z10\nG98 G81 X1 Z-5 R2 F10\n").back(), ElementsAre(1, 0, 10));
 }
 
+TEST(GcodeCycles, RepeatAroundTheZeroInPolarCoordinates) {
+    std::vector<std::pair<double, double>> holes;
+    for (const auto& place : places("G0 X10 Z1\nG91 G81 R0 Z-2 ^90 L3 F10\n")) {
+        if (place[2] < 0) { holes.emplace_back(std::round(place[0]), std::round(place[1])); }
+    }
+    EXPECT_THAT(holes, ElementsAre(std::pair(0, 10), std::pair(-10, 0), std::pair(0, -10)));
+    EXPECT_NEAR(end_of("G0 X10 Z1\nG91 G81 R0 Z-2 @5 L3 F10\n")[0], 25, 1e-9);
+}
+
 TEST(GcodeCycles, PeckWithClearance) {
     using P = std::array<double, 3>;
     EXPECT_THAT(places("G0 Z2\nG83 Z-1 R2 Q2 F1\n"),
@@ -132,6 +141,10 @@ TEST(GcodeOffsets, CoordinateSystemsMoveTheZero) {
     EXPECT_DOUBLE_EQ(end_of("G10 L2 P2 X5\nG55 G0 X1\n")[0], 6);
     EXPECT_DOUBLE_EQ(end_of("G10 L2 P1 X5\nG0 X1\n")[0], 6);
     EXPECT_DOUBLE_EQ(end_of("G0 X7\nG10 L20 P1 X1\nG0 X0\n")[0], 6);
+    EXPECT_DOUBLE_EQ(end_of("G0 X7\nG10 L20 P2 X1\nG55 G0 X0\n")[0], 6);
+    const Point turned = end_of("G10 L2 P2 X3 Y2 R90\nG0 X3 Y12\nG10 L20 P2 X4\nG55 G0 X0 Y0\n");
+    EXPECT_NEAR(turned[0], 3, 1e-9) << "its Y, which is 0 there, stays";
+    EXPECT_NEAR(turned[1], 8, 1e-9);
     EXPECT_DOUBLE_EQ(end_of("G10 L2 P9 X2\nG59.3 G0 X1\nG53 G0 X1\n")[0], 1);
 }
 

@@ -1,0 +1,15 @@
+// Whether a path of the tool's centre strays from the programmed path: found by distances and directions alone, without
+// the rules of cutter compensation.
+#pragma once
+
+#include <string>
+
+#include "tests/integration/oracle/rs274.hpp"
+
+namespace lockstep::oracle {
+
+/// At the line that we have refused, rs274's path comes nearer to the program's path than the tool's radius, runs
+/// backward along it, or goes around an arc once more.
+bool strays_from_path(const std::string& text, const Reading& theirs, const Reading& ours);
+
+}  // namespace lockstep::oracle
