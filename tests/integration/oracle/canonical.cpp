@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFourDecimals = 0.51e-4;
 constexpr double kSixDecimals = 1.01e-6;
+constexpr double kOfFeeds = 0.001;
 constexpr std::size_t kPlaces = 6;
 
 using Place = std::array<double, kPlaces>;
@@ -35,6 +36,7 @@ std::vector<double> numbers_in(const std::string& text) {
 /// rs274's offsets, units and feed, as its calls leave them.
 class OutputReader {
 public:
+    explicit OutputReader(bool is_exact) : is_exact_(is_exact) {}
     void take(const std::string& name, const std::string& arguments) {
         const std::vector<double> n = numbers_in(arguments);
         if (set(name, arguments, n) || move(name, n)) { return; }
@@ -86,13 +88,14 @@ private:
 
     /// The sum of some roundings, and what a rounded angle makes of the place.
     double tolerance(const Place& place) const {
+        if (is_exact_) { return kSixDecimals; }
         const double reach = rotation_ == 0 ? 0 : 1e-6 * (std::abs(place[0]) + std::abs(place[1]));
         return 4 * kFourDecimals * (inches_ ? 25.4 : 1) + reach + (mixed_ ? 25.4 : 1) * kFourDecimals;
     }
 
     void add(const std::string& name, const Place& place, std::vector<double> more) {
         mixed_ = mixed_ || inches_;
-        Call call{name, {place.begin(), place.end()}, tolerance(place)};
+        Call call{name, {place.begin(), place.end()}, tolerance(place), is_exact_ ? 0 : kOfFeeds};
         call.numbers.insert(call.numbers.end(), more.begin(), more.end());
         calls.push_back(std::move(call));
     }
@@ -162,13 +165,21 @@ private:
                                                                {"START_SPINDLE_COUNTERCLOCKWISE", "reverse"},
                                                                {"STOP_SPINDLE_TURNING", "stop spindle"},
                                                                {"MIST_ON", "mist"},
+                                                               {"MIST_OFF", "mist off"},
                                                                {"FLOOD_ON", "flood"},
+                                                               {"FLOOD_OFF", "flood off"},
                                                                {"PROGRAM_STOP", "stop"},
                                                                {"OPTIONAL_PROGRAM_STOP", "optional stop"}};
         static const std::map<std::string, std::string> kWithIndex{
             {"SELECT_TOOL", "select"},       {"CHANGE_TOOL", "change"},    {"CHANGE_TOOL_NUMBER", "number"},
             {"SET_MOTION_OUTPUT_BIT", "on"}, {"SET_AUX_OUTPUT_BIT", "on"}, {"CLEAR_MOTION_OUTPUT_BIT", "off"},
             {"CLEAR_AUX_OUTPUT_BIT", "off"}};
+        static const std::map<std::string, Call> kSwitches{
+            {"ENABLE_FEED_OVERRIDE", {"feed override", {1}}},   {"DISABLE_FEED_OVERRIDE", {"feed override", {0}}},
+            {"ENABLE_SPEED_OVERRIDE", {"speed override", {1}}}, {"DISABLE_SPEED_OVERRIDE", {"speed override", {0}}},
+            {"ENABLE_ADAPTIVE_FEED", {"adaptive feed", {1}}},   {"DISABLE_ADAPTIVE_FEED", {"adaptive feed", {0}}},
+            {"ENABLE_FEED_HOLD", {"feed hold", {1}}},           {"DISABLE_FEED_HOLD", {"feed hold", {0}}}};
+        if (const auto found = kSwitches.find(name); found != kSwitches.end()) { calls.push_back(found->second); }
         if (const auto found = kNamed.find(name); found != kNamed.end()) { calls.push_back({found->second, {}}); }
         if (const auto found = kWithIndex.find(name); found != kWithIndex.end()) {
             calls.push_back({found->second, {n[0]}});
@@ -179,6 +190,7 @@ private:
         }
     }
 
+    bool is_exact_;
     Place origin_{};
     Place g92_{};
     Place tool_{};
@@ -217,8 +229,8 @@ bool equal(const Call& a, const Call& b) {
     if (a.name != b.name || a.numbers.size() != b.numbers.size()) { return false; }
     const double tolerance = std::max(a.tolerance, b.tolerance);
     for (std::size_t i = 0; i < a.numbers.size(); ++i) {
-        // Feeds have the size of their numbers: what a rounded length makes of them.
-        if (std::abs(a.numbers[i] - b.numbers[i]) > tolerance * (1 + 0.001 * std::abs(a.numbers[i]))) { return false; }
+        const double relative = std::max(a.relative, b.relative) * std::abs(a.numbers[i]);
+        if (std::abs(a.numbers[i] - b.numbers[i]) > tolerance * (1 + relative)) { return false; }
     }
     return true;
 }
@@ -236,8 +248,10 @@ std::vector<Call> without_rests(const std::vector<Call>& calls) {
     return kept;
 }
 
-std::vector<Call> calls_of_output(std::string_view output) {
-    OutputReader reader;
+namespace {
+
+std::vector<Call> read_output(std::string_view output, bool is_exact) {
+    OutputReader reader(is_exact);
     std::istringstream lines{std::string(output)};
     for (std::string line; std::getline(lines, line);) {
         const std::size_t open = line.find('(');
@@ -248,6 +262,12 @@ std::vector<Call> calls_of_output(std::string_view output) {
     }
     return reader.calls;
 }
+
+}  // namespace
+
+std::vector<Call> calls_of_output(std::string_view output) { return read_output(output, false); }
+
+std::vector<Call> calls_of_exact_output(std::string_view output) { return read_output(output, true); }
 
 void CallList::add(std::string name, std::vector<double> numbers) {
     calls_.push_back({.name = std::move(name), .numbers = std::move(numbers), .line = line_});
@@ -295,6 +315,11 @@ void CallList::take_event(const gcode::Event& event) {
         case EventKind::SpindleStop: return add("stop spindle");
         case EventKind::Mist: return add("mist");
         case EventKind::Flood: return add("flood");
+        case EventKind::CoolantOff: add("mist off"); return add("flood off");
+        case EventKind::FeedOverride: return add("feed override", {event.value});
+        case EventKind::SpeedOverride: return add("speed override", {event.value});
+        case EventKind::AdaptiveFeed: return add("adaptive feed", {event.value});
+        case EventKind::FeedHold: return add("feed hold", {event.value});
         case EventKind::OutputOn: return add("on", {index});
         case EventKind::OutputOff: return add("off", {index});
         case EventKind::AnalogOutput: return add("analog", {index, event.value});

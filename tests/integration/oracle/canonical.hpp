@@ -16,6 +16,7 @@ struct Call {
     std::string name;
     std::vector<double> numbers;
     double tolerance = 1e-6;  // of the numbers
+    double relative = 0;      // how much more, of a number: a rounded length makes so much of a feed
     int line = 0;             // of the text; 0: not known
 };
 
@@ -25,6 +26,8 @@ bool equal(const Call& a, const Call& b);
 /// Of rs274's output. Its numbers have four decimals, so they are known to half of the last; values that the program
 /// prints itself, (debug,#5420), have six.
 std::vector<Call> calls_of_output(std::string_view output);
+/// The same format with all digits.
+std::vector<Call> calls_of_exact_output(std::string_view output);
 
 /// Without moves that lead to where the axes stand.
 std::vector<Call> without_rests(const std::vector<Call>& calls);

@@ -30,8 +30,8 @@ std::string LineMaker::end_words(PathEnd& path, std::array<double, 2> step) {
 /// Tools of the table, or diameters in the units in use.
 std::string LineMaker::cutter_on() {
     const std::string left = one_in(2) ? "G41" : "G42";
-    switch (below(4)) {
-        case 0: return left + " D" + std::to_string(1 + below(3));
+    switch (below(is_plain_ ? 3 : 4)) {
+        case 3: return left + " D" + std::to_string(1 + below(3));
         case 1:
             return left + ".1 D" + number(one_in(5) ? -drawn(0.1, 4) : drawn(0.1, 4)) +
                    (plane_ == 1 ? " L" + std::to_string(below(10)) : "");

@@ -1,5 +1,6 @@
 #include "tests/integration/oracle/differences.hpp"
 
+#include <algorithm>
 #include <array>
 #include <regex>
 #include <string_view>
@@ -10,6 +11,14 @@ namespace lockstep::oracle {
 namespace {
 
 bool matches(const std::string& text, const char* pattern) { return std::regex_search(text, std::regex(pattern)); }
+
+/// Of the first line with this text.
+int number_of(const std::string& text, const std::string& line) {
+    const std::size_t at = text.find(line);
+    return at == std::string::npos
+               ? 0
+               : 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
 
 struct Refusal {
     const std::string& text;  // of the program
@@ -35,11 +44,14 @@ constexpr std::array kRefusedByUs{
     Difference{
         "offsets that change with compensation on would move the path: rs274 takes G92.1 to G92.3",
         [](const Refusal& r) { return matches(r.ours.message, "^G92\\.[123] while cutter compensation is on"); }},
-    Difference{"a block has one non-modal word: rs274 takes G10 or G53 beside G92.1 to G92.3",
+    Difference{"a block has one non-modal word: rs274 takes another one beside G92.1 to G92.3",
                [](const Refusal& r) {
                    return r.ours.message.find("one non-modal word") != std::string::npos &&
-                          matches(r.line, "[Gg]92\\.[123]") && matches(r.line, "[Gg]10|[Gg]53");
+                          matches(r.line, "[Gg]92\\.[123]");
                }},
+    Difference{
+        "a spline keeps the time of G93: rs274 makes it at the feed of the motion before",
+        [](const Refusal& r) { return r.ours.message.starts_with("G5.2 with inverse time (G93) but without F"); }},
     Difference{"NURBS are in the plane of X and Y: rs274 takes them as X and Y whichever plane holds",
                [](const Refusal& r) { return r.ours.message.starts_with("G5.2 is in the plane of X and Y"); }},
     Difference{"a word stands once: rs274 takes a word of -1 for a missing one",
@@ -53,6 +65,49 @@ constexpr std::array kRefusedByThem{
                    return r.theirs.message == "Cannot read current position with cutter radius compensation on" &&
                           matches(r.theirs.refused, "#542[0-8]|#<_[xyzabcuvw]>");
                }},
+    Difference{"where a path turns back from arc to arc, their curvature decides whether the corner is inside",
+               [](const Refusal& r) {
+                   return r.theirs.message.find("a corner the compensated tool can't fit in") != std::string::npos &&
+                          turns_back_at(r.text, number_of(r.text, r.theirs.refused));
+               }},
+    Difference{"a corner below 0.05 radians counts as none: rs274 then refuses an arc that it has made longer at it",
+               [](const Refusal& r) {
+                   return r.theirs.message ==
+                              "Arc move in concave corner cannot be reached by the tool without gouging" &&
+                          follows_almost_straight_arc(r.text, number_of(r.text, r.theirs.refused));
+               }},
+    Difference{"G98 and G99 change nothing of a path: rs274 refuses them with compensation on",
+               [](const Refusal& r) {
+                   return r.theirs.message == "Cannot change retract mode with cutter radius compensation on";
+               }},
+};
+
+struct Parting {
+    const std::string& text;  // of the program
+    const std::vector<Call>& theirs;
+    const std::vector<Call>& ours;
+    std::size_t index;  // of the first call that differs
+};
+
+struct MotionDifference {
+    const char* reason;
+    bool (*holds)(const Parting& parting);
+};
+
+/// Both take the program, and move apart.
+constexpr std::array kMovesApart{
+    MotionDifference{
+        "rs274 alone has no tool changer: behind M6 and M61 it takes the axes to stand where the new offset "
+        "puts them",
+        [](const Parting& p) { return matches(p.text, "G4[39][^\\n]*M6|M6[^\\n]*G4[39]"); }},
+    MotionDifference{"rs274 alone has no tool changer: G43 without H takes a tool that G10 has set for the one in the "
+                     "spindle",
+                     [](const Parting& p) {
+                         return !matches(p.text, "T2 M6") && matches(p.text, "G10 L1[01]? [^]*G43( [^H]|\\n)");
+                     }},
+    MotionDifference{"where a path turns back from arc to arc, their curvature decides whether the corner is inside: "
+                     "rs274 may take it for an outside one and cut into the path",
+                     [](const Parting& p) { return turns_back_at(p.text, p.ours[p.index].line); }},
 };
 
 template <typename Differences>
@@ -76,12 +131,10 @@ bool may_refuse_alone(const std::string& text, const Reading& theirs, const Read
     return theirs.taken ? any(kRefusedByUs, refusal) : any(kRefusedByThem, refusal);
 }
 
-/// rs274 alone has no tool changer: behind M6 or M61 it takes the axes to stand where the new offset puts them, and
-/// G43 without H takes a tool that G10 has set for the one in the spindle.
-bool may_move_apart(const std::string& text) {
-    const bool changes_beside_offset = matches(text, "G4[39][^\\n]*M6|M6[^\\n]*G4[39]");
-    const bool has_empty_spindle = !matches(text, "T2 M6");
-    return changes_beside_offset || (has_empty_spindle && matches(text, "G10 L1[01]? [^]*G43( [^H]|\\n)"));
+bool may_move_apart(const std::string& text, const std::vector<Call>& theirs, const std::vector<Call>& ours,
+                    std::size_t index) {
+    const Parting parting{text, theirs, ours, index};
+    return std::ranges::any_of(kMovesApart, [&](const auto& difference) { return difference.holds(parting); });
 }
 
 }  // namespace lockstep::oracle

@@ -9,12 +9,12 @@ constexpr int kLines = 30;
 
 class ProgramMaker {
 public:
-    explicit ProgramMaker(std::uint32_t seed) : lines_(seed) {}
+    explicit ProgramMaker(std::uint32_t seed, bool is_plain = false) : lines_(seed, is_plain), is_plain_(is_plain) {}
 
     std::string make() {
         text_ = lines_.one_in(3) ? "%\n" : "";
         text_ += "#1=3 #2=4 #4=5\n#<name>=1.5\nG0\n";
-        if (!lines_.changes_units() && lines_.one_in(3)) { text_ += "T2 M6\nG43\n"; }
+        if (!is_plain_ && !lines_.changes_units() && lines_.one_in(3)) { text_ += "T2 M6\nG43\n"; }
         if (lines_.one_in(2)) { subroutine(); }
         calls_later_ = lines_.one_in(4);
         for (int i = 0; i < kLines; ++i) { statement(0); }
@@ -126,6 +126,7 @@ private:
     }
 
     LineMaker lines_;
+    bool is_plain_;
     std::string text_;
     int labels_ = 100;
     bool has_subroutine_ = false;
@@ -135,6 +136,8 @@ private:
 }  // namespace
 
 std::string valid_program(std::uint32_t seed) { return ProgramMaker(seed).make(); }
+
+std::string plain_program(std::uint32_t seed) { return ProgramMaker(seed, true).make(); }
 
 std::string odd_program(std::uint32_t seed) {
     LineMaker lines(seed);

@@ -6,8 +6,10 @@
 #include <limits>
 #include <numbers>
 #include <regex>
+#include <sstream>
 #include <vector>
 
+#include "core/gcode/run/corner.hpp"
 #include "tests/integration/oracle/differences.hpp"
 
 namespace lockstep::oracle {
@@ -45,6 +47,10 @@ struct SweptArc {
     }
     double angle(const At& at) const {
         return std::atan2(at[axes[1]] - centre[axes[1]], at[axes[0]] - centre[axes[0]]);
+    }
+    At direction(double turned) const {
+        const double angle = begin + side * turned;
+        return {-side * std::sin(angle), side * std::cos(angle), 0};
     }
 
     At centre;
@@ -96,9 +102,49 @@ Path path_of(const std::vector<Call>& calls, std::size_t begin, std::size_t end,
     return path;
 }
 
-/// The text with the words that turn compensation on taken out, line by line.
+/// The directions of a motion where it begins and ends, in the plane.
+struct Way {
+    At begin{};
+    At end{};
+    int line = 0;
+    bool is_arc = false;
+};
+
+std::vector<Way> ways_of(const std::vector<Call>& calls, std::array<std::size_t, 2> axes) {
+    std::vector<Way> ways;
+    At at{};
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+        if (!is_motion(calls[i])) { continue; }
+        const At to = place_of(calls[i]);
+        const bool is_arc = calls[i].name == "arc" && i + 1 < calls.size() && calls[i + 1].name == "centre";
+        if (is_arc) {
+            const SweptArc arc(at, calls[i], calls[i + 1], axes);
+            ways.push_back({arc.direction(0), arc.direction(arc.sweep), calls[i].line, true});
+        } else {
+            const At way{to[axes[0]] - at[axes[0]], to[axes[1]] - at[axes[1]], 0};
+            if (std::hypot(way[0], way[1]) > kDigits_mm) { ways.push_back({way, way, calls[i].line, false}); }
+        }
+        at = to;
+    }
+    return ways;
+}
+
+/// The text with the words that turn compensation on taken out. An L beside them is a lathe's, unless another code of
+/// the line has one.
 std::string uncompensated(const std::string& text) {
-    return std::regex_replace(text, std::regex("G4[12](\\.1)?|(^|[ \\n])[DL][-+]?[0-9.]+(?=[ \\n])"), " ");
+    const std::regex on("G4[12](\\.1)?|D *[-+]?[0-9.]+");
+    const std::regex lathe("L *[-+]?[0-9.]+");
+    const std::regex other("G10|G73|G8[1-9]|M66");
+    std::string without;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (std::regex_search(line, std::regex("G4[12]"))) {
+            line = std::regex_replace(line, on, "");
+            if (!std::regex_search(line, other)) { line = std::regex_replace(line, lathe, ""); }
+        }
+        without += line + "\n";
+    }
+    return without;
 }
 
 struct Section {
@@ -125,6 +171,10 @@ Section section_about(const std::string& text, int line) {
     return section;
 }
 
+std::array<std::size_t, 2> axes_of(const Section& section) {
+    return section.is_zx ? std::array<std::size_t, 2>{2, 0} : std::array<std::size_t, 2>{0, 1};
+}
+
 double radius_in(const std::string& message) {
     const std::string before = "a tool of radius ";
     const std::size_t at = message.find(before);
@@ -143,14 +193,15 @@ Path programmed_path(const std::string& text, const Section& section, std::array
     return path_of(calls, begin + (section.is_entry ? 0 : 1), end, axes);
 }
 
-bool comes_nearer(const Path& tool, const Path& programmed, double least, std::size_t normal) {
-    const auto is_near = [&](At a, At b) {
-        a[normal] = b[normal] = 0;
-        return distance(a, b) < least;
-    };
-    return std::ranges::any_of(tool.places, [&](const At& a) {
-        return std::ranges::any_of(programmed.places, [&](const At& b) { return is_near(a, b); });
-    });
+/// In the plane.
+double nearest(const Path& tool, const Path& programmed, std::array<std::size_t, 2> axes) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const At& a : tool.places) {
+        for (const At& b : programmed.places) {
+            least = std::min(least, std::hypot(a[axes[0]] - b[axes[0]], a[axes[1]] - b[axes[1]]));
+        }
+    }
+    return least;
 }
 
 bool runs_backward(const Path& tool, const Path& programmed) {
@@ -161,18 +212,55 @@ bool runs_backward(const Path& tool, const Path& programmed) {
     });
 }
 
+struct Corner {
+    double turn = 0;  // radians, above 0 to the left
+    int before = 0;   // the lines of its motions
+    int after = 0;
+    bool has_arc = false;
+};
+
+/// Of the program's path, in the plane of `line`.
+std::vector<Corner> corners_of(const std::string& text, int line) {
+    const auto axes = axes_of(section_about(text, line));
+    const std::vector<Way> ways = ways_of(read_with_ours(uncompensated(text)).calls, axes);
+    std::vector<Corner> corners;
+    for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
+        const At& arrival = ways[i].end;
+        const At& departure = ways[i + 1].begin;
+        const double turn = std::atan2(arrival[0] * departure[1] - arrival[1] * departure[0],
+                                       arrival[0] * departure[0] + arrival[1] * departure[1]);
+        corners.push_back({turn, ways[i].line, ways[i + 1].line, ways[i].is_arc || ways[i + 1].is_arc});
+    }
+    return corners;
+}
+
 }  // namespace
 
 bool strays_from_path(const std::string& text, const Reading& theirs, const Reading& ours) {
     constexpr double kMoreSweep = 2;  // radians: an arc that has passed its end goes around once more
     const Section section = section_about(text, ours.line);
-    const std::array<std::size_t, 2> axes =
-        section.is_zx ? std::array<std::size_t, 2>{2, 0} : std::array<std::size_t, 2>{0, 1};
+    const auto axes = axes_of(section);
     const Path programmed = programmed_path(text, section, axes);
     const std::size_t begin = ours.calls.empty() ? 0 : ours.calls.size() - 1;
     const Path tool = path_of(theirs.calls, begin, begin + kCallsAfter, axes);
-    return comes_nearer(tool, programmed, radius_in(ours.message) - kDigits_mm, 3 - axes[0] - axes[1]) ||
-           runs_backward(tool, programmed) || tool.most_sweep > programmed.most_sweep + kMoreSweep;
+    return nearest(tool, programmed, axes) < radius_in(ours.message) - kDigits_mm || runs_backward(tool, programmed) ||
+           tool.most_sweep > programmed.most_sweep + kMoreSweep;
+}
+
+bool turns_back_at(const std::string& text, int line) {
+    return std::ranges::any_of(corners_of(text, line), [&](const Corner& corner) {
+        const bool turns_back = std::abs(corner.turn) > std::numbers::pi - gcode::kLeastCorner;
+        return turns_back && corner.has_arc && (corner.before == line || corner.after == line);
+    });
+}
+
+bool follows_almost_straight_arc(const std::string& text, int line) {
+    const std::vector<Corner> corners = corners_of(text, line);
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        const Corner& begin = corners[i - 1];
+        if (corners[i].after == line && begin.has_arc && std::abs(begin.turn) < gcode::kLeastCorner) { return true; }
+    }
+    return false;
 }
 
 }  // namespace lockstep::oracle

@@ -108,7 +108,11 @@ std::string LineMaker::cycle() {
     const std::string code = kCycles[static_cast<std::size_t>(below(8))];
     const double high = drawn(-20, 20);
     std::string text = code == "G86" ? "M3 S100 G86" : (one_in(5) ? "G98 " : one_in(5) ? "G99 " : "") + code;
-    text += " " + std::string(1, letters[0]) + value(-50, 50) + " " + std::string(1, letters[1]) + value(-50, 50);
+    if (plane_ == 0 && one_in(6)) {
+        text += " @" + number(drawn(1, 20)) + " ^" + number(drawn(-180, 180));
+    } else {
+        text += " " + std::string(1, letters[0]) + value(-50, 50) + " " + std::string(1, letters[1]) + value(-50, 50);
+    }
     text += " " + std::string(1, letters[2]) + number(relative_ ? -drawn(1, 12) : high - drawn(1, 12)) + " R" +
             number(high);
     if (code == "G83" || code == "G73") { text += " Q" + number(drawn(0.8, 5)); }
@@ -182,9 +186,16 @@ std::string LineMaker::home() {
     }
 }
 
+std::string LineMaker::plain_tool() {
+    if (changes_units_ || one_in(3)) { return "G49"; }
+    const char letter = "XYZ"[below(3)];
+    return "G43.1 " + std::string(1, letter) + value(-5, 5);
+}
+
 std::string LineMaker::tool() {
     constexpr std::array<int, 3> kTools{1, 2, 3};
     const std::string number = std::to_string(kTools[static_cast<std::size_t>(below(3))]);
+    if (is_plain_) { return plain_tool(); }
     switch (changes_units_ ? 0 : below(9)) {
         case 0: return "T" + number;
         case 1: return "G43 H" + number;
@@ -254,7 +265,7 @@ std::string LineMaker::block() {
         case 3: return arc();
         case 4:
         case 5: return cycle();
-        case 6: return nested_ ? straight() : spline();
+        case 6: return nested_ || is_plain_ ? straight() : spline();
         case 7:
         case 8: return mode();
         case 9:

@@ -11,7 +11,9 @@ namespace lockstep::oracle {
 
 class LineMaker {
 public:
-    explicit LineMaker(std::uint32_t seed) : random_(seed), rotates_(one_in(3)), changes_units_(one_in(3)) {}
+    /// `is_plain`: without the tool table and without splines.
+    explicit LineMaker(std::uint32_t seed, bool is_plain = false)
+        : random_(seed), rotates_(one_in(3)), changes_units_(one_in(3)), is_plain_(is_plain) {}
 
     /// A block without its line's end.
     std::string block();
@@ -44,6 +46,7 @@ private:
     std::string offset();
     std::string rotation();
     std::string tool();
+    std::string plain_tool();
     std::string event();
     std::string assignment();
     std::string home();
@@ -61,6 +64,7 @@ private:
     std::mt19937 random_;
     bool rotates_;
     bool changes_units_;
+    bool is_plain_;
     bool nested_ = false;
     bool relative_ = false;
     bool inches_ = false;
