@@ -24,7 +24,8 @@ void check_move(const LinearMove& move, const GcodeSetup& setup) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace lockstep;
     static const GcodeSetup setup{.program_name = "any",
-                                  .axes = {{"X", 0, 200, 5, 0}, {"Y", -50, 50, 0, 1}, {"C", -360, 360, 0, 0}}};
+                                  .axes = {{"X", 0, 200, 5, 0}, {"Y", -50, 50, 0, 1}, {"C", -360, 360, 0, 0}},
+                                  .limits = {.repeated_lines = 20'000}};
     const std::string text(reinterpret_cast<const char*>(data), size);
     const auto program = parse_gcode(text, setup);
     if (!program) {
