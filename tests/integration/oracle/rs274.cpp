@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMillimetresPerInch = 25.4;
+constexpr std::int64_t kRepeatedLines = 100'000;  // some random programs never end
 
 /// Removed with all that is in it.
 class TemporaryDirectory {
@@ -147,7 +148,7 @@ Reading read_with_ours(const std::string& text, const std::string& folder) {
     CallList list;
     gcode::Interpreter interpreter({.axes = "XYZABC",
                                     .skip_deletable = false,
-                                    .limits = {},
+                                    .limits = {.repeated_lines = kRepeatedLines},
                                     .program = text,
                                     .find_subroutine = [&](std::string_view name) -> std::optional<std::string> {
                                         const std::string file = folder + "/" + std::string(name) + ".ngc";
