@@ -93,6 +93,11 @@ Result set_system(Context& context) {
         if (block.has(letter)) { return context.refuse(letter, " is an angle of a tool (G10 L1); take it out"); }
     }
     if (by_place && block.has('R')) { return context.refuse('R', " with L20; a rotation is set with L2"); }
+    if (by_place && context.is_compensated()) {
+        return context.refuse(Group::NonModal,
+                              " L20 sets a zero by where the axes stand, which cutter compensation changes; write G40 "
+                              "and a motion before it");
+    }
     if (context.is_compensated() && *system == context.state.modal.system) {
         return context.refuse(Group::NonModal,
                               " changes the offsets in use while cutter compensation is on; write G40");

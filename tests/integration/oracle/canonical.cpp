@@ -102,7 +102,8 @@ private:
 
     double feed_to(const Place& place) const {
         bool linear = false;
-        for (std::size_t i = 0; i < 3; ++i) { linear = linear || std::abs(place[i] - at_[i]) > 1e-9; }
+        const double least = tolerance(place);
+        for (std::size_t i = 0; i < 3; ++i) { linear = linear || std::abs(place[i] - at_[i]) > least; }
         return linear ? linear_feed_ : turning_feed_;
     }
 

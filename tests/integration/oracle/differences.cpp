@@ -44,6 +44,9 @@ constexpr std::array kRefusedByUs{
     Difference{
         "offsets that change with compensation on would move the path: rs274 takes G92.1 to G92.3",
         [](const Refusal& r) { return matches(r.ours.message, "^G92\\.[123] while cutter compensation is on"); }},
+    Difference{
+        "the programmed place is not the tool's: rs274 takes G10 L20 with compensation on, at the tool's centre",
+        [](const Refusal& r) { return r.ours.message.starts_with("G10 L20 sets a zero by where the axes stand"); }},
     Difference{"a block has one non-modal word: rs274 takes another one beside G92.1 to G92.3",
                [](const Refusal& r) {
                    return r.ours.message.find("one non-modal word") != std::string::npos &&
