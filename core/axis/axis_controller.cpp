@@ -113,9 +113,10 @@ void AxisController::end_run(AxisLoop& loop) {
     if (!is_own) { following_.end(loop); }
 }
 
+/// Also in a Fault that leaves the position known: the slide may be pushed before the reset.
 void AxisController::check_encoder(AxisLoop& loop) {
     const std::int64_t error = condition_.position.following_error(device_.status());
-    if (std::abs(error) <= kMaxFollowingError || !homed() || condition_.phases.has_fault()) { return; }
+    if (std::abs(error) <= kMaxFollowingError || !homed()) { return; }
     condition_.position.lose();
     loop.fail(FaultCode::FollowingError);
 }

@@ -166,6 +166,20 @@ TEST_F(Rig, AnEmergencyStopAtRestIsRememberedByTheAxes) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));
 }
 
+TEST_F(Rig, APushInFaultLosesThePositionAtOnce) {
+    home();
+    (void)ask(CommandKind::EmergencyStop);
+    wait(0.1);
+    ASSERT_TRUE(vm.axis_states()[0]->homed);
+    vm.device(0).plant().push(100);
+    wait(0.1);
+    EXPECT_FALSE(vm.axis_states()[0]->homed);
+    EXPECT_EQ(axis_fault(0), FaultCode::EmergencyStopped) << "the first fault is the one to report";
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
+    EXPECT_EQ(why(run(program_of({{10, 10}}, 20))), FaultCode::NotHomed);
+}
+
 TEST_F(Rig, AnEmergencyStopThatIsRepeatedStopsNothingAfterItsReset) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);

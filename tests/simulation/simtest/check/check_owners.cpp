@@ -71,10 +71,12 @@ private:
         }
     }
 
-    /// A device that stops is lost to its axis, and what it was at is over; it may go on later.
+    /// A device that stops is lost to its axis, and what it was at is over; it may go on later, and the steps that it
+    /// then makes are a motion from where the axis lost it.
     bool has_given_up(const Motion& motion, Tick by) const {
         return std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
-            return fault.is_of_device() && fault.process == motion.axis && fault.at >= motion.begin && fault.at < by;
+            const bool meanwhile = fault.at < by && fault.at + fault.lasts >= motion.begin;
+            return fault.is_of_device() && fault.process == motion.axis && meanwhile;
         });
     }
 
