@@ -1,4 +1,4 @@
-// What must hold of every input: where it does not, the fuzzer keeps the input.
+// A fuzz target ends here if an input breaks a promise; the fuzzer then keeps the input.
 #pragma once
 
 #include <cstdio>

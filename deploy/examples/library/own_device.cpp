@@ -67,7 +67,7 @@ private:
     }
     Position position() const { return Position::from_count(count_, phase_); }
 
-    /// What is due at this tick.
+    /// Begins and ends runs, frames and pieces at this tick.
     void decide() {
         if (state_ == State::Rests) { take_run(); }
         if (state_ == State::Waits) { begin_first_frame(); }

@@ -10,6 +10,7 @@
 
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/text_lines.hpp"
+#include "tests/temporary_directory.hpp"
 
 namespace lockstep::oracle {
 namespace {
@@ -19,24 +20,9 @@ namespace fs = std::filesystem;
 constexpr double kMillimetresPerInch = 25.4;
 constexpr std::int64_t kRepeatedLines = 100'000;  // some random programs never end
 
-/// Removed with all that is in it.
-class TemporaryDirectory {
+class Folder : public TemporaryDirectory {
 public:
-    TemporaryDirectory() {
-        std::string name = (fs::temp_directory_path() / "oracle.XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) { std::abort(); }
-        path_ = name;
-    }
-    TemporaryDirectory(const TemporaryDirectory&) = delete;
-    TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-    ~TemporaryDirectory() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    std::string file(const char* name) const { return (path_ / name).string(); }
-
-private:
-    fs::path path_;
+    std::string file(const char* name) const { return (path() / name).string(); }
 };
 
 std::string text_of(const std::string& file) {
@@ -107,7 +93,7 @@ std::map<int, gcode::Tool> tools() {
 }
 
 Reading read_with_rs274(const std::string& text, const std::string& folder) {
-    const TemporaryDirectory directory;
+    const Folder directory;
     write(directory.file("program.ngc"), text);
     write(directory.file("tool.tbl"), tool_table());
     write(directory.file("parameters.var"), "");
@@ -127,7 +113,7 @@ Reading read_with_rs274(const std::string& text, const std::string& folder) {
 }
 
 std::vector<std::vector<Call>> motions_with_all_digits(const std::vector<std::string>& texts) {
-    const TemporaryDirectory directory;
+    const Folder directory;
     const auto file = [&](std::size_t i, const char* ending) {
         return directory.file((std::to_string(i) + ending).c_str());
     };

@@ -2,11 +2,12 @@
 #include "services/coordinator/values_store.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <fstream>
 #include <thread>
+
+#include "tests/temporary_directory.hpp"
 
 namespace lockstep {
 namespace {
@@ -16,12 +17,6 @@ namespace fs = std::filesystem;
 
 class KeptInAFile : public testing::Test {
 protected:
-    KeptInAFile() {
-        std::string name = (fs::temp_directory_path() / "values.XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~KeptInAFile() override { fs::remove_all(folder_); }
-
     static void not_written(const std::string& why) { ADD_FAILURE() << why; }
     static ProgramDocument edit(std::uint64_t revision, double x) {
         gcode::KeptValues values;
@@ -29,7 +24,8 @@ protected:
         return {{}, gcode::ProgramValues{.revision = revision, .after = values, .at_once = true}};
     }
 
-    fs::path folder_;
+    TemporaryDirectory directory_;
+    fs::path folder_ = directory_.path();
     fs::path file_ = "machine/values.textproto";
 };
 

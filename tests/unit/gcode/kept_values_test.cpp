@@ -1,4 +1,4 @@
-// What outlives a program: the next one begins with what the one before has left.
+// Offsets and tools outlive a program: the next program begins with those that the last one left.
 #include <gtest/gtest.h>
 
 #include "tests/unit/gcode/three_axes.hpp"

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/temporary_directory.hpp"
 #include "tests/unit/wire/random_messages.hpp"
 
 namespace lockstep {
@@ -26,9 +27,6 @@ constexpr std::size_t kFirstSlotByte = 64;
 
 class StateBoard : public testing::Test {
 protected:
-    StateBoard() { fs::remove_all(path.parent_path()); }
-    ~StateBoard() override { fs::remove_all(path.parent_path()); }
-
     StateBoardWriter writer(std::uint32_t axis) const { return StateBoardWriter::open(path, axis).value(); }
     StateBoardReader reader(std::optional<std::uint32_t> own = {}) const {
         return StateBoardReader::open(path, own).value();
@@ -39,8 +37,8 @@ protected:
         file << bytes;
     }
 
-    // By process: two programs have these tests.
-    fs::path path = fs::path(testing::TempDir()) / ("lockstep_board_" + std::to_string(getpid())) / "mill.states";
+    TemporaryDirectory directory;
+    fs::path path = directory.path() / "states" / "mill.states";
 };
 
 AxisState state_of(std::uint32_t axis, Slot stamp) { return {.axis = axis, .stamp = stamp}; }
