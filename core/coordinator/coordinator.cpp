@@ -102,7 +102,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     if (!gate_.enter(loop.slot)) { return; }
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
-    jobs_.note_progress(loop.now);
+    jobs_.note_progress(loop);
     loop.out.state = state(loop);
 }
 

@@ -134,7 +134,7 @@ CommandResult JobRunner::turn(const Command& command, const CoordinatorLoop& loo
     Overrides overrides = path_.overrides();
     if (command.feed_percent != 0) { overrides.feed_percent = command.feed_percent; }
     if (command.rapid_percent != 0) { overrides.rapid_percent = command.rapid_percent; }
-    path_.turn(overrides, job_ && !job_->is_alone());
+    path_.turn(overrides);
     return {};
 }
 

@@ -67,7 +67,7 @@ void JobRunner::halt_alone(CoordinatorLoop& loop) {
 /// Every axis is at rest.
 void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
     loop.out.epoch_end = {end_of_epoch.kind, intent_};
-    path_.end_epoch(end_of_epoch, loop.machine);
+    path_.end_epoch(end_of_epoch);
     if (intent_ == Intent::Abort) { return end_failed(loop); }
     switch (end_of_epoch.kind) {
         case EpochEnd::Kind::FramesDiffer: return fail(FaultCode::FramesDiffer, end_of_epoch.axis, loop);
@@ -86,6 +86,7 @@ void JobRunner::interrupted(const EpochEnd& end_of_epoch, CoordinatorLoop& loop)
     if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
     if (intent_ == Intent::Hold) { return loop.enter(MachinePhase::Holding); }
     loop.notice({CoordinatorNotice::Kind::Interrupted, FaultCode::FrameLate, end_of_epoch.ran});
+    if (path_.is_stuck()) { return fail(FaultCode::FrameBeyondLimits, 0, loop); }
     if (!may_go_on) { return fail(FaultCode::FrameLate, 0, loop); }
     follow(path_.go_on(loop), loop);
 }
@@ -192,7 +193,7 @@ void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
         state.progress = inherited_.last().progress;
     }
     if (!path_.is_moving()) { return; }
-    path_.report_progress(state, loop.machine);
+    path_.report_progress(state);
     if (intent_ == Intent::GoOn) { path_.report_rests(state, loop.axes); }
 }
 

@@ -52,8 +52,8 @@ public:
     bool is_on_path() const { return path_.is_moving(); }
     bool in_motion() const { return is_on_path() || axes_move_alone(); }
     std::uint64_t number() const { return count_.number(); }
-    void note_progress(Tick now) {
-        if (path_.is_moving()) { path_.note_progress(now); }
+    void note_progress(const CoordinatorLoop& loop) {
+        if (path_.is_moving()) { path_.note_progress(loop); }
     }
     void report(MachineState& state, const CoordinatorLoop& loop) const;
 

@@ -30,10 +30,9 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const std::vector<Leg>& legs
     OwnTargets targets;
     targets.ticks_ = ticks;
     targets.begun_ = loop.now;
-    const bool moves = !legs.empty() && !legs.back().moves.empty();
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         const std::int64_t from = loop.axes.state(i)->position.count();
-        const std::int64_t to = moves ? legs.back().moves.back().to[i] : from;
+        const std::int64_t to = legs.back().to[i];
         targets.from_.push_back(from);
         targets.to_.push_back(to);
         if (from == to) { continue; }

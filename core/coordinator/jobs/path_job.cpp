@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/motion/interpolate.hpp"
-
 namespace lockstep {
 
 void PathJob::load(const MachineJob& job, std::vector<Leg> legs) {
@@ -13,41 +11,31 @@ void PathJob::load(const MachineJob& job, std::vector<Leg> legs) {
     legs_ = std::move(legs);
     leg_ = 0;
     progress_ = {};
-    remaining_.clear();
     positions_.clear();
     fruitless_ = 0;
-    time_legs();
 }
 
 void PathJob::load(const MachineJob& job, JobRest rest, double progress) {
-    job_ = job;
-    legs_ = std::move(rest.legs);
+    load(job, std::move(rest.legs));
     leg_ = rest.leg;
     progress_ = PathProgress(progress);
     resume_ = rest.place;
-    remaining_ = std::move(rest.remaining);
     positions_ = std::move(rest.positions);
-    fruitless_ = 0;
-    time_legs();
-}
-
-/// How long the legs behind the next one are planned to last: that one is planned when it begins.
-void PathJob::time_legs() {
-    for (std::size_t i = leg_ + 1; i < legs_.size(); ++i) {
-        Leg& leg = legs_[i];
-        if (!leg.moves.empty()) { leg.duration = planner_.path(leg.moves, {}, overrides_).duration(); }
-    }
+    if (!rest.leg_done) { runner_.load(planner_.frames(job_.program, legs_[leg_])); }
+    is_leg_done_ = rest.leg_done;
 }
 
 PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
-    while (leg_ < legs_.size() && legs_[leg_].moves.empty() && !legs_[leg_].then_pause) { ++leg_; }
+    while (leg_ < legs_.size() && !legs_[leg_].moves && !legs_[leg_].then_pause) { ++leg_; }
     if (leg_ == legs_.size()) { return Next::IsDone; }
     const Leg& leg = legs_[leg_];
-    if (leg.moves.empty()) {
+    if (!leg.moves) {
         ++leg_;
         return Next::Pauses;
     }
-    begin_epoch(leg.moves, {leg.moves.front().block, {}}, {}, loop);
+    runner_.load(planner_.frames(job_.program, leg));
+    resume_ = {leg.first, {}};
+    begin_epoch({}, loop);
     return Next::Moves;
 }
 
@@ -58,8 +46,8 @@ PathJob::Next PathJob::end_leg(CoordinatorLoop& loop) {
 }
 
 PathJob::Next PathJob::go_on(CoordinatorLoop& loop) {
-    if (remaining_.empty()) { return end_leg(loop); }
-    begin_epoch(std::move(remaining_), resume_, std::move(positions_), loop);
+    if (is_leg_done_) { return end_leg(loop); }
+    begin_epoch(std::move(positions_), loop);
     return Next::Moves;
 }
 
@@ -73,31 +61,36 @@ Epoch PathJob::next_epoch(const CoordinatorLoop& loop) {
 }
 
 /// `at` empty: from rest on whole steps, where the axes stand.
-void PathJob::begin_epoch(std::vector<PathMove> moves, PathPlace place, std::vector<Position> at,
-                          CoordinatorLoop& loop) {
-    Path path = planner_.path(std::move(moves), place.along, overrides_);
-    if (at.empty()) {
-        for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-            at.push_back(start_of(path, i, loop.axes.state(i)->position.count()));
-        }
+void PathJob::begin_epoch(std::vector<Position> at, CoordinatorLoop& loop) {
+    is_leg_done_ = false;
+    for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
+        at.push_back(Position::steps(loop.axes.state(i)->position.count()));
     }
-    const Epoch epoch = next_epoch(loop);
-    runner_.begin(epoch, std::move(path), std::move(at), loop.slot);
+    planned_ = overrides_;
+    runner_.begin(next_epoch(loop), resume_, std::move(at), planned_);
     is_moving_ = true;
+    has_started_ = false;
     loop.enter(MachinePhase::Running);
-    loop.notice({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, epoch});
+}
+
+/// Its first frame can be made.
+void PathJob::note_start(CoordinatorLoop& loop) {
+    if (has_started_ || !runner_.start()) { return; }
+    has_started_ = true;
+    loop.notice({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, runner_.epoch()});
     loop.out.jobs.push_back({.kind = JobEvent::Kind::EpochBegun,
                              .job = job_.number,
                              .job_kind = job_.kind,
-                             .epoch = epoch,
-                             .start = runner_.start(),
-                             .place = place,
-                             .overrides = overrides_});
+                             .epoch = runner_.epoch(),
+                             .start = *runner_.start(),
+                             .place = resume_,
+                             .overrides = planned_});
 }
 
 std::optional<EpochEnd> PathJob::advance(CoordinatorLoop& loop) {
     loop.out.frames = runner_.send(loop.slot, loop.axes.views());
     for (Frame& frame : loop.out.frames) { frame.term = loop.term; }
+    note_start(loop);
     if (const auto turn = runner_.take_turn()) {
         loop.out.jobs.push_back({.kind = JobEvent::Kind::Overridden,
                                  .job = job_.number,
@@ -109,44 +102,38 @@ std::optional<EpochEnd> PathJob::advance(CoordinatorLoop& loop) {
     return runner_.evaluate(loop.slot, loop.axes.views());
 }
 
-void PathJob::end_epoch(const EpochEnd& end, const MachineConfig& machine) {
+void PathJob::end_epoch(const EpochEnd& end) {
     is_moving_ = false;
-    const Ticks ran{static_cast<std::int64_t>(end.ran) * machine.frame_ticks().value};
-    progress_.end_path(std::min(subticks(ran), runner_.path().duration()));
+    progress_.end_path(subticks(runner_.ticks_of(end.ran)));
 }
 
 bool PathJob::interrupt(const EpochEnd& end) {
-    const auto& moves = runner_.path().moves;
-    const bool move_done = end.along >= Displacement::steps(moves[end.move].lead) && moves[end.move].lead != 0;
-    const std::size_t first = move_done ? end.move + 1 : end.move;
-    remaining_.assign(moves.begin() + static_cast<std::ptrdiff_t>(first), moves.end());
+    resume_ = end.place;
     positions_ = end.positions;
-    resume_ = {move_done ? 0 : moves[end.move].block, move_done ? Displacement{} : end.along};
-    if (move_done && !remaining_.empty()) { resume_.block = remaining_.front().block; }
     fruitless_ = end.ran == 0 ? fruitless_ + 1 : 0;
     return fruitless_ < kMaxFruitless;
 }
 
-/// To plan the legs to come again takes long, and frames are due: their times are estimated in proportion.
-void PathJob::turn(const Overrides& overrides, bool in_job) {
-    const Overrides before = std::exchange(overrides_, overrides);
+void PathJob::turn(const Overrides& overrides) {
+    overrides_ = overrides;
     if (is_moving_) { runner_.turn(overrides_); }
-    const double slower = static_cast<double>(before.feed_percent) / overrides_.feed_percent;
-    for (std::size_t i = leg_ + 1; in_job && i < legs_.size(); ++i) {
-        Subticks& duration = legs_[i].duration;
-        duration.value = std::llround(static_cast<double>(duration.value) * slower);
-    }
 }
 
 Subticks PathJob::into_path(Tick now) const {
-    return std::clamp(subticks(now - runner_.start()), Subticks{}, runner_.path().duration());
+    if (!runner_.start()) { return {}; }
+    return subticks(std::clamp(now - *runner_.start(), Ticks{}, runner_.ticks_of(runner_.sent())));
 }
 
-/// By what is planned of it now.
-Subticks PathJob::left(Tick now) const {
-    Subticks left = runner_.path().duration() - into_path(now);
-    for (std::size_t i = leg_ + 1; i < legs_.size(); ++i) { left = left + legs_[i].duration; }
-    return left;
+/// As the feed override makes it. What the axes' limits make of a feed above them is not counted.
+double PathJob::seconds_left(Tick now) const {
+    double seconds = runner_.source().seconds_from(runner_.place_at(now));
+    for (std::size_t i = leg_ + 1; i < legs_.size(); ++i) { seconds += legs_[i].times->seconds(); }
+    return seconds / overrides_.feed();
+}
+
+void PathJob::note_progress(const CoordinatorLoop& loop) {
+    const double ticks = seconds_left(loop.now) * loop.machine.ticks_per_second();
+    progress_.note(into_path(loop.now), subticks(Ticks{std::llround(ticks)}));
 }
 
 void PathJob::report_epoch(MachineState& state) const {
@@ -156,9 +143,9 @@ void PathJob::report_epoch(MachineState& state) const {
     state.overrides = overrides_;
 }
 
-void PathJob::report_progress(MachineState& state, const MachineConfig& machine) const {
-    state.line = runner_.path().moves[runner_.path().move_at(into_path(state.tick))].line;
-    state.remaining_s = static_cast<double>(left(state.tick).value) / kSubticksPerTick / machine.ticks_per_second();
+void PathJob::report_progress(MachineState& state) const {
+    state.line = job_.program->blocks[runner_.place_at(state.tick).block].line;
+    state.remaining_s = seconds_left(state.tick);
     state.progress = progress_.share();
 }
 

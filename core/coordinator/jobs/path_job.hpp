@@ -1,5 +1,5 @@
-// A job whose axes move together on a path: leg by leg, in epochs of frames. Each leg is planned when it begins, and
-// what is left of one after an interruption is run as an epoch of its own.
+// A job whose axes move together on a path: leg by leg, in epochs of frames. Each leg is read as a stream, and what is
+// left of one after an interruption is run as an epoch of its own.
 #pragma once
 
 #include <optional>
@@ -44,28 +44,30 @@ public:
     /// The epoch in progress comes to rest.
     /// By the state published in slot `next`.
     void stop(Slot next) { runner_.stop(next); }
-    void end_epoch(const EpochEnd& end, const MachineConfig& machine);
+    void end_epoch(const EpochEnd& end);
     void give_up_epoch() { is_moving_ = false; }
     /// All axes rest together on the path, proved by their counts. False: too many epochs in a row have run no frame.
     bool interrupt(const EpochEnd& end);
+    /// The epoch ended early because no frame keeps the limits.
+    bool is_stuck() const { return runner_.is_stuck(); }
 
-    /// From the next frame that is not made yet, and in jobs to come. `in_job`: one is in progress or held.
-    void turn(const Overrides& overrides, bool in_job);
+    /// From the next frame that is not made yet, and in jobs to come.
+    void turn(const Overrides& overrides);
     void inherit(const Overrides& overrides) { overrides_ = overrides; }
 
-    void note_progress(Tick now) { progress_.note(into_path(now), left(now)); }
+    void note_progress(const CoordinatorLoop& loop);
     /// Of the epoch in progress, or the last one.
     void report_epoch(MachineState& state) const;
-    void report_progress(MachineState& state, const MachineConfig& machine) const;
+    void report_progress(MachineState& state) const;
     /// For another coordinator that may go on with the job.
     void report_rests(MachineState& state, const AxisRoster& axes) const;
 
 private:
-    void begin_epoch(std::vector<PathMove> moves, PathPlace place, std::vector<Position> at, CoordinatorLoop& loop);
+    void begin_epoch(std::vector<Position> at, CoordinatorLoop& loop);
+    void note_start(CoordinatorLoop& loop);
     Epoch next_epoch(const CoordinatorLoop& loop);
-    void time_legs();
     Subticks into_path(Tick now) const;
-    Subticks left(Tick now) const;
+    double seconds_left(Tick now) const;
 
     static constexpr int kMaxFruitless = 3;
 
@@ -75,16 +77,18 @@ private:
     Overrides overrides_;
     Epoch epoch_ = 0;  // the newest
     bool is_moving_ = false;
+    bool has_started_ = false;  // the epoch, with its first frame
+    Overrides planned_;         // with which the epoch begins
 
     // Of the job:
     MachineJob job_;
     std::vector<Leg> legs_;
     std::size_t leg_ = 0;
     PathProgress progress_;
-    PathPlace resume_;  // held or interrupted: where it goes on
-    std::vector<PathMove> remaining_;
-    std::vector<Position> positions_;
-    int fruitless_ = 0;  // epochs in a row that ran no frame
+    PathPlace resume_;                 // where the epoch begins; held or interrupted: where the next one will,
+    std::vector<Position> positions_;  // and where the axes rest, exactly; empty: on whole steps
+    bool is_leg_done_ = false;         // by the owner before
+    int fruitless_ = 0;                // epochs in a row that ran no frame
 };
 
 }  // namespace lockstep

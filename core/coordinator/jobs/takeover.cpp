@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace lockstep {
@@ -9,8 +10,8 @@ namespace {
 
 using Doubt = std::unexpected<TakeoverDoubt>;
 
-/// What solving pieces in whole units leaves between an axis and its exact share of the path: far less than this.
-constexpr Displacement kRounding{Int128{1} << 44};
+/// From the program's place: joining moves, whole steps, and the way along a move that is joined with others.
+constexpr double kNear_steps = 3;
 
 bool is_in_doubt(const AxisView& axis) {
     return !axis.state || !axis.state->homed || axis.state->fault != 0 || !axis.state->at_rest;
@@ -41,38 +42,54 @@ AxisCounts start_of_job(const Program& program, const MachineConfig& machine, st
     return start;
 }
 
-/// Finds the place in the legs: which of them, and what is left of it. A move that is done is left out.
+/// The leg with the place.
 std::expected<JobRest, TakeoverDoubt> locate(std::vector<Leg> legs, const FrameRest& rest) {
-    const auto is_block = [&](const PathMove& move) { return move.block == rest.place.block; };
     for (std::size_t leg = 0; leg < legs.size(); ++leg) {
-        const std::vector<PathMove>& moves = legs[leg].moves;
-        const auto at = std::ranges::find_if(moves, is_block);
-        if (at == moves.end()) { continue; }
-        const Displacement whole = Displacement::steps(at->lead);
-        if (rest.place.along < Displacement{} || rest.place.along > whole) { break; }
-        const bool is_done = rest.last || (at->lead != 0 && rest.place.along == whole);
-        JobRest found{.leg = leg, .place = rest.place, .remaining = {at + (is_done ? 1 : 0), moves.end()}};
-        if (rest.last && !found.remaining.empty()) { break; }
-        found.leg_done = found.remaining.empty();
-        if (is_done && !found.leg_done) { found.place = {found.remaining.front().block, {}}; }
-        found.legs = std::move(legs);
-        return found;
+        if (rest.place.block < legs[leg].first || rest.place.block >= legs[leg].end) { continue; }
+        return JobRest{
+            .legs = std::move(legs), .leg = leg, .leg_done = rest.last, .place = rest.place, .positions = {}};
     }
     return Doubt(TakeoverDoubt::OtherPlan);
 }
 
-/// Where each axis is to be by the program.
-std::vector<Position> planned_positions(const JobRest& rest) {
-    const bool ahead = !rest.leg_done;
-    const PathMove& move = ahead ? rest.remaining.front() : rest.legs[rest.leg].moves.back();
-    std::vector<Position> positions;
-    for (std::size_t i = 0; i < move.from.size(); ++i) {
-        positions.push_back(ahead ? move.axis_at(i, rest.place.along) : Position::steps(move.to[i]));
+using Places = std::vector<double>;  // mm, of each axis
+
+/// Where the program's block leads, from there.
+Places end_of(const Block& block, const Program& program, const MachineConfig& machine, Places from) {
+    const auto* move = std::get_if<LinearMove>(&block.action);
+    for (std::size_t i = 0; move != nullptr && i < program.axes.size(); ++i) {
+        const auto named = std::ranges::find(machine.axes, program.axes[i], &AxisConfig::name);
+        from[static_cast<std::size_t>(named - machine.axes.begin())] = move->target_mm[i];
     }
-    return positions;
+    return from;
 }
 
-bool is_near(Position a, Position b) { return a - b < kRounding && b - a < kRounding; }
+/// Whether the axes are near the place by the program alone: the frames join moves within a step of it.
+std::expected<void, TakeoverDoubt> check_place(const JobRest& rest, const Program& program,
+                                               const MachineConfig& machine, std::span<const Position> at) {
+    const Leg& leg = rest.legs[rest.leg];
+    Places from;
+    double near_mm = 0;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        from.push_back(to_mm(machine.axes[i], static_cast<double>(leg.from[i])));
+        near_mm = std::max(near_mm, kNear_steps / machine.axes[i].steps_per_mm);
+    }
+    for (std::uint32_t b = leg.first; b < rest.place.block; ++b) {
+        from = end_of(program.blocks[b], program, machine, std::move(from));
+    }
+    const Places to = end_of(program.blocks[rest.place.block], program, machine, from);
+    double square = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) { square += (to[i] - from[i]) * (to[i] - from[i]); }
+    const double length = std::sqrt(square);
+    const double along = rest.place.along.as_steps();  // mm
+    if (along < -near_mm || along > length + near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
+    const double share = rest.leg_done ? 1 : length > 0 ? along / length : 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const double off = to_mm(machine.axes[i], at[i].as_steps()) - from[i] - share * (to[i] - from[i]);
+        if (std::abs(off) > near_mm) { return Doubt(TakeoverDoubt::Misplaced); }
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -103,11 +120,11 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
 
     std::vector<Position> positions;
     for (const AxisView& axis : axes) { positions.push_back(axis.state->position); }
-    const std::vector<Position> planned = planned_positions(*rest);
-    if (!std::ranges::equal(positions, planned, is_near)) { return Doubt(TakeoverDoubt::Misplaced); }
+    if (const auto fits = check_place(*rest, program, machine, positions); !fits) { return Doubt(fits.error()); }
+    const bool is_begin = rest->place == PathPlace{rest->legs[rest->leg].first, {}};
     if (digest_of(positions) == said->digest) {
         rest->positions = std::move(positions);
-    } else if (*ran > 0 || rest->place.along != Displacement{}) {
+    } else if (*ran > 0 || !is_begin) {
         return Doubt(TakeoverDoubt::Misplaced);
     }
     return rest;

@@ -23,7 +23,6 @@ struct JobRest {
     std::size_t leg = 0;              // the one in progress
     bool leg_done = false;            // its end was reached
     PathPlace place;                  // else: where it goes on,
-    std::vector<PathMove> remaining;  // what is left of the leg,
     std::vector<Position> positions;  // and where the axes rest, exactly; empty: on whole steps, as their states say
 };
 

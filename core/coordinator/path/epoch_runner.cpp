@@ -2,36 +2,41 @@
 
 #include <algorithm>
 
-#include "core/motion/frame_limits.hpp"
-#include "core/motion/interpolate.hpp"
-
 namespace lockstep {
 
-EpochRunner::EpochRunner(const MachineConfig& machine)
-    : machine_(machine), limits_(frame_limits_of(machine)), slot_(machine.slot_ticks()) {}
+EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot_(machine.slot_ticks()) {}
 
-void EpochRunner::begin(Epoch epoch, Path path, std::vector<Position> at, Slot now) {
-    constexpr Slot kMargin = 2;
+void EpochRunner::begin(Epoch epoch, const PathPlace& place, std::vector<Position> at, const Overrides& overrides) {
     epoch_ = epoch;
-    path_ = std::move(path);
     at_ = std::move(at);
-    start_ = rules::start_of(now + machine_.timing.send_ahead_slots + kMargin, slot_);
-    made_ = {};
-    rests_ = start_;
+    source_->resume(place, at_, overrides);
+    start_.reset();
+    made_ticks_ = {};
     slots_over_ = 0;
     sent_ = 0;
-    ended_ = late_ = false;
+    ended_ = late_ = is_stuck_ = is_empty_ = false;
     veto_.reset();
     received_veto_.reset();
     turned_.reset();
     tried_behind_.reset();
     taken_.reset();
     in_flight_.clear();
-    endings_.assign(1, Ending{0, path_.moves.front().profile.phases[0].from, at_, false});
+    made_.assign(1, Made{{}, {place}, place, at_, false});
+}
+
+void EpochRunner::start_when_ready(Slot now) {
+    constexpr Slot kMargin = 2;
+    if (source_->is_ready()) {
+        start_ = rests_ = rules::start_of(now + machine_.timing.send_ahead_slots + kMargin, slot_);
+    } else if (source_->is_done()) {
+        ended_ = is_empty_ = true;
+    }
 }
 
 std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
-    slots_over_ = now > rules::slot_of(rests_, slot_) ? slots_over_ + 1 : 0;
+    if (!ended_) { source_->read(); }
+    if (!start_ && !ended_) { start_when_ready(now); }
+    slots_over_ = start_ && now > rules::slot_of(rests_, slot_) ? slots_over_ + 1 : 0;
     FrameNumber held_by_all = sent_;
     for (const AxisView& axis : axes) {
         const bool follows = axis.state && axis.state->epoch == epoch_;
@@ -39,77 +44,86 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
         if (follows) { received_veto_ = rules::merge(received_veto_, axis.state->veto); }
     }
     if (received_veto_) { ended_ = true; }  // no axis may run a frame behind it
-    try_turn(now);
     std::vector<Frame> frames;
     std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });
     for (const Frame& frame : in_flight_) {
         const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), machine_.timing);
         if (in_time && frame.number > held_by_all && !(veto() && *veto() <= frame.number)) { frames.push_back(frame); }
     }
-    while (!ended_) {
-        const Slot start = rules::slot_of(start_ + made_, slot_);
+    while (start_ && !ended_) {
+        const Slot start = rules::slot_of(*start_ + made_ticks_, slot_);
         if (now < rules::first_send_slot(start, machine_.timing)) { break; }
         if (!rules::may_send(now, start, machine_.timing)) {
             ended_ = late_ = true;
             break;
         }
-        try_turn(now);
-        frames.push_back(make_frame());
-        in_flight_.push_back(frames.back());
+        try_turn();
+        const std::optional<Frame> frame = make_frame();
+        if (!frame) { break; }
+        frames.push_back(*frame);
+        in_flight_.push_back(*frame);
     }
     return frames;
 }
 
-/// Once behind each frame. A short rest of the path is planned again just before the next frame is made; a long one
-/// takes long, and is planned when half a frame's time or more is left until then.
-void EpochRunner::try_turn(Slot now) {
-    if (!turned_ || ended_ || tried_behind_ == sent_) { return; }
-    const Slot due = rules::first_send_slot(rules::slot_of(start_ + made_, slot_), machine_.timing);
-    const std::size_t moves_left = path_.moves.size() - path_.move_at(subticks(made_));
-    const bool is_time = moves_left <= kPlannedAtOnce ? now >= due : 2 * (due - now) >= machine_.timing.frame_slots;
-    if (!is_time) { return; }
+/// Once behind each frame, just before the next one is made.
+void EpochRunner::try_turn() {
+    if (!turned_ || tried_behind_ == sent_) { return; }
     tried_behind_ = sent_;
-    if (!replan_from(path_, made_, limits_, bounds_of(machine_), *turned_)) { return; }
+    if (!source_->turn(*turned_)) { return; }
     taken_ = Turn{sent_, *turned_};
     turned_.reset();
 }
 
-Frame EpochRunner::make_frame() {
-    const Ticks whole = path_.duration().ceil();
-    const Ticks ticks = std::min(machine_.frame_ticks(), whole - made_);
-    Frame frame{.term = {}, .epoch = epoch_, .number = ++sent_, .start = start_ + made_, .ticks = ticks};
-    frame.axes.resize(at_.size());
-    for (std::size_t i = 0; i < at_.size(); ++i) { frame.axes[i].from = at_[i]; }
-    std::vector<Piece> pieces(at_.size());
-    PieceSource source(path_, made_, made_ + ticks, at_);
-    while (source.next(pieces)) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].body.append(pieces[i]); }
-    }
-    made_ += ticks;
-    frame.last = ended_ = made_ == whole;
-    endings_.push_back(frame.last ? Ending{path_.moves.size(), {}, at_, true} : fill_tail(frame, made_));
-    if (endings_.size() > kEndingsKept) { endings_.pop_front(); }
-    for (const AxisTrack& axis : frame.axes) {
-        rests_ = std::max(rests_, frame.start + frame.ticks + total_ticks(axis.tail));
-    }
+/// Nothing while too little of the program has been read: if that lasts too long, the machine rests behind the frames
+/// made so far, and goes on from there.
+std::optional<Frame> EpochRunner::make_frame() {
+    auto made = source_->next();
+    if (!made) { ended_ = is_stuck_ = true; }
+    if (!made || !*made) { return std::nullopt; }
+    PathFrame& path = **made;
+    Frame frame{.term = {},
+                .epoch = epoch_,
+                .number = ++sent_,
+                .start = *start_ + made_ticks_,
+                .ticks = path.ticks,
+                .last = path.last,
+                .axes = {}};
+    ended_ = path.last;
+    made_ticks_ += path.ticks;
+    made_.push_back(finish(frame, path));
+    if (made_.size() > kMadeKept) { made_.pop_front(); }
     return frame;
 }
 
-EpochRunner::Ending EpochRunner::fill_tail(Frame& frame, Ticks end) const {
-    const Path tail = brake_from(path_, subticks(end), limits_);
-    const std::size_t move = path_.move_at(subticks(end));
-    Ending ending{move, path_.moves[move].along_at(subticks(end)), at_, false};
-    if (tail.empty()) { return ending; }
-    std::vector<Piece> pieces(at_.size());
-    PieceSource source(tail, Ticks{0}, tail.duration().ceil(), ending.positions);
-    while (source.next(pieces)) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].tail.append(pieces[i]); }
+/// Moves the tracks to the frame, and follows them.
+EpochRunner::Made EpochRunner::finish(Frame& frame, PathFrame& path) {
+    Made made{made_ticks_, {path.places.begin(), path.places.end()}, path.rest, {}, path.last};
+    frame.axes = std::move(path.axes);
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        const AxisTrack& track = frame.axes[i];
+        for (const Piece& piece : track.body) { at_[i] = at_[i] + piece.covered(); }
+        made.positions.push_back(at_[i]);
+        for (const Piece& piece : track.tail) { made.positions[i] = made.positions[i] + piece.covered(); }
+        rests_ = std::max(rests_, frame.start + frame.ticks + total_ticks(track.tail));
     }
-    const PathMove& rests_in = tail.moves.back();
-    const auto is_it = [&](const PathMove& m) { return m.block == rests_in.block && m.part == rests_in.part; };
-    while (!is_it(path_.moves[ending.move])) { ++ending.move; }
-    ending.along = tail.moves.back().profile.phases.back().to;
-    return ending;
+    return made;
+}
+
+PathPlace EpochRunner::place_at(Tick tick) const {
+    if (!start_ || sent_ == 0 || tick <= *start_) { return made_.front().places.front(); }
+    const Ticks into = tick - *start_;
+    const auto behind = std::ranges::upper_bound(made_, into, {}, &Made::end);
+    if (behind == made_.end()) { return made_.back().rest; }
+    if (behind == made_.begin()) { return behind->places.front(); }
+    const Ticks begin = (behind - 1)->end;
+    const auto parts = static_cast<std::int64_t>(behind->places.size());
+    const std::int64_t part = (into - begin).value * parts / (behind->end - begin).value;
+    return behind->places[static_cast<std::size_t>(std::clamp<std::int64_t>(part, 0, parts - 1))];
+}
+
+Ticks EpochRunner::ticks_of(FrameNumber frames) const {
+    return frames < oldest() || frames > sent_ ? Ticks{} : made_frame(frames).end;
 }
 
 void EpochRunner::stop(Slot next) {
@@ -123,17 +137,20 @@ void EpochRunner::stop(Slot next) {
 
 std::vector<FrameRest> EpochRunner::rests_from(FrameNumber frame) const {
     std::vector<FrameRest> rests;
-    const FrameNumber oldest = sent_ + 1 - endings_.size();
-    for (FrameNumber k = std::max(frame, oldest); k <= sent_; ++k) {
-        const Ending& ending = endings_[k - oldest];
-        const PathMove& move = path_.moves[std::min(ending.move, path_.moves.size() - 1)];
-        rests.push_back({k, {move.block, ending.along}, ending.complete, digest_of(ending.positions)});
+    for (FrameNumber k = std::max(frame, oldest()); k <= sent_; ++k) {
+        const Made& made = made_frame(k);
+        rests.push_back({k, made.rest, made.complete, digest_of(made.positions)});
     }
     return rests;
 }
 
 std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView> axes) const {
-    const Slot first_start = rules::slot_of(start_, slot_);
+    if (!start_) {  // no axis moves in it
+        if (!ended_) { return std::nullopt; }
+        return EpochEnd{is_empty_ ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, 0, made_.front().rest,
+                        at_};
+    }
+    const Slot first_start = rules::slot_of(*start_, slot_);
     std::optional<FrameNumber> ran;
     EpochEnd end;
     for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -149,18 +166,12 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
         }
         ran = ran ? std::max(*ran, its) : its;
     }
-    const FrameNumber oldest = sent_ + 1 - endings_.size();
-    if (!ran || *ran > sent_ || *ran < oldest) { end.kind = EpochEnd::Kind::FramesDiffer; }
+    if (!ran || *ran > sent_ || *ran < oldest()) { end.kind = EpochEnd::Kind::FramesDiffer; }
     if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
-    const Ending& ending = endings_[*ran - oldest];
-    end = {ending.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted,
-           0,
-           *ran,
-           ending.move,
-           ending.along,
-           ending.positions};
+    const Made& last = made_frame(*ran);
+    end = {last.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, *ran, last.rest, last.positions};
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (axes[i].present(now, machine_.timing) && axes[i].state->position != ending.positions[i] && *ran > 0) {
+        if (axes[i].present(now, machine_.timing) && axes[i].state->position != last.positions[i] && *ran > 0) {
             end.kind = EpochEnd::Kind::Misplaced;
             end.axis = i;
         }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/coordinator/axes/axis_view.hpp"
+#include "core/coordinator/path/frame_source.hpp"
 #include "core/machine.hpp"
-#include "core/motion/lookahead.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/protocol/rules.hpp"
 
@@ -27,8 +27,7 @@ struct EpochEnd {
     Kind kind = Kind::Complete;
     std::size_t axis = 0;  // Misplaced, FramesDiffer: which
     FrameNumber ran = 0;
-    std::size_t move = 0;             // Interrupted: the path's move it rests in
-    Displacement along;               // and how far along that
+    PathPlace place;                  // on the program
     std::vector<Position> positions;  // exactly
 };
 
@@ -36,15 +35,18 @@ class EpochRunner {
 public:
     explicit EpochRunner(const MachineConfig& machine);
 
-    /// Starts as soon as the send-ahead allows. `at` is where each axis rests, exactly.
-    void begin(Epoch epoch, Path path, std::vector<Position> at, Slot now);
+    /// What the epochs to come run.
+    void load(std::unique_ptr<FrameSource> source) { source_ = OwnedSource(std::move(source)); }
+    /// It starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis rests,
+    /// exactly.
+    void begin(Epoch epoch, const PathPlace& place, std::vector<Position> at, const Overrides& overrides);
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
     /// axis lacks. The caller fills in their term.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
 
-    /// From the next frame that is not made yet, or as soon after it as the path leaves a way and planning has time.
-    /// Of several asked for between two frames the last one counts.
+    /// From the next frame that is not made yet, or as soon after it as the path leaves a way. Of several asked
+    /// for between two frames the last one counts.
     void turn(const Overrides& overrides) { turned_ = overrides; }
     /// Set by `send` where it has planned again: the overrides that hold behind frame `behind`.
     struct Turn {
@@ -68,8 +70,15 @@ public:
     /// Where the machine rests behind this frame and those made after it.
     std::vector<FrameRest> rests_from(FrameNumber frame) const;
 
-    const Path& path() const { return path_; }
-    Tick start() const { return start_; }
+    const FrameSource& source() const { return *source_; }
+    /// Of its first frame; nothing while that cannot be made yet.
+    const std::optional<Tick>& start() const { return start_; }
+    /// Where the program is, by the last frames made.
+    PathPlace place_at(Tick tick) const;
+    /// How long the first frames last.
+    Ticks ticks_of(FrameNumber frames) const;
+    /// The frames' limits contradict each other: it ends early.
+    bool is_stuck() const { return is_stuck_; }
     Epoch epoch() const { return epoch_; }
     FrameNumber sent() const { return sent_; }
     /// The lowest of the coordinator's own and those received: each receiver repeats a veto.
@@ -77,26 +86,28 @@ public:
     bool was_late() const { return late_; }
 
 private:
-    struct Ending {
-        std::size_t move = 0;
-        Displacement along;
+    struct Made {                       // a frame; 0: the epoch's begin
+        Ticks end;                      // from the epoch's start
+        std::vector<PathPlace> places;  // in equal parts of its time
+        PathPlace rest;                 // if it is the last one run
         std::vector<Position> positions;
         bool complete = false;
     };
-    static constexpr std::size_t kPlannedAtOnce = 500;  // moves: a few milliseconds
-    static constexpr std::size_t kEndingsKept = 64;     // far more frames than can be in flight
+    static constexpr std::size_t kMadeKept = 64;  // far more frames than can be in flight
 
-    Frame make_frame();
-    Ending fill_tail(Frame& frame, Ticks end) const;
-    void try_turn(Slot now);
+    void start_when_ready(Slot now);
+    std::optional<Frame> make_frame();
+    Made finish(Frame& frame, PathFrame& made);
+    void try_turn();
+    const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
+    FrameNumber oldest() const { return sent_ + 1 - made_.size(); }
 
     MachineConfig machine_;
-    std::vector<AxisLimits> limits_;
     Ticks slot_;
+    OwnedSource source_;
     Epoch epoch_ = 0;
-    Path path_;
-    Tick start_;
-    Ticks made_;           // of the path, in frames so far
+    std::optional<Tick> start_;
+    Ticks made_ticks_;     // in frames so far
     Tick rests_;           // by when the machine does, whichever of the frames made so far is the last one run
     Slot slots_over_ = 0;  // in which frames were asked for since
     std::vector<Position> at_;
@@ -106,10 +117,12 @@ private:
     std::optional<Turn> taken_;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;
+    bool is_stuck_ = false;
+    bool is_empty_ = false;                     // the path has no frame
     std::optional<FrameNumber> veto_;           // the coordinator's own
     std::optional<FrameNumber> received_veto_;  // the lowest of the axes'
     std::deque<Frame> in_flight_;               // not begun yet
-    std::deque<Ending> endings_;                // how the epoch ends if this frame is the last run; the newest is sent_
+    std::deque<Made> made_;                     // the last frames; the newest is sent_
 };
 
 }  // namespace lockstep

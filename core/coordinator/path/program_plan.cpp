@@ -5,7 +5,8 @@
 #include <cstdio>
 
 #include "core/axis_unit.hpp"
-#include "core/coordinator/path/lai_path.hpp"
+#include "core/coordinator/path/lai_frames.hpp"
+#include "core/coordinator/path/program_frames.hpp"
 #include "core/motion/frame_limits.hpp"
 
 namespace lockstep {
@@ -20,6 +21,10 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+Ticks ticks_of(const Dwell& dwell, double tick_s) {
+    return {static_cast<std::int64_t>(std::ceil(std::min(dwell.seconds, kMaxDwell_s) / tick_s))};
+}
 
 ProgramPlanner::ProgramPlanner(const MachineConfig& machine) : machine_(machine), limits_(frame_limits_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
@@ -62,56 +67,101 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
     return to;
 }
 
+std::expected<void, PlanError> ProgramPlanner::check_start(const Program& program, const std::vector<std::size_t>& axes,
+                                                           const AxisCounts& start) const {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const AxisConfig& axis = machine_.axes[axes[i]];
+        const std::string unit = " " + std::string(unit_of(axis.name));
+        if (to_steps(axis, program.start_mm[i]) == start[axes[i]]) { continue; }
+        return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
+                                         "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
+                                             unit + ", the axis is at " +
+                                             number(to_mm(axis, static_cast<double>(start[axes[i]]))) + unit});
+    }
+    return {};
+}
+
+PathMove ProgramPlanner::path_move(const LinearMove& linear, const AxisCounts& from, const AxisCounts& to) const {
+    const double tick_s = static_cast<double>(machine_.tick_ns) * 1e-9;
+    return make_move(from, to, limits_, steps_per_mm_, linear.rapid ? 0 : linear.feed_mm_s * tick_s);
+}
+
 std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program, const AxisCounts& start) const {
     const auto axes = axes_of(program);
     if (!axes) { return std::unexpected(axes.error()); }
-    for (std::size_t i = 0; i < axes->size(); ++i) {
-        const AxisConfig& axis = machine_.axes[(*axes)[i]];
-        const std::string unit = " " + std::string(unit_of(axis.name));
-        if (to_steps(axis, program.start_mm[i]) != start[(*axes)[i]]) {
-            return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
-                                             "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
-                                                 unit + ", the axis is at " +
-                                                 number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + unit});
-        }
-    }
-    std::vector<Leg> legs(1);
+    if (const auto fits = check_start(program, *axes, start); !fits) { return std::unexpected(fits.error()); }
+    std::vector<Leg> legs;
     AxisCounts at = start;
-    for (std::uint32_t b = 0; b < program.blocks.size(); ++b) {
-        const Block& block = program.blocks[b];
-        if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
-            const auto to = target(*linear, *axes, at, block.line);
+    std::vector<double> way_mm(machine_.axes.size());
+    const auto blocks = static_cast<std::uint32_t>(program.blocks.size());
+    for (std::uint32_t b = 0; b <= blocks; ++b) {
+        Leg leg{.first = b, .end = b, .from = at, .to = at};
+        LegTimes times(machine_, b);
+        for (; b < blocks && !std::holds_alternative<Pause>(program.blocks[b].action); ++b) {
+            const Block& block = program.blocks[b];
+            if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
+                leg.moves = leg.moves || dwell->seconds > 0;
+                times.add_rest(dwell->seconds);
+                continue;
+            }
+            const auto& linear = std::get<LinearMove>(block.action);
+            const auto to = target(linear, *axes, at, block.line);
             if (!to) { return std::unexpected(to.error()); }
-            const double tick_s = static_cast<double>(machine_.tick_ns) * 1e-9;
-            PathMove move = make_move(at, *to, limits_, steps_per_mm_, linear->rapid ? 0 : linear->feed_mm_s * tick_s);
-            move.line = block.line;
-            move.block = b;
             if (machine_.coordination == StepMethod::Lai) {
-                if (auto fits = check_lai_move(move, machine_.tick_ns); !fits) {
+                if (auto fits = check_lai_move(path_move(linear, at, *to), machine_.tick_ns); !fits) {
                     return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()});
                 }
             }
-            if (move.lead != 0) { legs.back().moves.push_back(move); }
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                way_mm[i] = static_cast<double>((*to)[i] - at[i]) / steps_per_mm_[i];
+            }
+            times.add_move(way_mm, linear.rapid ? 0 : linear.feed_mm_s);
+            leg.moves = leg.moves || *to != at;
             at = *to;
-        } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
-            const double seconds = std::min(dwell->seconds, kMaxDwell_s);
-            const Ticks ticks{static_cast<std::int64_t>(std::ceil(seconds * machine_.ticks_per_second()))};
-            if (ticks.value <= 0) { continue; }
-            legs.back().moves.push_back({.line = block.line, .block = b, .from = at, .to = at, .dwell = ticks});
-        } else {
-            legs.back().then_pause = true;
-            legs.back().pause_line = block.line;
-            legs.emplace_back();
         }
+        times.finish();
+        leg.end = b;
+        leg.to = at;
+        leg.then_pause = b < blocks;
+        leg.pause_line = leg.then_pause ? program.blocks[b].line : 0;
+        leg.times = std::make_shared<const LegTimes>(std::move(times));
+        legs.push_back(std::move(leg));
     }
     return legs;
 }
 
-Path ProgramPlanner::path(std::vector<PathMove> moves, Displacement along, const Overrides& overrides) const {
+std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Program> program, const Leg& leg) const {
     if (machine_.coordination == StepMethod::Lai) {
-        return plan_lai_path(moves, along, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
+        return std::make_unique<LaiFrames>(machine_, moves(*program, leg));
     }
-    return plan_path(std::move(moves), along, limits_, bounds_of(machine_), overrides);
+    return std::make_unique<ProgramFrames>(machine_, std::move(program), leg);
+}
+
+std::vector<PathMove> ProgramPlanner::moves(const Program& program, const Leg& leg) const {
+    const auto axes = axes_of(program).value();
+    std::vector<PathMove> moves;
+    AxisCounts at = leg.from;
+    for (std::uint32_t b = leg.first; b < leg.end; ++b) {
+        const Block& block = program.blocks[b];
+        PathMove move{.from = at, .to = at};
+        if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
+            move = path_move(*linear, at, target(*linear, axes, at, block.line).value());
+            at = move.to;
+        } else {
+            move.dwell = ticks_of(std::get<Dwell>(block.action), static_cast<double>(machine_.tick_ns) * 1e-9);
+        }
+        move.line = block.line;
+        move.block = b;
+        if (move.lead != 0 || move.dwell > Ticks{}) { moves.push_back(move); }
+    }
+    return moves;
+}
+
+Path ProgramPlanner::path(std::vector<PathMove> moves, const Overrides& overrides) const {
+    if (machine_.coordination == StepMethod::Lai) {
+        return plan_lai_path(moves, {}, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
+    }
+    return plan_path(std::move(moves), {}, limits_, bounds_of(machine_), overrides);
 }
 
 }  // namespace lockstep

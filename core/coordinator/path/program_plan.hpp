@@ -1,10 +1,13 @@
-// From a program to moves: checks every target and works out every move's limits, before anything moves.
+// From a program to legs: checks every target and finds the pauses, before anything moves.
 #pragma once
 
 #include <expected>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/coordinator/path/frame_source.hpp"
+#include "core/coordinator/path/leg_times.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/motion/lookahead.hpp"
@@ -12,12 +15,16 @@
 
 namespace lockstep {
 
-/// Moves that follow each other without a pause.
+/// Blocks that follow each other without a pause.
 struct Leg {
-    std::vector<PathMove> moves;
+    std::uint32_t first = 0;  // of the program's blocks, up to
+    std::uint32_t end = 0;    // this one, which is the pause if there is one
+    bool moves = false;       // a block moves or dwells
     bool then_pause = false;
     std::int32_t pause_line = 0;
-    Subticks duration;  // planned
+    AxisCounts from;  // whole steps
+    AxisCounts to;
+    std::shared_ptr<const LegTimes> times;
 };
 
 struct PlanError {
@@ -25,6 +32,8 @@ struct PlanError {
     std::int32_t line = 0;
     std::string text;  // the value, the limit and the remedy
 };
+
+Ticks ticks_of(const Dwell& dwell, double tick_s);
 
 /// The machine's side of planning: limits and scales of all axes.
 class ProgramPlanner {
@@ -35,13 +44,21 @@ public:
     /// program's (StartMismatch), a target outside the travel (OutsideTravel), a move that is too long to count.
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const;
 
-    /// Profiles for a leg or what remains of it; the first move starts `along` its lead axis.
-    Path path(std::vector<PathMove> moves, Displacement along, const Overrides& overrides = {}) const;
+    /// What the frames of a leg are made of. It is resumed before it makes any.
+    std::unique_ptr<FrameSource> frames(std::shared_ptr<const Program> program, const Leg& leg) const;
+
+    /// The moves of a leg from whole step to whole step.
+    std::vector<PathMove> moves(const Program& program, const Leg& leg) const;
+    /// Profiles for the moves of a leg, by the look-ahead of whole paths.
+    Path path(std::vector<PathMove> moves, const Overrides& overrides = {}) const;
 
 private:
     std::expected<std::vector<std::size_t>, PlanError> axes_of(const Program& program) const;
+    std::expected<void, PlanError> check_start(const Program& program, const std::vector<std::size_t>& axes,
+                                               const AxisCounts& start) const;
     std::expected<AxisCounts, PlanError> target(const LinearMove& move, const std::vector<std::size_t>& axes,
                                                 const AxisCounts& from, std::int32_t line) const;
+    PathMove path_move(const LinearMove& linear, const AxisCounts& from, const AxisCounts& to) const;
 
     MachineConfig machine_;
     std::vector<AxisLimits> limits_;

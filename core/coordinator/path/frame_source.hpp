@@ -1,0 +1,58 @@
+// What the frames of an epoch are made of: a path from a rest to the next rest that the program asks for.
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/overrides.hpp"
+#include "core/path/frame_planner.hpp"
+
+namespace lockstep {
+
+class FrameSource {
+public:
+    virtual ~FrameSource() = default;
+    /// A copy that goes on in the same way.
+    virtual std::unique_ptr<FrameSource> clone() const = 0;
+
+    /// The axes rest at `at`: where the path begins, or where one of the last frames rests. The next frame goes on from
+    /// there.
+    virtual void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) = 0;
+    /// Reads on in the program, by a bounded amount. Once a slot.
+    virtual void read() {}
+    /// The next frame can be made.
+    virtual bool is_ready() = 0;
+    /// The path has no further frame.
+    virtual bool is_done() const = 0;
+    /// Nothing: it is not ready.
+    virtual std::expected<std::optional<PathFrame>, PathStuck> next() = 0;
+    /// New overrides, from the next frame on or soon after. False: not from there, and those before still hold.
+    virtual bool turn(const Overrides& overrides) = 0;
+    /// About how long the path takes from a place on, without overrides.
+    virtual double seconds_from(const PathPlace& place) const = 0;
+};
+
+/// Owns a source; a copy has a source of its own.
+class OwnedSource {
+public:
+    OwnedSource() = default;
+    explicit OwnedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+    OwnedSource(const OwnedSource& other) : source_(other.source_ ? other.source_->clone() : nullptr) {}
+    OwnedSource(OwnedSource&&) = default;
+    OwnedSource& operator=(OwnedSource other) {
+        source_ = std::move(other.source_);
+        return *this;
+    }
+    ~OwnedSource() = default;
+
+    explicit operator bool() const { return source_ != nullptr; }
+    FrameSource* operator->() const { return source_.get(); }
+    FrameSource& operator*() const { return *source_; }
+
+private:
+    std::unique_ptr<FrameSource> source_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,43 @@
+// The frames of a path by Lai's method (lai_path.hpp), which is planned as a whole.
+#pragma once
+
+#include <vector>
+
+#include "core/coordinator/path/frame_source.hpp"
+#include "core/coordinator/path/lai_path.hpp"
+
+namespace lockstep {
+
+class LaiFrames final : public FrameSource {
+public:
+    LaiFrames(const MachineConfig& machine, std::vector<PathMove> moves);
+
+    std::unique_ptr<FrameSource> clone() const override { return std::make_unique<LaiFrames>(*this); }
+    /// A place counts the steps of the lead axes of its block's parts, as they were planned last.
+    void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override;
+    bool is_ready() override { return !is_done(); }
+    bool is_done() const override { return made_ >= path_.duration().ceil(); }
+    std::expected<std::optional<PathFrame>, PathStuck> next() override;
+    bool turn(const Overrides&) override { return false; }
+    double seconds_from(const PathPlace& place) const override;
+
+private:
+    struct Spot {
+        std::size_t move = 0;
+        Displacement along;
+    };
+
+    Spot spot_of(const PathPlace& place) const;
+    PathPlace place_of(const PathMove& move, Displacement along) const;
+    PathPlace place_at(Ticks t) const;
+    PathPlace fill_tail(PathFrame& frame, std::vector<Position> at) const;
+
+    MachineConfig machine_;
+    std::vector<AxisLimits> limits_;
+    std::vector<double> steps_per_mm_;
+    Path path_;
+    Ticks made_;  // of the path, in frames so far
+    std::vector<Position> at_;
+};
+
+}  // namespace lockstep
