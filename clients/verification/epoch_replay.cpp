@@ -1,15 +1,20 @@
 #include "clients/verification/epoch_replay.hpp"
 
-#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace lockstep::verification {
 
-EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, Path path, const std::vector<Position>& at,
-                         Tick start)
+/// The start is fixed in the first slot, and the first frame is due in a later one.
+EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart start, const Overrides& overrides,
+                         Tick begin)
     : runner_(machine) {
-    runner_.begin(epoch, std::move(path), at, slot_);
-    shift_ = start - runner_.start();
+    runner_.load(std::move(start.source));
+    runner_.begin(epoch, start.place, std::move(start.at), overrides);
+    runner_.read_ahead();
+    (void)runner_.send(slot_++, {});
+    shift_ = begin - runner_.start().value_or(begin);
+    all_made_ = !runner_.start();
 }
 
 bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
@@ -17,16 +22,19 @@ bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
     return made_ <= behind;
 }
 
-/// The runner makes the due frames slot by slot, like a coordinator that never stalls and receives no replies.
+/// The runner makes the due frames slot by slot, like a coordinator that never stalls, reads as far as it has to, and
+/// receives no replies.
 void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
         if (const auto turn = turns_.extract(made_)) { runner_.turn(turn.mapped()); }
+        runner_.read_ahead();
         for (Frame& frame : runner_.send(slot_++, {})) {
             frame.start += shift_;
             made_ = frame.number;
             all_made_ = frame.last;
             frames_.push_back(std::move(frame));
         }
+        all_made_ = all_made_ || runner_.is_stuck();
     }
 }
 
@@ -47,11 +55,6 @@ EpochEnd EpochReplay::evaluate(std::span<const AxisEnd> axes) const {
         views.push_back({AxisState{.stamp = kLong, .epoch = epoch(), .ran = axis.ran, .position = axis.at}, kLong});
     }
     return *runner_.evaluate(kLong, views);  // all axes are at rest: there is a result
-}
-
-std::int32_t EpochReplay::line_at(Tick tick) const {
-    const Ticks into = std::max(tick - shift_ - runner_.start(), Ticks{0});
-    return path().moves[path().move_at(subticks(into))].line;
 }
 
 }  // namespace lockstep::verification

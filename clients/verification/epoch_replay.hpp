@@ -1,4 +1,4 @@
-// The frames of one epoch, made again by the coordinator's own path, and its evaluation of how the epoch ended.
+// The frames of one epoch, made again by the coordinator's own planning, and its evaluation of how the epoch ended.
 #pragma once
 
 #include <deque>
@@ -10,6 +10,13 @@
 
 namespace lockstep::verification {
 
+/// The start of an epoch.
+struct EpochStart {
+    OwnedSource source;
+    PathPlace place;           // on the program
+    std::vector<Position> at;  // of each axis, exactly
+};
+
 /// How far an axis came in an epoch: frames begun, and where it rests.
 struct AxisEnd {
     FrameNumber ran = 0;
@@ -18,11 +25,12 @@ struct AxisEnd {
 
 class EpochReplay {
 public:
-    /// `at`: where each axis rests before it. `start`: of frame 1, as recorded.
-    EpochReplay(const MachineConfig& machine, Epoch epoch, Path path, const std::vector<Position>& at, Tick start);
+    /// `begin`: of frame 1, as recorded.
+    EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart start, const Overrides& overrides, Tick begin);
 
     Epoch epoch() const { return runner_.epoch(); }
-    const Path& path() const { return runner_.path(); }
+    /// It goes on behind the frames made so far: for the next epoch of the leg.
+    const OwnedSource& source() const { return runner_.source(); }
 
     /// The frames after this one are planned with other overrides. False: they are made already.
     bool turn(FrameNumber behind, const Overrides& overrides);
@@ -33,8 +41,8 @@ public:
 
     EpochEnd evaluate(std::span<const AxisEnd> axes) const;
 
-    /// The line of the program in motion at a tick.
-    std::int32_t line_at(Tick tick) const;
+    /// The block of the program in motion at a tick.
+    std::uint32_t block_at(Tick tick) const { return runner_.place_at(tick - shift_).block; }
 
 private:
     void make_up_to(FrameNumber number);

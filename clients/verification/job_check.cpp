@@ -17,7 +17,7 @@ PathPlace place_in(const job_t& record) {
 }
 
 std::string text_of(const PathPlace& place) {
-    return "block " + std::to_string(place.block) + ", " + std::to_string(place.along.as_steps()) + " steps along it";
+    return "block " + std::to_string(place.block) + ", " + std::to_string(place.along.as_steps()) + " mm along it";
 }
 
 std::string number_of(const job_t& record) { return "job " + std::to_string(record.job); }
@@ -139,7 +139,7 @@ void JobCheck::begin_epoch(const job_t& record) {
     }
     if (!job_->broken.empty()) { return differ(job_->label + " continues, though " + job_->broken, job_->broken_axis); }
     const Overrides overrides{record.feed_percent, record.rapid_percent};
-    auto start = job_->replay->next(overrides);
+    auto start = job_->replay->next();
     if (!start) { return differ(job_->label + " continues, though its program is done"); }
     const PathPlace place = place_in(record);
     if (place.block != start->place.block || place.along != start->place.along) {
@@ -148,8 +148,9 @@ void JobCheck::begin_epoch(const job_t& record) {
     std::vector<Progress> axes;
     for (const Position at : start->at) { axes.push_back({.at = at}); }
     const auto epoch = static_cast<Epoch>(record.epoch);
-    epoch_.emplace(EpochReplay(job_->replay->machine(), epoch, std::move(start->path), start->at, {record.start_tick}),
-                   std::move(axes));
+    epoch_.emplace(
+        EpochReplay(job_->replay->machine(), epoch, std::move(*start), overrides, {record.start_tick}),
+        std::move(axes));
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
@@ -175,16 +176,17 @@ void JobCheck::end(const job_t& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
-    const Job job = *std::exchange(job_, std::nullopt);
+    Job job = *std::exchange(job_, std::nullopt);
     if (!job.replay) { return; }
+    const auto left = job.replay->next();
     if (record.outcome == "failed") {
         findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
                                   "; what was run of it is as planned");
     } else if (!job.broken.empty()) {
         return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
-    } else if (record.outcome == "done" && job.replay->next()) {
+    } else if (record.outcome == "done" && left) {
         return differ(job.label + " is recorded as done, but its program continues at " +
-                      text_of(job.replay->next()->place));
+                      text_of(left->place));
     }
     ++findings_.jobs;
 }
@@ -223,7 +225,7 @@ void JobCheck::check_epoch() {
         case EpochEnd::Kind::FramesDiffer: return break_off(end.axis, "ran other frames than the rest");
         case EpochEnd::Kind::Misplaced: return break_off(end.axis, "is not where its frames end");
         case EpochEnd::Kind::Complete:
-        case EpochEnd::Kind::Interrupted: job_->replay->ended(epoch_->replay.path(), end);
+        case EpochEnd::Kind::Interrupted: job_->replay->ended(end, epoch_->replay.source());
     }
 }
 
@@ -403,7 +405,7 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
         if (epoch == run.epoch) { text = label + ", "; }
     }
     if (epoch_ && epoch_->replay.epoch() == run.epoch) {
-        text += "line " + std::to_string(epoch_->replay.line_at(tick + run.ahead)) + ", ";
+        text += "line " + std::to_string(job_->replay->line_of(epoch_->replay.block_at(tick + run.ahead))) + ", ";
     }
     return text + "epoch " + std::to_string(run.epoch) + ", " + name_of(run);
 }

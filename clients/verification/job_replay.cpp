@@ -1,13 +1,11 @@
 #include "clients/verification/job_replay.hpp"
 
-#include "core/motion/interpolate.hpp"
+#include <utility>
 
 namespace lockstep::verification {
 
-JobReplay::JobReplay(const MachineConfig& machine, std::vector<Leg> legs)
-    : machine_(machine), planner_(machine), legs_(std::move(legs)) {
-    skip_empty_legs();
-}
+JobReplay::JobReplay(const MachineConfig& machine, std::shared_ptr<const Program> program, std::vector<Leg> legs)
+    : machine_(machine), planner_(machine), program_(std::move(program)), legs_(std::move(legs)) {}
 
 std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machine, const Program& program,
                                                       const std::vector<std::int64_t>& start_counts) {
@@ -18,39 +16,36 @@ std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machi
     for (const std::int64_t count : start_counts) { (void)start.push_back(count); }
     auto legs = ProgramPlanner(machine).plan(program, start);
     if (!legs) { return std::unexpected(legs.error().text); }
-    return JobReplay(machine, std::move(*legs));
+    return JobReplay(machine, std::make_shared<const Program>(program), std::move(*legs));
 }
 
-void JobReplay::skip_empty_legs() {
-    while (leg_ < legs_.size() && legs_[leg_].moves.empty()) { ++leg_; }
+/// The coordinator records no epoch in which nothing is left to run.
+std::optional<EpochStart> JobReplay::next() {
+    for (; leg_ < legs_.size(); ++leg_, source_ = {}) {
+        const Leg& leg = legs_[leg_];
+        if (!leg.moves) { continue; }
+        if (!source_) {
+            source_ = planner_.frames(program_, leg);
+            place_ = {leg.first, {}};
+            positions_.clear();
+            for (const std::int64_t count : leg.from) { positions_.push_back(Position::steps(count)); }
+        }
+        source_->resume(place_, positions_, {});
+        source_->read_ahead();
+        if (!source_->is_done()) { return EpochStart{source_, place_, positions_}; }
+    }
+    return std::nullopt;
 }
 
-std::optional<EpochStart> JobReplay::next(const Overrides& overrides) const {
-    if (!remaining_.empty()) {
-        return EpochStart{planner_.path(remaining_, along_, overrides), positions_, {remaining_.front().block, along_}};
-    }
-    if (leg_ == legs_.size()) { return std::nullopt; }
-    EpochStart start{planner_.path(legs_[leg_].moves, {}, overrides), {}, {legs_[leg_].moves.front().block, {}}};
-    for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
-        start.at.push_back(start_of(start.path, i, start.path.moves.front().from[i]));
-    }
-    return start;
-}
-
-void JobReplay::ended(const Path& path, const EpochEnd& end) {
-    remaining_.clear();
-    if (end.kind == EpochEnd::Kind::Interrupted) {
-        const PathMove& move = path.moves[end.move];
-        const bool move_done = move.lead != 0 && end.along >= Displacement::steps(move.lead);
-        const auto first = static_cast<std::ptrdiff_t>(end.move + (move_done ? 1 : 0));
-        remaining_.assign(path.moves.begin() + first, path.moves.end());
-        along_ = move_done ? Displacement{} : end.along;
-        positions_ = end.positions;
-    }
-    if (remaining_.empty()) {
+void JobReplay::ended(const EpochEnd& end, OwnedSource source) {
+    if (end.kind == EpochEnd::Kind::Complete) {
+        source_ = {};
         ++leg_;
-        skip_empty_legs();
+        return;
     }
+    source_ = std::move(source);
+    place_ = end.place;
+    positions_ = end.positions;
 }
 
 }  // namespace lockstep::verification

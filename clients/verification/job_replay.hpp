@@ -2,23 +2,17 @@
 #pragma once
 
 #include <expected>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/coordinator/path/epoch_runner.hpp"
+#include "clients/verification/epoch_replay.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 
 namespace lockstep::verification {
-
-/// The start of an epoch.
-struct EpochStart {
-    Path path;
-    std::vector<Position> at;  // of each axis, exactly
-    PathPlace place;           // on the program
-};
 
 class JobReplay {
 public:
@@ -28,23 +22,25 @@ public:
 
     const MachineConfig& machine() const { return machine_; }
 
-    /// The next epoch, planned with these overrides; none: the program is done.
-    std::optional<EpochStart> next(const Overrides& overrides = {}) const;
+    /// The next epoch; none: the program is done.
+    std::optional<EpochStart> next();
 
-    /// How an epoch with this path ended: Complete or Interrupted.
-    void ended(const Path& path, const EpochEnd& end);
+    /// How an epoch ended, Complete or Interrupted, and its source.
+    void ended(const EpochEnd& end, OwnedSource source);
+
+    std::int32_t line_of(std::uint32_t block) const { return program_->blocks[block].line; }
 
 private:
-    JobReplay(const MachineConfig& machine, std::vector<Leg> legs);
-    void skip_empty_legs();
+    JobReplay(const MachineConfig& machine, std::shared_ptr<const Program> program, std::vector<Leg> legs);
 
     MachineConfig machine_;
     ProgramPlanner planner_;
+    std::shared_ptr<const Program> program_;
     std::vector<Leg> legs_;
     std::size_t leg_ = 0;
-    // The part of its leg that an interrupted epoch left.
-    std::vector<PathMove> remaining_;
-    Displacement along_;
+    // Of the leg in progress; none: it has not begun.
+    OwnedSource source_;
+    PathPlace place_;
     std::vector<Position> positions_;
 };
 

@@ -126,7 +126,7 @@ Subticks PathJob::into_path(Tick now) const {
 
 /// As the feed override makes it. What the axes' limits make of a feed above them is not counted.
 double PathJob::seconds_left(Tick now) const {
-    double seconds = runner_.source().seconds_from(runner_.place_at(now));
+    double seconds = runner_.source()->seconds_from(runner_.place_at(now));
     for (std::size_t i = leg_ + 1; i < legs_.size(); ++i) { seconds += legs_[i].times->seconds(); }
     return seconds / overrides_.feed();
 }

@@ -36,7 +36,7 @@ public:
     explicit EpochRunner(const MachineConfig& machine);
 
     /// What the epochs to come run.
-    void load(std::unique_ptr<FrameSource> source) { source_ = OwnedSource(std::move(source)); }
+    void load(OwnedSource source) { source_ = std::move(source); }
     /// It starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis rests,
     /// exactly.
     void begin(Epoch epoch, const PathPlace& place, std::vector<Position> at, const Overrides& overrides);
@@ -44,6 +44,9 @@ public:
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
     /// axis lacks. The caller fills in their term.
     std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
+
+    /// Reads as much of the program as the next frame takes: for a caller that no slot presses.
+    void read_ahead() { source_->read_ahead(); }
 
     /// From the next frame that is not made yet, or as soon after it as the path leaves a way. Of several asked
     /// for between two frames the last one counts.
@@ -70,7 +73,7 @@ public:
     /// Where the machine rests behind this frame and those made after it.
     std::vector<FrameRest> rests_from(FrameNumber frame) const;
 
-    const FrameSource& source() const { return *source_; }
+    const OwnedSource& source() const { return source_; }
     /// Of its first frame; nothing while that cannot be made yet.
     const std::optional<Tick>& start() const { return start_; }
     /// Where the program is, by the last frames made.

@@ -22,6 +22,10 @@ public:
     virtual void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) = 0;
     /// Reads on in the program, by a bounded amount. Once a slot.
     virtual void read() {}
+    /// Reads until the next frame can be made or none is left.
+    void read_ahead() {
+        while (!is_ready() && !is_done()) { read(); }
+    }
     /// The next frame can be made.
     virtual bool is_ready() = 0;
     /// The path has no further frame.
@@ -38,7 +42,7 @@ public:
 class OwnedSource {
 public:
     OwnedSource() = default;
-    explicit OwnedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+    OwnedSource(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
     OwnedSource(const OwnedSource& other) : source_(other.source_ ? other.source_->clone() : nullptr) {}
     OwnedSource(OwnedSource&&) = default;
     OwnedSource& operator=(OwnedSource other) {

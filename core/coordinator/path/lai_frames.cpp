@@ -15,6 +15,7 @@ LaiFrames::LaiFrames(const MachineConfig& machine, std::vector<PathMove> moves)
 
 void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, const Overrides&) {
     const Spot spot = spot_of(place);
+    begin_ = place;
     const std::vector<PathMove> left(path_.moves.begin() + static_cast<std::ptrdiff_t>(spot.move), path_.moves.end());
     path_ = left.empty()
                 ? Path{}
@@ -25,7 +26,7 @@ void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, con
 
 /// At the end of a part the next one begins.
 LaiFrames::Spot LaiFrames::spot_of(const PathPlace& place) const {
-    Displacement left = place.along;
+    Displacement left = place.along - before(place.block);
     for (std::size_t k = 0; k < path_.moves.size(); ++k) {
         const PathMove& move = path_.moves[k];
         if (move.block < place.block) { continue; }
@@ -38,7 +39,7 @@ LaiFrames::Spot LaiFrames::spot_of(const PathPlace& place) const {
 }
 
 PathPlace LaiFrames::place_of(const PathMove& move, Displacement along) const {
-    PathPlace place{move.block, along};
+    PathPlace place{move.block, before(move.block) + along};
     for (const PathMove* before = &move; before != path_.moves.data() && (before - 1)->block == move.block;) {
         --before;
         place.along = place.along + Displacement::steps(before->lead);

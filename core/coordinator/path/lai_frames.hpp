@@ -13,7 +13,7 @@ public:
     LaiFrames(const MachineConfig& machine, std::vector<PathMove> moves);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<LaiFrames>(*this); }
-    /// A place counts the steps of the lead axes of its block's parts, as they were planned last.
+    /// A place counts the steps of the lead axes of its block's parts.
     void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override;
     bool is_ready() override { return !is_done(); }
     bool is_done() const override { return made_ >= path_.duration().ceil(); }
@@ -27,6 +27,8 @@ private:
         Displacement along;
     };
 
+    /// The way along a block that is no part of the path any more: it was made before the path was planned again.
+    Displacement before(std::uint32_t block) const { return block == begin_.block ? begin_.along : Displacement{}; }
     Spot spot_of(const PathPlace& place) const;
     PathPlace place_of(const PathMove& move, Displacement along) const;
     PathPlace place_at(Ticks t) const;
@@ -36,6 +38,7 @@ private:
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
     Path path_;
+    PathPlace begin_;
     Ticks made_;  // of the path, in frames so far
     std::vector<Position> at_;
 };
