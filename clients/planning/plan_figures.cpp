@@ -21,35 +21,26 @@ std::size_t place_of(const MachineConfig& machine, const std::string& name, std:
     return place < machine.axes.size() ? place : std::min(otherwise, machine.axes.size() - 1);
 }
 
-/// The speed is linear between the ends of a phase.
-void add_phases(const PathMove& move, std::size_t i, double mm_per_s, double start_s, double ticks_per_s,
-                drawing::AxisCurve& curve) {
-    Subticks clock = move.start;
-    const double scale = move.lead == 0 ? 0 : move.share(i) * mm_per_s;
-    for (const Phase& phase : move.profile.phases) {
-        for (const Subticks at : {Subticks{}, phase.duration}) {
-            const double ticks = static_cast<double>((clock + at).value) / kSubticksPerTick;
-            curve.time_s.push_back(start_s + ticks / ticks_per_s);
-            curve.value.push_back(phase.velocity_at(at) * scale);
-        }
-        clock = clock + phase.duration;
-    }
-}
-
+/// The speed is linear between the ends of a piece.
 drawing::AxisCurve speed_curve(const MachineConfig& machine, const ProgramPlan& plan, std::size_t i) {
     const AxisConfig& axis = machine.axes[i];
     const double ticks_per_s = machine.ticks_per_second();
     drawing::AxisCurve curve{.axis = axis.name, .limit = axis.max_velocity_mm_s};
-    double start_s = 0;
-    for (const Path& path : plan.paths) {
-        curve.time_s.push_back(start_s);
-        curve.value.push_back(0);
-        for (const PathMove& move : path.moves) {
-            add_phases(move, i, ticks_per_s / axis.steps_per_mm, start_s, ticks_per_s, curve);
+    Ticks start;
+    const auto add = [&](Ticks at, double steps_per_tick) {
+        curve.time_s.push_back(static_cast<double>((start + at).value) / ticks_per_s);
+        curve.value.push_back(steps_per_tick * ticks_per_s / axis.steps_per_mm);
+    };
+    for (const LegPlan& leg : plan.legs) {
+        add({}, 0);
+        for (const auto& [begin, from, piece] : leg.axes[i].pieces()) {
+            const double change = piece.acceleration.steps_per_tick2();
+            const double first = piece.velocity.steps_per_tick() + change / 2;
+            add(begin, first);
+            add(begin + piece.ticks, first + change * static_cast<double>(piece.ticks.value));
         }
-        start_s += static_cast<double>(path.duration().ceil().value) / ticks_per_s;
-        curve.time_s.push_back(start_s);
-        curve.value.push_back(0);
+        add(leg.duration, 0);
+        start += leg.duration;
     }
     return curve;
 }
@@ -60,11 +51,12 @@ drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan
     const std::size_t x = place_of(machine, "X", 0);
     const std::size_t y = place_of(machine, "Y", 1);
     drawing::PlanePath way{{plan.start_mm[x]}, {plan.start_mm[y]}};
-    for (const Path& path : plan.paths) {
-        for (const PathMove& move : path.moves) {
-            way.x.push_back(to_mm(machine.axes[x], static_cast<double>(move.to[x])));
-            way.y.push_back(to_mm(machine.axes[y], static_cast<double>(move.to[y])));
-        }
+    const auto add = [&](const LegPlan& leg, Ticks at) {
+        way.x.push_back(to_mm(machine.axes[x], leg.axes[x].at(at).as_steps()));
+        way.y.push_back(to_mm(machine.axes[y], leg.axes[y].at(at).as_steps()));
+    };
+    for (const LegPlan& leg : plan.legs) {
+        for (std::size_t k = 0; k < leg.moves.size(); ++k) { add(leg, leg.end(k)); }
     }
     return drawing::path_figure(plan.program + ": path", in_a_line(plan),
                                 {.x = machine.axes[x].name, .y = machine.axes[y].name}, way, {});

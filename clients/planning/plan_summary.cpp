@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+
+#include "core/coordinator/path/lai_path.hpp"
 
 namespace lockstep {
 namespace {
@@ -19,69 +22,67 @@ AxisCounts start_counts(const MachineConfig& machine, const Program& program) {
     return counts;
 }
 
-/// Steps per tick^2, a lower bound. A phase lasts a whole number of subticks: the part of its change of speed that
-/// rounding may cause, which is most of it in a phase of a few subticks between two corners, is not acceleration.
-double least_acceleration(const Phase& phase) {
-    const double ticks = static_cast<double>(phase.duration.value) / kSubticksPerTick;
-    const double by_rounding = 2 * phase.velocity_at({}) / static_cast<double>(kSubticksPerTick) / (ticks * ticks);
-    return std::max(0.0, std::abs(phase.acceleration()) - by_rounding);
-}
+/// Speeds in steps per tick. By the LAI method speed changes by jumps from period to period: these are its acceleration.
+class Peaks {
+public:
+    Peaks(const MachineConfig& machine, std::size_t axis, const LegPlan& leg)
+        : machine_(machine), per_s_(machine.ticks_per_second()), mm_(1 / machine.axes[axis].steps_per_mm), leg_(leg) {}
 
-void add_peaks(const MachineConfig& machine, const PathMove& move, std::size_t i, AxisPlan& axis) {
-    const double share = std::abs(move.share(i));
-    const double per_s = machine.ticks_per_second();
-    const double mm = share / machine.axes[i].steps_per_mm;
-    for (const Phase& phase : move.profile.phases) {
-        const double speed = std::max(phase.velocity_at({}), phase.velocity_at(phase.duration));
-        axis.peak_velocity_mm_s = std::max(axis.peak_velocity_mm_s, speed * mm * per_s);
-        axis.peak_acceleration_mm_s2 =
-            std::max(axis.peak_acceleration_mm_s2, least_acceleration(phase) * mm * per_s * per_s);
+    void note(const AxisMotion& motion, AxisPlan& axis) {
+        double speed = 0;
+        for (const auto& [begin, from, piece] : motion.pieces()) {
+            const double change = piece.acceleration.steps_per_tick2();
+            const double first = piece.velocity.steps_per_tick() + change / 2;
+            const double last = first + change * static_cast<double>(piece.ticks.value);
+            note_jump(begin, first - speed, axis);
+            raise(axis.peak_velocity_mm_s, std::max(std::abs(first), std::abs(last)) * mm_ * per_s_);
+            raise(axis.peak_acceleration_mm_s2, std::abs(change) * mm_ * per_s_ * per_s_);
+            speed = last;
+        }
+        note_jump(leg_.duration, speed, axis);
     }
-}
 
-/// mm of an axis for one of the path, with its sign; none at rest and in a dwell.
-double direction(const MachineConfig& machine, const PathMove* move, std::size_t i) {
-    return move == nullptr ? 0 : move->slope(i) / machine.axes[i].steps_per_mm;
-}
+private:
+    static void raise(double& peak, double value) { peak = std::max(peak, value); }
 
-/// The joint of two moves, either of them null at rest: the path keeps its speed, each axis's changes at once.
-void add_jump(const MachineConfig& machine, const PathMove* before, const PathMove* after, ProgramPlan& plan) {
-    const bool goes_on = after != nullptr && after->lead != 0;
-    if (!goes_on && (before == nullptr || before->lead == 0)) { return; }
-    const PathMove& timed = goes_on ? *after : *before;
-    const Subticks end = goes_on ? Subticks{} : timed.profile.duration();
-    const double speed =
-        std::min(timed.profile.velocity_at(end), goes_on ? timed.own.max_velocity : timed.limits.start_velocity);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const double turn = std::abs(direction(machine, after, i) - direction(machine, before, i));
-        double& peak = plan.axes[i].peak_jump_mm_s;
-        peak = std::max(peak, turn * speed * timed.mm_per_lead() * machine.ticks_per_second());
+    void note_jump(Ticks at, double change, AxisPlan& axis) {
+        const double mm_s = std::abs(change) * mm_ * per_s_;
+        if (machine_.coordination != StepMethod::Lai || is_between_moves(at)) { return raise(axis.peak_jump_mm_s, mm_s); }
+        raise(axis.peak_acceleration_mm_s2, mm_s / (static_cast<double>(kLaiPeriod_ns) * 1e-9));
     }
-}
 
-/// If a move is planned in parts of one length and one speed each, it accelerates from part to part.
-void add_change(const MachineConfig& machine, const PathMove& before, const PathMove& part, ProgramPlan& plan) {
-    const double seconds = static_cast<double>(part.profile.duration().floor().value) / machine.ticks_per_second();
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const std::int64_t change = (part.to[i] - part.from[i]) - (before.to[i] - before.from[i]);
-        const double mm = static_cast<double>(std::abs(change)) / machine.axes[i].steps_per_mm;
-        double& peak = plan.axes[i].peak_acceleration_mm_s2;
-        peak = std::max(peak, mm / (seconds * seconds));
+    /// In ascending order.
+    bool is_between_moves(Ticks at) {
+        while (next_ < leg_.moves.size() && leg_.moves[next_].begin < at) { ++next_; }
+        return at == leg_.duration || (next_ < leg_.moves.size() && leg_.moves[next_].begin == at);
     }
-}
 
-void add_move(const MachineConfig& machine, const PathMove& move, ProgramPlan& plan) {
-    if (move.lead == 0) { return; }
-    plan.moves += move.part == 0 ? 1 : 0;  // the parts are moves at constant speed
-    plan.length_mm += move.length_mm;
+    const MachineConfig& machine_;
+    double per_s_;
+    double mm_;  // per step
+    const LegPlan& leg_;
+    std::size_t next_ = 0;  // move
+};
+
+void add_leg(const MachineConfig& machine, const LegPlan& leg, ProgramPlan& plan) {
+    for (const PlannedMove& move : leg.moves) {
+        plan.moves += move.length_mm > 0 ? 1 : 0;
+        plan.length_mm += move.length_mm;
+    }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         AxisPlan& axis = plan.axes[i];
-        axis.steps += std::abs(move.to[i] - move.from[i]);
-        const double mm = to_mm(machine.axes[i], static_cast<double>(move.to[i]));
-        axis.min_mm = std::min(axis.min_mm, mm);
-        axis.max_mm = std::max(axis.max_mm, mm);
-        add_peaks(machine, move, i, axis);
+        Peaks(machine, i, leg).note(leg.axes[i], axis);
+        std::int64_t from = leg.axes[i].at({}).count();
+        for (std::size_t k = 0; k < leg.moves.size(); ++k) {
+            const std::int64_t to = leg.to(k, i);
+            const double mm = to_mm(machine.axes[i], static_cast<double>(to));
+            axis.steps += std::abs(to - from);
+            axis.min_mm = std::min(axis.min_mm, mm);
+            axis.max_mm = std::max(axis.max_mm, mm);
+            from = to;
+        }
     }
+    plan.duration += leg.duration;
 }
 
 ProgramPlan plan_at_rest(const MachineConfig& machine, const Program& program, const AxisCounts& start) {
@@ -110,22 +111,13 @@ std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine,
     auto legs = planner.plan(program, start);
     if (!legs) { return std::unexpected(legs.error()); }
     ProgramPlan plan = plan_at_rest(machine, program, start);
-    for (Leg& leg : *legs) {
+    for (const Leg& leg : *legs) {
         plan.pauses += leg.then_pause ? 1 : 0;
-        if (leg.moves.empty()) { continue; }
-        plan.paths.push_back(planner.path(std::move(leg.moves), {}));
-        plan.duration += plan.paths.back().duration().ceil();
-        const PathMove* before = nullptr;
-        for (const PathMove& move : plan.paths.back().moves) {
-            add_move(machine, move, plan);
-            if (move.part > 0) {
-                add_change(machine, *before, move, plan);
-            } else {
-                add_jump(machine, before, &move, plan);
-            }
-            before = &move;
-        }
-        add_jump(machine, before, nullptr, plan);
+        if (!leg.moves) { continue; }
+        auto planned = plan_leg(machine, program, leg);
+        if (!planned) { return std::unexpected(planned.error()); }
+        add_leg(machine, *planned, plan);
+        plan.legs.push_back(std::move(*planned));
     }
     plan.duration_s = static_cast<double>(plan.duration.value) / machine.ticks_per_second();
     return plan;

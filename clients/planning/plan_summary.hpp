@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/coordinator/path/program_plan.hpp"
+#include "clients/planning/leg_plan.hpp"
 #include "core/machine.hpp"
-#include "core/motion/path.hpp"
 #include "core/program.hpp"
 #include "idl/proto/report.pb.h"
 
@@ -20,7 +19,7 @@ struct AxisPlan {
     std::string name;
     std::int64_t steps = 0;  // both ways together
     double peak_velocity_mm_s = 0;
-    double peak_acceleration_mm_s2 = 0;  // of its phases, rising or falling
+    double peak_acceleration_mm_s2 = 0;  // of its pieces, rising or falling
     double peak_jump_mm_s = 0;           // the largest sudden change of its speed: in a corner, from and to rest
     double min_mm = 0;                   // the range of its positions, its start included
     double max_mm = 0;
@@ -29,10 +28,10 @@ struct AxisPlan {
 struct ProgramPlan {
     std::string program;
     std::vector<double> start_mm;
-    std::vector<Path> paths;  // from rest to rest; between two of them the program waits for a person
+    std::vector<LegPlan> legs;  // from rest to rest; between two of them the program waits for a person
     int moves = 0;
     int pauses = 0;
-    Ticks duration;  // of all paths, dwells included; pauses are not
+    Ticks duration;  // of all legs, dwells included; pauses are not
     double duration_s = 0;
     double length_mm = 0;  // along the path
     std::vector<AxisPlan> axes;

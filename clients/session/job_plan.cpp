@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/coordinator/path/program_plan.hpp"
+#include "clients/planning/leg_plan.hpp"
 
 namespace lockstep {
 
@@ -22,19 +22,19 @@ std::expected<double, Failure> planned_seconds(const Session& session, const Pro
     const Overrides overrides = session.state() ? session.state()->state.overrides : Overrides{};
     AxisCounts start;
     for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
-    const ProgramPlanner planner(machine);
-    auto legs = planner.plan(program, start);
+    const auto legs = ProgramPlanner(machine).plan(program, start);
     if (!legs) {
         return std::unexpected(
             bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
     }
-    double ticks = 0;
-    for (Leg& leg : *legs) {
-        if (leg.moves.empty()) { continue; }
-        ticks +=
-            static_cast<double>(planner.path(std::move(leg.moves), {}, overrides).duration().value) / kSubticksPerTick;
+    Ticks duration;
+    for (const Leg& leg : *legs) {
+        if (!leg.moves) { continue; }
+        const auto plan = plan_leg(machine, program, leg, overrides);
+        if (!plan) { return std::unexpected(bad_file(program.name, {{plan.error().line, 1, plan.error().text}})); }
+        duration += plan->duration;
     }
-    return ticks / machine.ticks_per_second();
+    return static_cast<double>(duration.value) / machine.ticks_per_second();
 }
 
 }  // namespace lockstep

@@ -89,6 +89,21 @@ void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
     frame.begin = frame.places[0];
 }
 
+std::vector<MoveBegin> FramePlanner::begins() const {
+    constexpr double kHair_mm = 1e-9;
+    std::vector<MoveBegin> begins;
+    for (const PathPhase& phase : path_.phases()) {
+        const double from = std::max(phase.begin, 0.0);
+        const double to = std::min(phase.end(), to_double(last_.ticks));
+        if (to < from) { continue; }
+        trail_.each_begin(phase.piece, [&](double u, std::uint32_t block) {
+            const bool is_in = u >= phase.along(from) - kHair_mm && u <= phase.along(to) + kHair_mm;
+            if (is_in) { begins.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
+        });
+    }
+    return begins;
+}
+
 std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
     if (!start()) { return std::nullopt; }
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

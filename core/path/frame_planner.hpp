@@ -27,6 +27,12 @@ struct PathFrame {
     std::vector<AxisTrack> axes;
 };
 
+/// When a move of the program begins, in ticks from the begin of a frame.
+struct MoveBegin {
+    std::uint32_t block = 0;
+    double at = 0;
+};
+
 /// Not even from rest a frame keeps the limits: they contradict each other.
 struct PathStuck {
     PathPlace at;
@@ -48,6 +54,8 @@ public:
     /// The path is known far enough for it.
     bool is_ready();
     bool is_done() const { return is_done_; }
+    /// The moves that begin in the frame that `next` returned last. One at its end may be named for two frames.
+    std::vector<MoveBegin> begins() const;
     /// Since begin().
     bool has_made() const { return has_made_; }
     /// The window was made anew, and no frame has been made.

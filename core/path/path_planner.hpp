@@ -56,6 +56,8 @@ public:
     /// The next frame can be made.
     bool is_ready() { return frames_.is_ready(); }
     bool is_done() const { return frames_.is_done(); }
+    /// The moves that begin in the last frame; right behind next() only.
+    std::vector<MoveBegin> begins() const { return frames_.begins(); }
     std::int64_t slowed() const { return frames_.slowed(); }
     std::int64_t braked() const { return frames_.braked(); }
     /// Intervals that wait for their frames, and pieces that are kept: what memory depends on.

@@ -4,6 +4,7 @@
 // the program only, so a place leads to the same spot in every planner that gets the same moves.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 
@@ -46,6 +47,16 @@ public:
     /// Nothing: the move has not been added. A move without a length has no spot of its own, so the next one's begin
     /// stands for it.
     std::optional<PathSpot> spot_of(const PathPlace& place) const;
+
+    /// Calls visit(u, block) for each move that begins on a piece.
+    template <typename Visit>
+    void each_begin(std::size_t piece, Visit visit) const {
+        const auto is_before = [](const Mark& mark, std::size_t number) { return mark.at.piece < number; };
+        for (auto mark = std::lower_bound(marks_.begin(), marks_.end(), piece, is_before);
+             mark != marks_.end() && mark->at.piece == piece; ++mark) {
+            if (mark->along == Displacement{}) { visit(mark->at.u, mark->block); }
+        }
+    }
 
 private:
     struct Mark {

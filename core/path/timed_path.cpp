@@ -17,6 +17,12 @@ double PathPhase::along(double t) const {
 
 double PathPhase::speed(double t) const { return v + a * std::clamp(t - begin, 0.0, ticks); }
 
+double PathPhase::time_at(double along) const {
+    const double mm = along - u;
+    const double sum = v + std::sqrt(std::max(0.0, v * v + 2 * a * mm));
+    return begin + (sum > 0 ? 2 * mm / sum : 0);
+}
+
 void TimedPath::begin(double ticks) {
     phases_.clear();
     passages_.clear();

@@ -23,6 +23,8 @@ struct PathPhase {
     /// At a time, which is taken to be within the phase: place (mm) and speed (mm per tick) along the piece.
     double along(double t) const;
     double speed(double t) const;
+    /// When it is at a place along the piece; in a rest at its begin.
+    double time_at(double along) const;
     /// Place (steps) and velocity (steps per tick) of an axis.
     double place(std::size_t i, double t) const { return shape->place(i, along(t)); }
     double velocity(std::size_t i, double t) const { return shape->slope_at(i, along(t)) * speed(t); }

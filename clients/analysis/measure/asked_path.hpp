@@ -1,4 +1,5 @@
-// The motion that a job's program commands of each axis, move by move: places in whole steps, and times as the
+// The motion that a job's program commands of each axis, move by move: places in whole steps, and times, as the
+// coordinator plans them.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/planning/leg_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
@@ -47,6 +49,8 @@ public:
     const std::vector<std::uint32_t>& moves_of(std::size_t axis) const { return moves_of_[axis]; }
 
 private:
+    void add(const LegPlan& leg);
+
     std::vector<double> mm_per_step_;   // of each axis
     std::vector<std::int64_t> counts_;  // place by place, axis by axis
     std::vector<AskedMove> moves_;      // the n-th leads from the n-th place to the next

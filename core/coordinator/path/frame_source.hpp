@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/overrides.hpp"
 #include "core/path/frame_planner.hpp"
@@ -32,6 +33,8 @@ public:
     virtual bool is_done() const = 0;
     /// Nothing: it is not ready.
     virtual std::expected<std::optional<PathFrame>, PathStuck> next() = 0;
+    /// The moves that begin in the last frame; right behind next() only.
+    virtual std::vector<MoveBegin> begins() const = 0;
     /// New overrides, from the next frame on or soon after. False: not from there, and those before still hold.
     virtual bool turn(const Overrides& overrides) = 0;
     /// About how long the path takes from a place on, without overrides.

@@ -68,9 +68,23 @@ std::expected<std::optional<PathFrame>, PathStuck> LaiFrames::next() {
         for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].body.append(pieces[i]); }
     }
     made_ += frame.ticks;
+    last_ = frame.ticks;
     frame.last = is_done();
     frame.rest = frame.last ? place_at(whole) : fill_tail(frame, at_);
     return frame;
+}
+
+std::vector<MoveBegin> LaiFrames::begins() const {
+    std::vector<MoveBegin> begins;
+    const Ticks begin = made_ - last_;
+    for (std::size_t k = path_.move_at(subticks(begin)); k < path_.moves.size(); ++k) {
+        const PathMove& move = path_.moves[k];
+        if (move.start > subticks(made_)) { break; }
+        const bool is_first = k == 0 || path_.moves[k - 1].block != move.block;
+        const double at = static_cast<double>((move.start - subticks(begin)).value) / kSubticksPerTick;
+        if (is_first && at >= 0) { begins.push_back({move.block, at}); }
+    }
+    return begins;
 }
 
 PathPlace LaiFrames::fill_tail(PathFrame& frame, std::vector<Position> at) const {

@@ -18,6 +18,7 @@ public:
     bool is_ready() override { return !is_done(); }
     bool is_done() const override { return made_ >= path_.duration().ceil(); }
     std::expected<std::optional<PathFrame>, PathStuck> next() override;
+    std::vector<MoveBegin> begins() const override;
     bool turn(const Overrides&) override { return false; }
     double seconds_from(const PathPlace& place) const override;
 
@@ -40,6 +41,7 @@ private:
     Path path_;
     PathPlace begin_;
     Ticks made_;  // of the path, in frames so far
+    Ticks last_;  // of these, the last frame
     std::vector<Position> at_;
 };
 

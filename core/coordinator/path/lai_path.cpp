@@ -12,7 +12,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 6'500'000;
 constexpr double kLeastPulses = 2;         // of start velocity per period, of acceleration per period and period
 constexpr std::int64_t kStopPeriods = 80;  // from more than so many changes of speed no tail is short enough
 
@@ -30,7 +29,7 @@ public:
                const PathBounds& bounds, LaiFollowing following)
         : limits_(limits),
           steps_per_mm_(steps_per_mm),
-          period_{kPeriod_ns / tick_ns},
+          period_{kLaiPeriod_ns / tick_ns},
           bounds_(bounds),
           published_(following == LaiFollowing::AsPublished) {}
 
@@ -154,17 +153,17 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
     if (machine.axes.size() < 2) {
         return std::unexpected(std::string("coordination LAI is for two and more axes; the machine has one"));
     }
-    if (kPeriod_ns % machine.tick_ns != 0) {
+    if (kLaiPeriod_ns % machine.tick_ns != 0) {
         return std::unexpected("coordination LAI needs a tick_ns that divides 6500000; it is " +
                                std::to_string(machine.tick_ns));
     }
     const std::int64_t least_ns = bounds_of(machine).least_move.value * machine.tick_ns;
-    if (kPeriod_ns < least_ns) {
+    if (kLaiPeriod_ns < least_ns) {
         return std::unexpected("coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " +
                                short_number(static_cast<double>(least_ns) * 1e-6) +
                                " ms; lower timing.frame_slots or timing.slot_us");
     }
-    const double period_s = static_cast<double>(kPeriod_ns) * 1e-9;
+    const double period_s = static_cast<double>(kLaiPeriod_ns) * 1e-9;
     for (const AxisConfig& axis : machine.axes) {
         const double speed = kLeastPulses / axis.steps_per_mm / period_s;
         const double acceleration = speed / period_s;
@@ -179,9 +178,9 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
 }
 
 std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
-    const double pulses = move.asked_velocity({}) * static_cast<double>(kPeriod_ns / tick_ns);
+    const double pulses = move.asked_velocity({}) * static_cast<double>(kLaiPeriod_ns / tick_ns);
     if (move.lead == 0 || pulses >= 1 - methods::kPulseHair) { return {}; }
-    const double slowest = move.mm_per_lead() / (static_cast<double>(kPeriod_ns) * 1e-9);
+    const double slowest = move.mm_per_lead() / (static_cast<double>(kLaiPeriod_ns) * 1e-9);
     return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +
                            short_number(slowest) + " mm/s here");
 }

@@ -22,6 +22,8 @@
 
 namespace lockstep {
 
+inline constexpr std::int64_t kLaiPeriod_ns = 6'500'000;
+
 /// Nothing, or what the machine lacks for moves by this method, with value, limit and remedy: two axes, frames of at
 /// most so many periods that their pieces fit, a tick that divides the period; and of every axis two pulses per period
 /// of start velocity and two per period and period of acceleration and deceleration, so that a change by one pulse

@@ -17,6 +17,7 @@ public:
     bool is_ready() override { return planner_.is_ready(); }
     bool is_done() const override { return planner_.is_done(); }
     std::expected<std::optional<PathFrame>, PathStuck> next() override { return planner_.next(); }
+    std::vector<MoveBegin> begins() const override { return planner_.begins(); }
     /// Reads as much more as deciding takes, so that the answer does not depend on what was read before.
     bool turn(const Overrides& overrides) override;
     double seconds_from(const PathPlace& place) const override;

@@ -137,9 +137,9 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
     return std::make_unique<ProgramFrames>(machine_, std::move(program), leg);
 }
 
-std::vector<PathMove> ProgramPlanner::moves(const Program& program, const Leg& leg) const {
+void ProgramPlanner::each_move(const Program& program, const Leg& leg,
+                               const std::function<void(const PathMove&)>& visit) const {
     const auto axes = axes_of(program).value();
-    std::vector<PathMove> moves;
     AxisCounts at = leg.from;
     for (std::uint32_t b = leg.first; b < leg.end; ++b) {
         const Block& block = program.blocks[b];
@@ -152,16 +152,14 @@ std::vector<PathMove> ProgramPlanner::moves(const Program& program, const Leg& l
         }
         move.line = block.line;
         move.block = b;
-        if (move.lead != 0 || move.dwell > Ticks{}) { moves.push_back(move); }
+        if (move.lead != 0 || move.dwell > Ticks{}) { visit(move); }
     }
-    return moves;
 }
 
-Path ProgramPlanner::path(std::vector<PathMove> moves, const Overrides& overrides) const {
-    if (machine_.coordination == StepMethod::Lai) {
-        return plan_lai_path(moves, {}, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
-    }
-    return plan_path(std::move(moves), {}, limits_, bounds_of(machine_), overrides);
+std::vector<PathMove> ProgramPlanner::moves(const Program& program, const Leg& leg) const {
+    std::vector<PathMove> moves;
+    each_move(program, leg, [&moves](const PathMove& move) { moves.push_back(move); });
+    return moves;
 }
 
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <expected>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,10 +48,9 @@ public:
     /// What the frames of a leg are made of. It is resumed before it makes any.
     std::unique_ptr<FrameSource> frames(std::shared_ptr<const Program> program, const Leg& leg) const;
 
-    /// The moves of a leg from whole step to whole step.
+    /// The moves of a leg from whole step to whole step, and its dwells.
+    void each_move(const Program& program, const Leg& leg, const std::function<void(const PathMove&)>& visit) const;
     std::vector<PathMove> moves(const Program& program, const Leg& leg) const;
-    /// Profiles for the moves of a leg, by the look-ahead of whole paths.
-    Path path(std::vector<PathMove> moves, const Overrides& overrides = {}) const;
 
 private:
     std::expected<std::vector<std::size_t>, PlanError> axes_of(const Program& program) const;
