@@ -82,7 +82,11 @@ std::expected<void, TakeoverDoubt> check_place(const JobRest& rest, const Progra
     for (std::size_t i = 0; i < from.size(); ++i) { square += (to[i] - from[i]) * (to[i] - from[i]); }
     const double length = std::sqrt(square);
     const double along = rest.place.along.as_steps();  // mm
-    if (along < -near_mm || along > length + near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
+    if (along < 0 || along > length + near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
+    for (std::size_t i = 0; rest.leg_done && i < from.size(); ++i) {
+        const double end = to_mm(machine.axes[i], static_cast<double>(leg.to[i]));
+        if (std::abs(to[i] - end) > near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
+    }
     const double share = rest.leg_done ? 1 : length > 0 ? along / length : 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const double off = to_mm(machine.axes[i], at[i].as_steps()) - from[i] - share * (to[i] - from[i]);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "core/coordinator/path/program_plan.hpp"
 
@@ -29,23 +30,33 @@ MachineConfig one_slow_axis() {
 }
 
 /// The axis as it says it is in a slot.
-std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumber> veto, FrameNumber ran, Position at) {
+std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumber> veto, FrameNumber ran, Position at,
+                           Epoch epoch = 1) {
     const bool rests = ran > 0;
     return {
-        {AxisState{.stamp = slot, .epoch = 1, .held = held, .veto = veto, .ran = ran, .at_rest = rests, .position = at},
+        {AxisState{.stamp = slot, .epoch = epoch, .held = held, .veto = veto, .ran = ran, .at_rest = rests, .position = at},
          slot}};
 }
 
-/// 900 mm, begun in slot 100.
-EpochRunner on_a_long_move() {
-    const MachineConfig machine = one_slow_axis();
+/// Begun in slot 100, at 0.
+EpochRunner runner_of(const MachineConfig& machine, const Program& program) {
     const ProgramPlanner planner(machine);
-    const Program program{.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
-    const auto legs = planner.plan(program, {0}).value();
+    const std::size_t axes = machine.axes.size();
+    AxisCounts start;
+    for (std::size_t i = 0; i < axes; ++i) { start.append(0); }
+    const auto legs = planner.plan(program, start).value();
     EpochRunner runner(machine);
-    runner.begin(1, planner.path(legs[0].moves, {}), {Position::steps(0)}, 100);
+    runner.load(planner.frames(std::make_shared<const Program>(program), legs[0]));
+    runner.begin(1, {legs[0].first, {}}, std::vector<Position>(axes), {});
+    (void)runner.send(100, {});
     return runner;
 }
+
+Program long_move() {
+    return {.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
+}
+
+EpochRunner on_a_long_move() { return runner_of(one_slow_axis(), long_move()); }
 
 /// With two axes nobody else is there to repeat it when the link between them breaks.
 TEST(EpochRunner, RepeatsTheLowestVetoItReceives) {
@@ -104,39 +115,134 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     EXPECT_FALSE(runner.evaluate(slot, says(slot, 20, 21, 0, {})).has_value());
 }
 
-/// 20,000 moves of 0.05 mm, begun in slot 100.
-EpochRunner on_a_path_of_20000_moves() {
-    const MachineConfig machine = one_slow_axis();
-    const ProgramPlanner planner(machine);
+Program moves_of_0_05_mm(int count) {
     Program program{.name = "many", .axes = {"X"}, .start_mm = {0}};
-    for (int line = 1; line <= 20'000; ++line) {
-        program.blocks.push_back({line, LinearMove{{0.05 * line}, 5, false}});
-    }
-    const auto legs = planner.plan(program, {0}).value();
-    EpochRunner runner(machine);
-    runner.begin(1, planner.path(legs[0].moves, {}), {Position::steps(0)}, 100);
-    return runner;
+    for (int line = 1; line <= count; ++line) { program.blocks.push_back({line, LinearMove{{0.05 * line}, 5, false}}); }
+    return program;
 }
 
-/// Planning so many moves again takes tens of milliseconds: the next frame must not wait for it.
-TEST(EpochRunner, PlansALongRestAnewOnceAFrameAndNeverWhenAFrameIsDue) {
-    EpochRunner runner = on_a_path_of_20000_moves();
-    const Slot half_a_frame = one_slow_axis().timing.frame_slots / 2;
-    Slot planned = 0;
+/// The newest overrides, once behind each frame.
+TEST(EpochRunner, TurnsOnceBehindEachFrameToTheNewestOverrides) {
+    EpochRunner runner = runner_of(one_slow_axis(), moves_of_0_05_mm(20'000));
     std::vector<FrameNumber> behind;
-    for (Slot slot = 100; slot < 150; ++slot) {
+    runner.read_ahead();
+    for (Slot slot = 101; slot < 151; ++slot) {
         runner.turn({50 + static_cast<int>(slot - 100), 100});  // each slot another
-        const bool sends = !runner.send(slot, says(slot, runner.sent(), {}, 0, {})).empty();
-        if (sends) { EXPECT_GT(slot - planned, half_a_frame) << "slot " << slot; }
+        (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {}));
         if (const auto turn = runner.take_turn()) {
-            EXPECT_FALSE(sends) << "slot " << slot;
-            EXPECT_EQ(turn->overrides.feed_percent, 50 + slot - 100) << "the newest counts";
+            EXPECT_EQ(turn->overrides.feed_percent, 50 + slot - 100);
+            EXPECT_EQ(turn->behind + 1, runner.sent());
             behind.push_back(turn->behind);
-            planned = slot;
         }
     }
     EXPECT_GE(behind.size(), 6u);
-    EXPECT_EQ(std::ranges::adjacent_find(behind), behind.end()) << "once behind each frame";
+    EXPECT_EQ(std::ranges::adjacent_find(behind), behind.end());
+}
+
+/// Frames that become known when the test says so.
+class LateFrames final : public FrameSource {
+public:
+    LateFrames(std::unique_ptr<FrameSource> frames, const bool& is_known)
+        : frames_(std::move(frames)), known_(&is_known) {}
+    LateFrames(const LateFrames& other) : frames_(other.frames_), known_(other.known_) {}
+    std::unique_ptr<FrameSource> clone() const override { return std::make_unique<LateFrames>(*this); }
+    void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override {
+        frames_->resume(place, at, overrides);
+    }
+    void read() override { frames_->read(); }
+    bool is_ready() override { return *known_ && frames_->is_ready(); }
+    bool is_done() const override { return frames_->is_done(); }
+    std::expected<std::optional<PathFrame>, PathStuck> next() override {
+        if (!*known_) { return std::nullopt; }
+        return frames_->next();
+    }
+    std::vector<MoveBegin> begins() const override { return frames_->begins(); }
+    bool turn(const Overrides& overrides) override { return frames_->turn(overrides); }
+    double seconds_from(const PathPlace& place) const override { return frames_->seconds_from(place); }
+
+private:
+    OwnedSource frames_;
+    const bool* known_;
+};
+
+class LatePlanner : public testing::Test {
+protected:
+    LatePlanner() : runner(machine) {
+        const ProgramPlanner planner(machine);
+        const auto legs = planner.plan(program, {0}).value();
+        auto frames = planner.frames(std::make_shared<const Program>(program), legs[0]);
+        runner.load(OwnedSource(std::make_unique<LateFrames>(std::move(frames), is_known)));
+        runner.begin(1, {0, {}}, {Position{}}, {});
+    }
+    /// Slot by slot, up to this one. Returns where the last frame rests.
+    void go_on(Slot until) {
+        for (; slot < until; ++slot) {
+            for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+                Position at = frame.axes[0].from;
+                for (const Piece& piece : frame.axes[0].body) { at = at + piece.covered(); }
+                for (const Piece& piece : frame.axes[0].tail) { at = at + piece.covered(); }
+                if (frame.number == runner.sent()) { rest = at; }
+            }
+        }
+    }
+
+    MachineConfig machine = one_slow_axis();
+    Program program = moves_of_0_05_mm(2'000);
+    bool is_known = false;
+    EpochRunner runner;
+    Slot slot = 100;
+    Position rest;
+};
+
+TEST_F(LatePlanner, StartsWhenItsFirstFrameIsKnown) {
+    go_on(200);
+    EXPECT_FALSE(runner.start());
+    EXPECT_EQ(runner.sent(), 0u);
+    EXPECT_FALSE(runner.evaluate(slot, says(slot, 0, {}, 0, {})));
+    is_known = true;
+    go_on(201);
+    ASSERT_TRUE(runner.start());
+    EXPECT_GT(rules::slot_of(*runner.start(), machine.slot_ticks()), 200 + machine.timing.send_ahead_slots);
+    EXPECT_FALSE(runner.was_late());
+}
+
+TEST_F(LatePlanner, IsInterruptedBeforeItsFirstFrameWhereItBegins) {
+    go_on(150);
+    runner.stop(slot);
+    const auto end = runner.evaluate(slot, says(slot, 0, {}, 0, {}));
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->kind, EpochEnd::Kind::Interrupted);
+    EXPECT_EQ(end->place, (PathPlace{0, {}}));
+}
+
+TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
+    is_known = true;
+    go_on(1000);
+    const FrameNumber ran = runner.sent();
+    is_known = false;
+    go_on(1100);
+    EXPECT_EQ(runner.sent(), ran) << "no frame is made up";
+    EXPECT_TRUE(runner.was_late());
+    slot += 1000;
+    const auto end = runner.evaluate(slot, says(slot, ran, ran + 1, ran, rest));
+    ASSERT_TRUE(end);
+    ASSERT_EQ(end->kind, EpochEnd::Kind::Interrupted);
+    EXPECT_GT(end->place.block, 10u);
+    EXPECT_NEAR(rest.as_steps(), 5.0 * end->place.block + 100 * end->place.along.as_steps(), 1e-6);
+
+    is_known = true;
+    runner.begin(2, end->place, end->positions, {});
+    bool is_done = false;
+    for (const Slot last = slot + 40'000; slot < last && !is_done; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}, 2))) {
+            is_done = frame.last;
+            if (frame.number == 1) { EXPECT_EQ(frame.axes[0].from, rest); }
+            rest = frame.axes[0].from;
+            for (const Piece& piece : frame.axes[0].body) { rest = rest + piece.covered(); }
+        }
+    }
+    EXPECT_TRUE(is_done);
+    EXPECT_EQ(rest.count(), 10'000);
 }
 
 /// Three axes after frame 3 of a move of the first, which was stopped behind it.
@@ -152,12 +258,7 @@ protected:
         machine.axes[2].name = "Z";
         return machine;
     }
-    EndOfEpoch() : runner(machine()) {
-        const ProgramPlanner planner(machine());
-        const Program program{
-            .name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
-        const auto legs = planner.plan(program, {0, 0, 0}).value();
-        runner.begin(1, planner.path(legs[0].moves, {}), std::vector<Position>(3), 100);
+    EndOfEpoch() : runner(runner_of(machine(), long_move())) {
         axes.assign(3, says(100, 0, {}, 0, {})[0]);
         Position rest;
         for (; runner.sent() < kRan; ++slot) {

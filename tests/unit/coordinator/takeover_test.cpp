@@ -1,4 +1,5 @@
 // What a new owner makes of the job of the one before it: what is left, or why it does not go on.
+// A place is so many mm along a block.
 #include "core/coordinator/jobs/takeover.hpp"
 
 #include <gtest/gtest.h>
@@ -30,14 +31,13 @@ protected:
 
     RestOfJob() {
         program.blocks = {{1, LinearMove{{30, 20}, 20, false}}, {2, LinearMove{{60, 20}, 20, false}}};
-        rest_at(Displacement::steps(1000));
+        rest_at(10);
     }
-    /// Of the program's move, both axes rest where the path is when its lead axis has gone so far.
-    void rest_at(Displacement along, std::size_t move = 0) {
-        const auto legs = ProgramPlanner(machine).plan(program, {1000, 2000}).value();
-        const PathMove& at = legs[0].moves[move];
-        std::vector<Position> positions{at.axis_at(0, along), at.axis_at(1, along)};
-        last.rests = {{kRan, {at.block, along}, false, digest_of(positions)}};
+    /// Both axes rest where the path is, so many mm along a block.
+    void rest_at(double along_mm, std::uint32_t block = 0) {
+        const double x = block == 0 ? 10 + along_mm : 30 + along_mm;
+        const std::vector<Position> positions{{static_cast<Int128>(x * 100 * 0x1p64)}, Position::steps(2000)};
+        last.rests = {{kRan, {block, mm(along_mm)}, false, digest_of(positions)}};
         axes.clear();
         for (std::uint32_t i = 0; i < 2; ++i) {
             axes.push_back({.state = AxisState{.axis = i,
@@ -48,6 +48,7 @@ protected:
                                                .position = positions[i]}});
         }
     }
+    static Displacement mm(double way) { return {static_cast<Int128>(way * 0x1p64)}; }
     AxisState& y() { return *axes[1].state; }
     std::expected<JobRest, TakeoverDoubt> rest() const { return rest_of_job(last, program, machine, axes); }
     TakeoverDoubt doubt() const {
@@ -65,30 +66,26 @@ TEST_F(RestOfJob, GoesOnFromTheMiddleOfAMove) {
     const auto found = rest();
     ASSERT_TRUE(found.has_value());
     EXPECT_FALSE(found->leg_done);
-    EXPECT_EQ(found->remaining.size(), 2u);
-    EXPECT_EQ(found->place.along, Displacement::steps(1000));
+    EXPECT_EQ(found->place, (PathPlace{0, mm(10)}));
     EXPECT_EQ(found->positions.size(), 2u);
     EXPECT_EQ(found->positions[0].count(), 2000);
 }
 
-TEST_F(RestOfJob, LeavesOutAMoveThatIsDone) {
-    rest_at(Displacement::steps(2000));
+TEST_F(RestOfJob, GoesOnAtTheEndOfAMove) {
+    rest_at(20);
     const auto found = rest();
     ASSERT_TRUE(found.has_value());
-    ASSERT_EQ(found->remaining.size(), 1u);
-    EXPECT_EQ(found->remaining[0].line, 2);
-    EXPECT_EQ(found->place.along, Displacement{});
-    EXPECT_EQ(found->place.block, found->remaining[0].block);
+    EXPECT_EQ(found->place, (PathPlace{0, mm(20)}));
+    EXPECT_EQ(found->positions[0].count(), 3000);
 }
 
 TEST_F(RestOfJob, IsOnlyTheEndOfTheLegBehindItsLastFrame) {
-    rest_at(Displacement::steps(3000), 1);
+    rest_at(30, 1);
     last.rests[0].last = true;
     const auto found = rest();
     ASSERT_TRUE(found.has_value());
     EXPECT_TRUE(found->leg_done);
-    EXPECT_TRUE(found->remaining.empty());
-    rest_at(Displacement::steps(2000));
+    rest_at(20);
     last.rests[0].last = true;
     EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan) << "the last frame ends a leg, and another move follows";
 }
@@ -113,7 +110,7 @@ TEST_F(RestOfJob, IsInDoubtWhenTheAxesRanOtherFramesOrUnreceivedOnes) {
     EXPECT_EQ(doubt(), TakeoverDoubt::FramesDiffer);
     axes[0].state->ran = kRan - 1;
     EXPECT_EQ(doubt(), TakeoverDoubt::UnreceivedFrames) << "where that frame ends was not received";
-    rest_at(Displacement::steps(1000));
+    rest_at(10);
     y().epoch = kEpoch + 1;
     EXPECT_EQ(doubt(), TakeoverDoubt::UnreceivedFrames);
     y().epoch = kEpoch - 1;
@@ -123,7 +120,7 @@ TEST_F(RestOfJob, IsInDoubtWhenTheAxesRanOtherFramesOrUnreceivedOnes) {
 TEST_F(RestOfJob, IsInDoubtWhereThePlaceIsNotOnTheProgram) {
     last.rests[0].place.along = Displacement{-1};
     EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan);
-    last.rests[0].place.along = Displacement::steps(2000) + Displacement{1};
+    last.rests[0].place.along = mm(20.1);  // three steps are 0.03 mm
     EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan);
     last.rests[0].place = {77, {}};
     EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan);
@@ -145,20 +142,20 @@ TEST_F(RestOfJob, TakesThePositionOfAnAxisThatTheProgramDoesNotName) {
     program.axes = {"X"};
     program.start_mm = {10};
     program.blocks = {{1, LinearMove{{30}, 20, false}}};
-    rest_at(Displacement::steps(1000));
+    rest_at(10);
     EXPECT_TRUE(rest().has_value());
-    EXPECT_EQ(rest()->legs[0].moves[0].from[1], 2000);
+    EXPECT_EQ(rest()->legs[0].from[1], 2000);
 }
 
 TEST_F(RestOfJob, BeforeItsFirstFrameStartsOnWholeSteps) {
-    rest_at({});
+    rest_at(0);
     last.rests[0].frame = 0;
     for (AxisView& axis : axes) { axis.state->ran = 0; }
     last.rests[0].digest += 1;  // of the exact places the owner set out from
     const auto found = rest();
     ASSERT_TRUE(found.has_value());
     EXPECT_TRUE(found->positions.empty());
-    EXPECT_EQ(found->remaining.size(), 2u);
+    EXPECT_EQ(found->place, (PathPlace{0, {}}));
 }
 
 TEST(TakeoverDoubtText, NamesEachDoubt) {
