@@ -15,7 +15,7 @@ LaiFrames::LaiFrames(const MachineConfig& machine, std::vector<PathMove> moves)
 
 void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, const Overrides&) {
     const Spot spot = spot_of(place);
-    begin_ = place;
+    passed_ = {place.block, place.along - spot.along};
     const std::vector<PathMove> left(path_.moves.begin() + static_cast<std::ptrdiff_t>(spot.move), path_.moves.end());
     path_ = left.empty()
                 ? Path{}

@@ -28,8 +28,8 @@ private:
         Displacement along;
     };
 
-    /// The way along a block that is no part of the path any more: it was made before the path was planned again.
-    Displacement before(std::uint32_t block) const { return block == begin_.block ? begin_.along : Displacement{}; }
+    /// The way along a block up to the first part of it that is left.
+    Displacement before(std::uint32_t block) const { return block == passed_.block ? passed_.along : Displacement{}; }
     Spot spot_of(const PathPlace& place) const;
     PathPlace place_of(const PathMove& move, Displacement along) const;
     PathPlace place_at(Ticks t) const;
@@ -39,7 +39,7 @@ private:
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
     Path path_;
-    PathPlace begin_;
+    PathPlace passed_;
     Ticks made_;  // of the path, in frames so far
     Ticks last_;  // of these, the last frame
     std::vector<Position> at_;
