@@ -1,0 +1,55 @@
+// The planned motion of one leg, from the frames that the coordinator makes of it.
+#pragma once
+
+#include <vector>
+
+#include "core/coordinator/path/program_plan.hpp"
+#include "core/step/segment.hpp"
+
+namespace lockstep {
+
+/// The pieces of an axis in order. Times count from the leg's begin.
+class AxisMotion {
+public:
+    struct TimedPiece {
+        Ticks begin;
+        Position from;
+        Piece piece;
+    };
+
+    explicit AxisMotion(Position from) : to_(from) {}
+    void add(const Piece& piece);
+
+    const std::vector<TimedPiece>& pieces() const { return pieces_; }
+    Position at(Ticks t) const;
+
+private:
+    std::vector<TimedPiece> pieces_;
+    Position to_;
+    Ticks end_;
+};
+
+/// A move of the program, or a dwell.
+struct PlannedMove {
+    std::int32_t line = 0;
+    std::uint32_t block = 0;
+    double length_mm = 0;  // 0: a dwell
+    Ticks begin;           // until the next one begins
+};
+
+struct LegPlan {
+    std::vector<PlannedMove> moves;
+    std::vector<AxisMotion> axes;
+    Ticks duration;
+
+    Ticks end(std::size_t move) const { return move + 1 < moves.size() ? moves[move + 1].begin : duration; }
+    /// Where an axis is when a move begins, and when it ends: on a joined path less than a step from the program's place.
+    std::int64_t from(std::size_t move, std::size_t axis) const { return axes[axis].at(moves[move].begin).count(); }
+    std::int64_t to(std::size_t move, std::size_t axis) const { return axes[axis].at(end(move)).count(); }
+};
+
+/// Error: the axes' limits contradict each other.
+std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const Program& program, const Leg& leg,
+                                           const Overrides& overrides = {});
+
+}  // namespace lockstep
