@@ -3,6 +3,7 @@
 
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
+#include "tests/simulation/simtest/record/follow.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -39,10 +40,14 @@ Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
 /// The steps of one axis in one job.
 class LimitCheck {
 public:
-    LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, Violations& violations)
+    /// `following`: none while homing.
+    LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, const Following* following,
+               Violations& violations)
         : limits_(in_ticks(recording.machine.axes[axis], recording.machine)),
           steps_(recording.steps_of(job, axis)),
-          course_(job.homing ? nullptr : &job.course.axes[axis]),
+          course_(job.course),
+          at_(following == nullptr ? nullptr : &following->at_step[axis]),
+          end_(following == nullptr ? Reached{} : following->end),
           // Between two epochs, and between two moves of an axis on its own, the axis rests at least this long.
           least_rest_((job.homing ? 1 : recording.machine.timing.send_ahead_slots) *
                       recording.machine.slot_ticks().value),
@@ -51,10 +56,7 @@ public:
           rounding_(own_clock(recording.machine).rounding),
           hurry_(own_clock(recording.machine).hurry),
           ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
-          violations_(violations) {
-        // Another check covers steps beyond the course.
-        if (course_ != nullptr) { steps_ = steps_.first(std::min(steps_.size(), course_->move_of_step.size())); }
-    }
+          violations_(violations) {}
 
     void check() {
         for (std::size_t begin = 0; begin < steps_.size();) {
@@ -66,22 +68,22 @@ public:
     }
 
 private:
+    /// Behind a pause, too, it rests as long.
     bool may_rest_before(std::size_t n) const {
-        const bool pause = course_ != nullptr && course_->pause_in_gap[n];
-        const bool turns = course_ == nullptr && steps_[n].direction != steps_[n - 1].direction;
-        return pause || turns || (steps_[n].tick - steps_[n - 1].tick).value >= least_rest_;
+        const bool turns = at_ == nullptr && steps_[n].direction != steps_[n - 1].direction;
+        return turns || (steps_[n].tick - steps_[n - 1].tick).value >= least_rest_;
     }
 
-    std::uint32_t joints(std::size_t first_gap, std::size_t last_gap) const {
-        return course_ == nullptr ? 0 : course_->joints_in(first_gap, last_gap);
+    /// Between two steps.
+    std::size_t joints(std::size_t from, std::size_t to) const {
+        return at_ == nullptr ? 0 : course_.joints(axis_, (*at_)[from].first, (*at_)[to].last);
     }
 
     /// The joints between a rest in this gap and the step beside it. The start and the end of a motion are not joints.
-    double joints_beside_rest(std::size_t gap) const {
-        if (course_ == nullptr) { return 0; }
-        const bool edge = gap == 0 || gap == course_->move_of_step.size();
-        const std::uint32_t n = joints(gap, gap) - (edge ? 1 : 0);
-        return course_->pause_in_gap[gap] && n >= 2 ? n - 2 : n;
+    std::size_t joints_beside_rest(std::size_t gap) const {
+        if (at_ == nullptr) { return 0; }
+        const double from = gap == 0 ? 0 : (*at_)[gap - 1].first;
+        return course_.joints(axis_, from, gap == steps_.size() ? end_.last : (*at_)[gap].last);
     }
 
     double time(std::size_t from, std::size_t to) const {
@@ -106,19 +108,22 @@ private:
     }
 
     void check_speed(std::size_t n, std::size_t m) {
-        if (joints(n + 1, n + m) > 0) { return; }
-        const double feed =
-            course_ == nullptr ? limits_.top : course_->fastest[course_->move_of_step[n]] * kRounding * hurry_;
-        const double most = std::min(limits_.top, feed);
+        if (joints(n, n + m) > 0) { return; }
+        const double most = std::min(limits_.top, at_ == nullptr ? limits_.top : feed(n) * kRounding * hurry_);
         const double speed = static_cast<double>(m) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
+    }
+
+    double feed(std::size_t n) const {
+        const auto last = static_cast<std::size_t>((*at_)[n].last);
+        return course_.stretches[std::min(last, course_.stretches.size() - 1)].fastest[axis_];
     }
 
     void check_change(std::size_t n, std::size_t m) {
         const double t1 = time(n - m, n);
         const double t2 = time(n, n + m);
         const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
-        const std::uint32_t jumps = joints(n - m + 1, n + m);
+        const std::size_t jumps = joints(n - m, n + m);
         if (jumps > 0) { return check_change_with_joints(n, m, between, jumps); }
         const auto steps = static_cast<double>(m);
         const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
@@ -129,7 +134,7 @@ private:
         if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
 
-    void check_change_with_joints(std::size_t n, std::size_t m, double between, std::uint32_t jumps) {
+    void check_change_with_joints(std::size_t n, std::size_t m, double between, std::size_t jumps) {
         struct Mean {
             double low, high;
         };
@@ -142,14 +147,14 @@ private:
         const Mean before = mean(n - m, n);
         const Mean after = mean(n, n + m);
         const double change = std::max(after.low - before.high, before.low - after.high);
-        const double most = std::max(limits_.accel, limits_.decel) * between + jumps * limits_.start;
+        const double most = std::max(limits_.accel, limits_.decel) * between + static_cast<double>(jumps) * limits_.start;
         if (change > most) { object("sudden change", n, change, most, m); }
     }
 
     /// The first crossing is at most one step from the position of rest. An axis that did not rest, but moved slowly,
     /// can have accelerated over one step.
     double speed_beside_rest(std::size_t gap, double rate) const {
-        const double joined = joints_beside_rest(gap) * limits_.start;
+        const double joined = static_cast<double>(joints_beside_rest(gap)) * limits_.start;
         const bool between = gap > 0 && gap < steps_.size();
         const double slow = between ? 1 / (time(gap - 1, gap) - rounding_) : 0;
         const double slowest = std::max(limits_.start, slow);
@@ -162,7 +167,7 @@ private:
         check_ramp("stop", last - m, last, m, speed_beside_rest(end_gap, limits_.decel), limits_.decel);
     }
     void check_ramp(const char* rule, std::size_t from, std::size_t at, std::size_t m, double speed, double rate) {
-        if (joints(from + 1, from + m) > 0) { return; }
+        if (joints(from, from + m) > 0) { return; }
         const double t = time(from, from + m) + rounding_;
         const double mean = static_cast<double>(m) / t;
         const double most = speed + rate * (t / 2 + kJointTicks);
@@ -180,7 +185,9 @@ private:
 
     Limits limits_;
     std::span<const StepEdge> steps_;
-    const AxisCourse* course_;
+    const Course& course_;
+    const std::vector<Reached>* at_;  // by step; null: homing
+    Reached end_;
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
@@ -194,8 +201,13 @@ private:
 
 Violations check_limits(const Recording& recording) {
     Violations violations;
+    const auto epochs = epoch_runs(recording);
     for (const JobRecord& job : recording.jobs) {
-        for (std::size_t i = 0; i < recording.axes.size(); ++i) { LimitCheck(recording, job, i, violations).check(); }
+        std::optional<Following> following;
+        if (!job.homing) { following = follow(recording, job, bound_until(recording, epochs, job)); }
+        for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+            LimitCheck(recording, job, i, following ? &*following : nullptr, violations).check();
+        }
     }
     return violations;
 }

@@ -7,20 +7,23 @@
 
 namespace lockstep::simtest {
 
-/// Exact: the steps of a job are those of its program, in order, without extra steps. A completed job has made all of
-/// them. Starting at rest at power-up, the steps add up.
+/// Exact: the steps of a completed job lead to its program's end, and no step is outside of a job. Starting at rest at
+/// power-up, the steps add up.
 Violations check_counts(const Recording& recording);
 
 /// Within limits: a motion exists within the axis's speed, acceleration, deceleration and sudden change whose
 /// half-step crossings are all within the tick before their step.
 ///
 /// For any two adjacent windows of steps, the mean speeds differ by at most a times the time between
-/// their middles, plus one start velocity for each joint of moves in them. The mean of a window is computed with its
+/// their middles, plus one start velocity for each joint of moves that
+/// can be in them. The mean of a window is computed with its
 /// time one tick longer or shorter. All windows of 1, 4, 16 ... steps are checked; rests with v^2 = v0^2 + 2 a s.
 Violations check_limits(const Recording& recording);
 
-/// Together: at every step there is a place on the program's path such that no axis is more than half a step from it.
-/// Half a step is the error of rounding a place on the path to whole steps.
+/// Together: at every step there is a place on the program's path, never before the one of the step before, such that
+/// no axis is more than one step from it: half of it is the error of rounding a place to whole steps. Moves between
+/// sharp corners are not joined with others: there no axis is more than this half and 0.04 step from it. A completed
+/// job has come to the path's end. Rests are on whole steps.
 Violations check_together(const Recording& recording);
 
 /// Frames: every axis ran the same frames of each epoch and the same tail, in order, each once, at the time they were

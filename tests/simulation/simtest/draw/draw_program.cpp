@@ -43,7 +43,7 @@ private:
             case 1: return anywhere();
             case 2: return reversal();
             case 3: return single_steps();
-            case 4: return polyline();
+            case 4: return draw_.chance(0.5) ? polyline() : dense_curve();
             case 5: return zigzag();
             case 6: return from_end_to_end();
             case 7: return add(Dwell{draw_.chance(0.3) ? 1e-6 : draw_.magnitude(1e-4, 0.2)});
@@ -83,6 +83,22 @@ private:
         const bool rapid = draw_.chance(0.3);
         double heading = draw_.real(0, 2 * std::numbers::pi);
         for (std::int64_t n = draw_.whole(5, 40); n > 0; --n, heading += bend) {
+            std::vector<double> to = at_;
+            to[a] = inside(a, to[a] + chord * step_mm(a) * std::cos(heading));
+            to[b] = inside(b, to[b] + chord * step_mm(b) * std::sin(heading));
+            move(to, rapid);
+        }
+    }
+
+    /// A smooth curve of two axes, or a line, cut into chords of a fraction of a step and more.
+    void dense_curve() {
+        const std::size_t a = draw_.index(at_.size());
+        const std::size_t b = draw_.index(at_.size());
+        const double chord = draw_.magnitude(0.1, 30);
+        const double bend = draw_.chance(0.3) ? 0 : draw_.real(-0.1, 0.1);
+        const bool rapid = draw_.chance(0.3);
+        double heading = draw_.real(0, 2 * std::numbers::pi);
+        for (std::int64_t n = draw_.whole(50, 1500); n > 0 && seconds_ < kProgramSeconds; --n, heading += bend) {
             std::vector<double> to = at_;
             to[a] = inside(a, to[a] + chord * step_mm(a) * std::cos(heading));
             to[b] = inside(b, to[b] + chord * step_mm(b) * std::sin(heading));

@@ -6,106 +6,139 @@
 namespace lockstep::simtest {
 namespace {
 
-/// A move, a dwell or a pause, in steps of the machine's axes.
-struct Stretch {
-    Counts to;
-    double feed_mm_s = 0;  // 0: none
-    double seconds = 0;    // of a dwell
-    bool pause = false;
-};
+constexpr double kExactly = 0.5 + 0.04;  // steps: whole pulses, and what pieces of constant acceleration leave
+constexpr double kSharp = 0.9;           // cosine: at greater angles of the directions moves are not joined,
+constexpr double kLong_mm = 0.1;         // if both are so long
 
-std::vector<Stretch> stretches_of(const Program& program, const MachineConfig& machine, Counts at) {
-    std::vector<Stretch> stretches;
-    for (const Block& block : program.blocks) {
-        Stretch stretch{.to = at};
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) {
-            for (std::size_t i = 0; i < program.axes.size(); ++i) {
-                for (std::size_t a = 0; a < machine.axes.size(); ++a) {
-                    if (machine.axes[a].name == program.axes[i]) {
-                        stretch.to[a] = nearest_step(machine.axes[a], move->target_mm[i]);
-                    }
-                }
-            }
-            if (stretch.to == at) { continue; }
-            stretch.feed_mm_s = move->rapid ? 0 : move->feed_mm_s;
-        } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
-            stretch.seconds = dwell->seconds;
-        } else {
-            stretch.pause = true;
-        }
-        at = stretch.to;
-        stretches.push_back(stretch);
-    }
-    return stretches;
-}
-
-double length_mm(const MachineConfig& machine, const Counts& from, const Counts& to) {
+double length_mm(const MachineConfig& machine, const Places& from, const Places& to) {
     double square = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-        const double mm = static_cast<double>(to[i] - from[i]) / machine.axes[i].steps_per_mm;
+        const double mm = (to[i] - from[i]) / machine.axes[i].steps_per_mm;
         square += mm * mm;
     }
     return std::sqrt(square);
 }
 
-/// An upper bound for a move from rest to rest. At a corner an axis keeps at least half its start velocity, or the
-/// speed that its acceleration allows over this distance; the slowest axis counts.
-double ample_seconds(const MachineConfig& machine, const Counts& from, const Stretch& stretch) {
-    double seconds = stretch.seconds;
-    const double length = length_mm(machine, from, stretch.to);
-    if (stretch.feed_mm_s > 0) { seconds += length / stretch.feed_mm_s; }
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const AxisConfig& axis = machine.axes[i];
-        const double mm = std::abs(static_cast<double>(stretch.to[i] - from[i]) / axis.steps_per_mm);
-        const double ramps = axis.max_velocity_mm_s * (1 / axis.max_accel_mm_s2 + 1 / axis.max_decel_mm_s2);
-        const double slowest = std::min(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
-        const double corners = 4 * mm / axis.start_velocity_mm_s + 4 * std::sqrt(mm / slowest);
-        seconds += mm == 0 ? 0 : mm / axis.max_velocity_mm_s + std::min(ramps, corners);
-    }
-    return 2 * seconds;
-}
+class CourseMaker {
+public:
+    CourseMaker(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed)
+        : program_(program), machine_(machine), most_feed_(most_feed), at_(from.begin(), from.end()), course_{.from = from} {}
 
-/// Indexes the moves by step and by gap.
-void index_steps(AxisCourse& axis, const std::vector<Stretch>& stretches) {
-    const auto steps = static_cast<std::size_t>(axis.steps());
-    axis.move_of_step.resize(steps);
-    std::vector<std::uint32_t> joints(steps + 1);
-    axis.pause_in_gap.assign(steps + 1, false);
-    for (std::size_t j = 0; j <= stretches.size(); ++j) {
-        const auto gap = static_cast<std::size_t>(axis.travelled[j]);
-        const bool moved = j > 0 && axis.direction[j - 1] != 0;
-        const bool moves = j < stretches.size() && axis.direction[j] != 0;
-        joints[gap] += moved || moves ? 1 : 0;
-        if (j == stretches.size()) { break; }
-        if (stretches[j].pause) { axis.pause_in_gap[gap] = true; }
-        std::fill(axis.move_of_step.begin() + axis.travelled[j], axis.move_of_step.begin() + axis.travelled[j + 1],
-                  static_cast<std::uint32_t>(j));
-    }
-    axis.joints_before.resize(steps + 1);
-    std::uint32_t sum = 0;
-    for (std::size_t gap = 0; gap <= steps; ++gap) { axis.joints_before[gap] = sum += joints[gap]; }
-}
-
-AxisCourse axis_course(const MachineConfig& machine, std::size_t axis, Counts from,
-                       const std::vector<Stretch>& stretches, double most_feed) {
-    AxisCourse course;
-    course.travelled.push_back(0);
-    const double per_tick = machine.axes[axis].steps_per_mm * static_cast<double>(machine.tick_ns) * 1e-9;
-    for (const Stretch& stretch : stretches) {
-        const std::int64_t steps = stretch.to[axis] - from[axis];
-        double mm_s = machine.axes[axis].max_velocity_mm_s;
-        if (stretch.feed_mm_s > 0) {
-            const double mm = std::abs(static_cast<double>(steps)) / machine.axes[axis].steps_per_mm;
-            mm_s = std::min(mm_s, most_feed * stretch.feed_mm_s * mm / length_mm(machine, from, stretch.to));
+    Course take() {
+        for (const Block& block : program_.blocks) { std::visit([this](const auto& a) { add(a); }, block.action); }
+        come_to_rest();
+        for (const double place : at_) { course_.to.push_back(std::llround(place)); }
+        for (std::size_t k = 0; k < course_.stretches.size(); ++k) { course_.stretches[k].within = within(k); }
+        Places from(course_.from.begin(), course_.from.end());
+        for (const Stretch& stretch : course_.stretches) {
+            course_.seconds += ample_seconds(from, stretch);
+            from = stretch.to;
         }
-        course.travelled.push_back(course.travelled.back() + std::abs(steps));
-        course.direction.push_back(static_cast<std::int8_t>(steps == 0 ? 0 : (steps > 0 ? 1 : -1)));
-        course.fastest.push_back(mm_s * per_tick);
-        from = stretch.to;
+        limit();
+        return std::move(course_);
     }
-    index_steps(course, stretches);
-    return course;
-}
+
+private:
+    void add(const LinearMove& move) {
+        Stretch stretch{.to = at_};
+        for (std::size_t i = 0; i < program_.axes.size(); ++i) {
+            for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
+                const AxisConfig& axis = machine_.axes[a];
+                if (axis.name != program_.axes[i]) { continue; }
+                stretch.to[a] = std::clamp(move.target_mm[i] * axis.steps_per_mm,
+                                           static_cast<double>(nearest_step(axis, axis.position_min_mm)),
+                                           static_cast<double>(nearest_step(axis, axis.position_max_mm)));
+            }
+        }
+        if (stretch.to == at_) { return; }
+        feed_.push_back(move.rapid ? 0 : move.feed_mm_s);
+        at_ = stretch.to;
+        course_.stretches.push_back(std::move(stretch));
+    }
+    void add(const Dwell& dwell) {
+        come_to_rest();
+        course_.stretches.push_back({.to = at_, .seconds = dwell.seconds, .rests = true});
+        feed_.push_back(0);
+    }
+    void add(const Pause&) {
+        come_to_rest();
+        course_.stretches.push_back({.to = at_, .rests = true, .pauses = true});
+        feed_.push_back(0);
+        ++course_.pauses;
+    }
+
+    /// The machine rests on whole steps.
+    void come_to_rest() {
+        for (double& place : at_) { place = std::round(place); }
+        if (!course_.stretches.empty()) { course_.stretches.back().to = at_; }
+    }
+
+    Places start_of(std::size_t k) const {
+        return k == 0 ? Places(course_.from.begin(), course_.from.end()) : course_.stretches[k - 1].to;
+    }
+
+    bool is_sharp(std::size_t k) const {
+        if (k == 0 || k == course_.stretches.size()) { return true; }
+        if (course_.stretches[k - 1].rests || course_.stretches[k].rests) { return true; }
+        const Places a = start_of(k - 1);
+        const Places& b = course_.stretches[k - 1].to;
+        const Places& c = course_.stretches[k].to;
+        const double before = length_mm(machine_, a, b);
+        const double behind = length_mm(machine_, b, c);
+        double product = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            const double scale = machine_.axes[i].steps_per_mm;
+            product += (b[i] - a[i]) * (c[i] - b[i]) / scale / scale;
+        }
+        return before > kLong_mm && behind > kLong_mm && product < kSharp * before * behind;
+    }
+    double within(std::size_t k) const {
+        return course_.stretches[k].rests || (is_sharp(k) && is_sharp(k + 1)) ? kExactly : 1;
+    }
+
+    /// An upper bound for a move from rest to rest. At a corner an axis keeps at least half its start velocity, or the
+    /// speed that its acceleration allows over this distance; the slowest axis counts.
+    double ample_seconds(const Places& from, const Stretch& stretch) {
+        const double feed = feed_[static_cast<std::size_t>(&stretch - course_.stretches.data())];
+        double seconds = stretch.seconds;
+        const double length = length_mm(machine_, from, stretch.to);
+        if (feed > 0) { seconds += length / feed; }
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            const AxisConfig& axis = machine_.axes[i];
+            const double mm = std::abs((stretch.to[i] - from[i]) / axis.steps_per_mm);
+            const double ramps = axis.max_velocity_mm_s * (1 / axis.max_accel_mm_s2 + 1 / axis.max_decel_mm_s2);
+            const double slowest = std::min(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
+            const double corners = 4 * mm / axis.start_velocity_mm_s + 4 * std::sqrt(mm / slowest);
+            seconds += mm == 0 ? 0 : mm / axis.max_velocity_mm_s + std::min(ramps, corners);
+        }
+        return 2 * seconds;
+    }
+
+    /// Speeds of each axis, when all places are known.
+    void limit() {
+        for (std::size_t k = 0; k < course_.stretches.size(); ++k) {
+            const Places from = start_of(k);
+            Stretch& stretch = course_.stretches[k];
+            const double length = length_mm(machine_, from, stretch.to);
+            for (std::size_t i = 0; i < from.size(); ++i) {
+                const AxisConfig& axis = machine_.axes[i];
+                double mm_s = axis.max_velocity_mm_s;
+                if (feed_[k] > 0) {
+                    const double mm = std::abs(stretch.to[i] - from[i]) / axis.steps_per_mm;
+                    mm_s = std::min(mm_s, most_feed_ * feed_[k] * mm / length);
+                }
+                stretch.fastest.push_back(mm_s * axis.steps_per_mm * static_cast<double>(machine_.tick_ns) * 1e-9);
+            }
+        }
+    }
+
+    const Program& program_;
+    const MachineConfig& machine_;
+    double most_feed_;
+    Places at_;
+    Course course_;
+    std::vector<double> feed_;  // of each stretch; 0: none
+};
 
 }  // namespace
 
@@ -113,20 +146,21 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm) {
     return static_cast<std::int64_t>(std::round(mm * axis.steps_per_mm));
 }
 
+std::size_t Course::joints(std::size_t axis, double first, double last) const {
+    constexpr double kHair = 1e-9;
+    std::size_t joints = 0;
+    for (auto k = static_cast<std::size_t>(std::max(1.0, std::ceil(first - kHair))); k < stretches.size(); ++k) {
+        if (static_cast<double>(k) > last + kHair) { break; }
+        const bool moved = at(k, axis) != at(k - 1, axis);
+        const bool moves = at(k + 1, axis) != at(k, axis);
+        const bool at_pause = stretches[k - 1].pauses || stretches[k].pauses;
+        joints += (moved || moves) && !at_pause ? 1 : 0;
+    }
+    return joints;
+}
+
 Course course_of(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed) {
-    const std::vector<Stretch> stretches = stretches_of(program, machine, from);
-    Course course{.from = from, .to = stretches.empty() ? from : stretches.back().to};
-    course.moves = stretches.size();
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        course.axes.push_back(axis_course(machine, i, from, stretches, most_feed));
-    }
-    Counts at = from;
-    for (const Stretch& stretch : stretches) {
-        course.pauses += stretch.pause ? 1 : 0;
-        course.seconds += ample_seconds(machine, at, stretch);
-        at = stretch.to;
-    }
-    return course;
+    return CourseMaker(program, machine, from, most_feed).take();
 }
 
 }  // namespace lockstep::simtest

@@ -1,8 +1,7 @@
-// What a program requires of each axis, step by step, computed from the program and the configuration alone.
+// What a program requires of the axes, computed from the program and the configuration alone.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/machine.hpp"
@@ -11,35 +10,36 @@
 namespace lockstep::simtest {
 
 using Counts = std::vector<std::int64_t>;
+using Places = std::vector<double>;  // steps, of each axis
 
-/// The nearest whole step; halves are rounded away from zero. This is the axis's position for "at 3.2 mm".
+/// The nearest whole step; halves are rounded away from zero. This is where an axis rests for "at 3.2 mm".
 std::int64_t nearest_step(const AxisConfig& axis, double mm);
 
-/// One axis's part of a program: straight moves and rests, in order.
-struct AxisCourse {
-    /// travelled[j]: the steps in both directions before move j; the last element: all steps.
-    std::vector<std::int64_t> travelled;
-    std::vector<std::int8_t> direction;  // of each move; 0: the axis rests
-    std::vector<double> fastest;  // speed of each move, steps per tick: the limit, or the axis's part of the feed
-
-    // By step, and by the gap before it (gap 0: before the first; the last gap: after the last).
-    std::vector<std::uint32_t> move_of_step;
-    std::vector<std::uint32_t> joints_before;  // the number of joints of moves before the end of gap g
-    std::vector<bool> pause_in_gap;
-
-    std::int64_t steps() const { return travelled.back(); }
-    std::uint32_t joints_in(std::size_t first_gap, std::size_t last_gap) const {
-        return joints_before[last_gap] - (first_gap == 0 ? 0 : joints_before[first_gap - 1]);
-    }
+/// A straight move, a dwell or a pause.
+struct Stretch {
+    Places to;            // on whole steps where the machine rests
+    Places fastest;       // speed of each axis, steps per tick: the limit, or the axis's part of the feed
+    double within = 1;    // steps: how far an axis may be from it, whole pulses included
+    double seconds = 0;   // of a dwell
+    bool rests = false;   // a dwell or pause
+    bool pauses = false;
 };
 
+/// A place on it is a stretch + part of it, from 0 to the number of stretches.
 struct Course {
     Counts from;
     Counts to;
-    std::vector<AxisCourse> axes;
-    std::size_t moves = 0;  // pauses and dwells included
+    std::vector<Stretch> stretches;
     std::size_t pauses = 0;
     double seconds = 0;  // an upper bound of its duration, without the rests of the protocol
+
+    double end() const { return static_cast<double>(stretches.size()); }
+    /// Where an axis is at the begin of a stretch.
+    double at(std::size_t stretch, std::size_t axis) const {
+        return stretch == 0 ? static_cast<double>(from[axis]) : stretches[stretch - 1].to[axis];
+    }
+    /// Ends of moves of an axis between two places, where its speed may change at once. Pauses have none.
+    std::size_t joints(std::size_t axis, double first, double last) const;
 };
 
 /// `most_feed`: the largest factor of the feeds.

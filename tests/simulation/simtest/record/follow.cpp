@@ -1,0 +1,228 @@
+#include "tests/simulation/simtest/record/follow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/simulation/simtest/record/explain.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
+constexpr double kHair = 1e-9;
+
+/// Counts that an axis may have; nothing: any.
+using Range = std::optional<std::pair<double, double>>;
+
+/// The part of a stretch, from 0 to 1, that fits an axis's counts: its place is linear in it.
+Reached part_that_fits(double from, double to, const Range& counts, double within) {
+    if (!counts) { return {0, 1}; }
+    const double low = counts->first - within - from;
+    const double high = counts->second + within - from;
+    const double way = to - from;
+    if (std::abs(way) < kHair) { return low <= kHair && high >= -kHair ? Reached{0, 1} : Reached{1, 0}; }
+    const double a = low / way;
+    const double b = high / way;
+    return {std::max(0.0, std::min(a, b)), std::min(1.0, std::max(a, b))};
+}
+
+class ReachedPlaces {
+public:
+    explicit ReachedPlaces(const Course& course) : course_(course) {}
+
+    /// More counts are possible than before.
+    void widen(const std::vector<Range>& counts) { reached_ = extended(reached_, counts); }
+    /// Fewer are. False: no place is left, and nothing has changed.
+    bool narrow(const std::vector<Range>& counts) {
+        std::vector<Reached> left;
+        for (const Reached& places : reached_) { cut(places, counts, left); }
+        if (left.empty()) { return false; }
+        fitting_ = {left.front().first, left.back().last};
+        reached_ = extended(left, counts);
+        return true;
+    }
+    /// Right after the counts were narrowed.
+    const Reached& fitting() const { return fitting_; }
+    Reached reached() const { return {reached_.front().first, reached_.back().last}; }
+
+private:
+    Reached part(std::size_t stretch, const std::vector<Range>& counts) const {
+        Reached part{0, 1};
+        const Stretch& here = course_.stretches[stretch];
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const Reached its = part_that_fits(course_.at(stretch, i), here.to[i], counts[i], here.within);
+            part = {std::max(part.first, its.first), std::min(part.last, its.last)};
+        }
+        const auto number = static_cast<double>(stretch);
+        return {number + part.first, number + part.last};
+    }
+
+    static void join(const Reached& places, std::vector<Reached>& all) {
+        if (!all.empty() && all.back().last >= places.first - kHair) {
+            all.back().last = std::max(all.back().last, places.last);
+        } else {
+            all.push_back(places);
+        }
+    }
+
+    /// A place at a joint is also the end of the stretch before.
+    void cut(const Reached& places, const std::vector<Range>& counts, std::vector<Reached>& left) const {
+        auto k = static_cast<std::size_t>(std::max(0.0, std::floor(places.first - kHair)));
+        for (; k < course_.stretches.size() && static_cast<double>(k) <= places.last + kHair; ++k) {
+            const Reached fits = part(k, counts);
+            const Reached both{std::max(fits.first, places.first), std::min(fits.last, places.last)};
+            if (both.first <= both.last + kHair) { join(both, left); }
+        }
+    }
+
+    std::vector<Reached> extended(const std::vector<Reached>& places, const std::vector<Range>& counts) const {
+        std::vector<Reached> all;
+        for (const Reached& some : places) {
+            join(some, all);
+            all.back().last = furthest(all.back().last, counts);
+        }
+        return all;
+    }
+    double furthest(double place, const std::vector<Range>& counts) const {
+        for (auto k = static_cast<std::size_t>(place + kHair); k < course_.stretches.size(); ++k) {
+            const Reached fits = part(k, counts);
+            if (fits.first > place + kHair || fits.last < place - kHair) { break; }
+            place = std::max(place, fits.last);
+            if (place < static_cast<double>(k + 1) - kHair) { break; }
+        }
+        return place;
+    }
+
+    const Course& course_;
+    std::vector<Reached> reached_{{0, 0}};  // apart, in order
+    Reached fitting_;
+};
+
+/// All steps of a job in order of true time.
+class Follower {
+public:
+    Follower(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until)
+        : recording_(recording), places_(job.course), counts_(recording.axes.size()) {
+        for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+            Axis axis{.index = i, .steps = recording.steps_of(job, i), .until = until[i], .counts = {job.course.from[i]}};
+            for (const StepEdge& step : axis.steps) { axis.counts.push_back(axis.counts.back() + step.direction); }
+            look_ahead(axis);
+            axes_.push_back(std::move(axis));
+            following_.at_step.emplace_back(axes_.back().steps.size(), Reached{0, job.course.end()});
+            counts_[i] = range(axes_.back());
+        }
+        places_.widen(counts_);
+    }
+
+    Following take() {
+        for (Tick tick = next_tick(); tick != kNever && !following_.departure; tick = next_tick()) { advance(tick); }
+        following_.end = places_.reached();
+        return std::move(following_);
+    }
+
+private:
+    struct Axis {
+        std::size_t index = 0;
+        std::span<const StepEdge> steps;
+        Tick until;
+        std::vector<std::int64_t> counts;  // after each number of steps
+        std::size_t made = 0;              // steps certainly made
+        std::size_t may_have = 0;          // steps possibly made
+        Tick next_made = kNever;           // latest time of the next step
+        Tick next_may = kNever;
+    };
+
+    Tick next_tick() const { return std::ranges::min_element(axes_, {}, &Axis::next_made)->next_made; }
+
+    static Range range(const Axis& axis) {
+        const auto [low, high] = std::minmax_element(axis.counts.begin() + static_cast<std::ptrdiff_t>(axis.made),
+                                                     axis.counts.begin() + static_cast<std::ptrdiff_t>(axis.may_have) + 1);
+        return std::pair{static_cast<double>(*low), static_cast<double>(*high)};
+    }
+
+    void advance(Tick tick) {
+        for (Axis& axis : axes_) { make_possible(tick, axis); }
+        places_.widen(counts_);
+        std::size_t last = 0;
+        for (Axis& axis : axes_) {
+            if (axis.next_made <= tick) { last = axis.index; }
+            make_certain(tick, axis);
+        }
+        if (!places_.narrow(counts_)) {
+            following_.departure = {last, tick, axes_[last].made - 1, places_.reached()};
+            return;
+        }
+        for (Axis& axis : axes_) {
+            for (std::size_t n = axis.made; n > 0 && latest(axis.index, axis.steps[n - 1]) == tick; --n) {
+                if (tick <= axis.until) { following_.at_step[axis.index][n - 1].last = places_.fitting().last; }
+            }
+        }
+    }
+
+    void make_possible(Tick tick, Axis& axis) {
+        while (axis.next_may <= tick) {
+            following_.at_step[axis.index][axis.may_have++].first = places_.reached().first;
+            look_ahead(axis);
+        }
+        counts_[axis.index] = tick > axis.until ? Range{} : range(axis);
+    }
+    void make_certain(Tick tick, Axis& axis) {
+        while (axis.next_made <= tick) {
+            ++axis.made;
+            look_ahead(axis);
+        }
+        counts_[axis.index] = tick > axis.until ? Range{} : range(axis);
+    }
+
+    /// The time error of a step: the clock error bound, the rounding in time, and the rounding in this check.
+    Ticks error_at(std::size_t i, Tick truth) const {
+        const bool own_clocks = recording_.machine.timing.time_source == TimeSource::Network;
+        return own_clocks ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
+    }
+    Tick latest(std::size_t i, const StepEdge& step) const {
+        const Tick truth = recording_.axes[i].truth(step);
+        return truth + error_at(i, truth);
+    }
+    Tick earliest(std::size_t i, const StepEdge& step) const {
+        const Tick truth = recording_.axes[i].truth(step);
+        return truth - error_at(i, truth);
+    }
+    void look_ahead(Axis& axis) const {
+        axis.next_made = axis.made < axis.steps.size() ? latest(axis.index, axis.steps[axis.made]) : kNever;
+        axis.next_may = axis.may_have < axis.steps.size() ? earliest(axis.index, axis.steps[axis.may_have]) : kNever;
+    }
+
+    const Recording& recording_;
+    ReachedPlaces places_;
+    std::vector<Axis> axes_;
+    std::vector<Range> counts_;
+    Following following_;
+};
+
+}  // namespace
+
+Following follow(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until) {
+    return Follower(recording, job, until).take();
+}
+
+std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,
+                              const JobRecord& job) {
+    std::vector<Tick> until(recording.axes.size(), job.emergency.value_or(job.ended));
+    for (const auto& [number, runs] : epochs) {
+        if (!runs.apart || *runs.parted < job.began || *runs.parted > job.ended) { continue; }
+        for (std::size_t i = 0; i < until.size(); ++i) {
+            if (runs.may_differ[i]) { until[i] = std::min(until[i], *runs.parted); }
+        }
+    }
+    for (const VirtualFault& fault : recording.faults) {
+        const bool ends =
+            (fault.kind == VirtualFault::Kind::Crash || fault.is_of_plant()) && fault.process < until.size();
+        const bool in_job = fault.is_of_device() ? fault.end() >= job.began : fault.at >= job.began;
+        if (!ends || !in_job) { continue; }
+        until[fault.process] = std::min(until[fault.process], unread_from(fault, recording));
+    }
+    return until;
+}
+
+}  // namespace lockstep::simtest
