@@ -11,6 +11,11 @@ namespace {
 constexpr double kRounding = 1 + 1e-5;  // error of rounding doubles to integers
 constexpr double kJointTicks = 2;       // two phases of a motion meet at whole ticks: each can be off by one
 
+/// A window of steps: its two ends are each off by as much as pieces of constant acceleration leave of the path.
+constexpr double kStray_steps = 2 * 0.04;
+double least(double steps) { return steps - kStray_steps; }
+double most_of(double steps) { return steps + kStray_steps; }
+
 /// How a device's own clock changes machine time. The limits of an axis hold in its device's time, including clock
 /// corrections; a feed is a speed in machine time.
 struct OwnClock {
@@ -110,13 +115,20 @@ private:
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n, n + m) > 0) { return; }
         const double most = std::min(limits_.top, at_ == nullptr ? limits_.top : feed(n) * kRounding * hurry_);
-        const double speed = static_cast<double>(m) / (time(n, n + m) + rounding_);
+        const double speed = least(static_cast<double>(m)) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
+    /// Joined moves lead from one's direction to the other's.
     double feed(std::size_t n) const {
-        const auto last = static_cast<std::size_t>((*at_)[n].last);
-        return course_.stretches[std::min(last, course_.stretches.size() - 1)].fastest[axis_];
+        const std::size_t here = std::min(static_cast<std::size_t>((*at_)[n].last), course_.stretches.size() - 1);
+        double fastest = course_.stretches[here].fastest[axis_];
+        if (!course_.stretches[here].is_joined) { return fastest; }
+        if (here > 0) { fastest = std::max(fastest, course_.stretches[here - 1].fastest[axis_]); }
+        if (here + 1 < course_.stretches.size()) {
+            fastest = std::max(fastest, course_.stretches[here + 1].fastest[axis_]);
+        }
+        return fastest;
     }
 
     void check_change(std::size_t n, std::size_t m) {
@@ -125,9 +137,10 @@ private:
         const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
         const std::size_t jumps = joints(n - m, n + m);
         if (jumps > 0) { return check_change_with_joints(n, m, between, jumps); }
-        const auto steps = static_cast<double>(m);
-        const double rises = steps / (t2 + rounding_) - steps / std::max(t1 - rounding_, 1e-3);
-        const double falls = steps / (t1 + rounding_) - steps / std::max(t2 - rounding_, 1e-3);
+        const double fewest = least(static_cast<double>(m));
+        const double most = most_of(static_cast<double>(m));
+        const double rises = fewest / (t2 + rounding_) - most / std::max(t1 - rounding_, 1e-3);
+        const double falls = fewest / (t1 + rounding_) - most / std::max(t2 - rounding_, 1e-3);
         const double most_rise = limits_.accel * between;
         const double most_fall = limits_.decel * between;
         if (rises > most_rise) { object("acceleration", n, rises, most_rise, m); }
@@ -139,10 +152,11 @@ private:
             double low, high;
         };
         const auto mean = [this](std::size_t from, std::size_t to) {
-            const double d = distance(from, to);
-            const double fast = d / std::max(time(from, to) - 1, 1e-3);
-            const double slow = d / (time(from, to) + 1);
-            return Mean{std::min(fast, slow), std::max(fast, slow)};
+            const double low = least(distance(from, to));
+            const double high = most_of(distance(from, to));
+            const double shortest = std::max(time(from, to) - 1, 1e-3);
+            const double longest = time(from, to) + 1;
+            return Mean{low / (low > 0 ? longest : shortest), high / (high > 0 ? shortest : longest)};
         };
         const Mean before = mean(n - m, n);
         const Mean after = mean(n, n + m);
@@ -169,7 +183,7 @@ private:
     void check_ramp(const char* rule, std::size_t from, std::size_t at, std::size_t m, double speed, double rate) {
         if (joints(from, from + m) > 0) { return; }
         const double t = time(from, from + m) + rounding_;
-        const double mean = static_cast<double>(m) / t;
+        const double mean = least(static_cast<double>(m)) / t;
         const double most = speed + rate * (t / 2 + kJointTicks);
         if (mean > most) { object(rule, at, mean, most, m); }
     }

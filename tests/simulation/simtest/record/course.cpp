@@ -28,7 +28,7 @@ public:
         for (const Block& block : program_.blocks) { std::visit([this](const auto& a) { add(a); }, block.action); }
         come_to_rest();
         for (const double place : at_) { course_.to.push_back(std::llround(place)); }
-        for (std::size_t k = 0; k < course_.stretches.size(); ++k) { course_.stretches[k].within = within(k); }
+        for (std::size_t k = 0; k < course_.stretches.size(); ++k) { mark_joined(k); }
         Places from(course_.from.begin(), course_.from.end());
         for (const Stretch& stretch : course_.stretches) {
             course_.seconds += ample_seconds(from, stretch);
@@ -92,8 +92,10 @@ private:
         }
         return before > kLong_mm && behind > kLong_mm && product < kSharp * before * behind;
     }
-    double within(std::size_t k) const {
-        return course_.stretches[k].rests || (is_sharp(k) && is_sharp(k + 1)) ? kExactly : 1;
+    void mark_joined(std::size_t k) {
+        Stretch& stretch = course_.stretches[k];
+        stretch.is_joined = !stretch.rests && !(is_sharp(k) && is_sharp(k + 1));
+        stretch.within = stretch.is_joined ? 1 : kExactly;
     }
 
     /// An upper bound for a move from rest to rest. At a corner an axis keeps at least half its start velocity, or the

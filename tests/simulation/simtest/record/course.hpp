@@ -19,7 +19,8 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm);
 struct Stretch {
     Places to;            // on whole steps where the machine rests
     Places fastest;       // speed of each axis, steps per tick: the limit, or the axis's part of the feed
-    double within = 1;    // steps: how far an axis may be from it, whole pulses included
+    bool is_joined = false;  // with a move before or behind
+    double within = 0;       // steps: how far an axis may be from it, whole pulses included
     double seconds = 0;   // of a dwell
     bool rests = false;   // a dwell or pause
     bool pauses = false;
