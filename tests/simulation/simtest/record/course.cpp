@@ -116,7 +116,7 @@ private:
         return 2 * seconds;
     }
 
-    /// Speeds of each axis, when all places are known.
+    /// Speeds of each axis, when all places are known. A joined move begins and ends within half a step of its places.
     void limit() {
         for (std::size_t k = 0; k < course_.stretches.size(); ++k) {
             const Places from = start_of(k);
@@ -126,8 +126,9 @@ private:
                 const AxisConfig& axis = machine_.axes[i];
                 double mm_s = axis.max_velocity_mm_s;
                 if (feed_[k] > 0) {
-                    const double mm = std::abs(stretch.to[i] - from[i]) / axis.steps_per_mm;
-                    mm_s = std::min(mm_s, most_feed_ * feed_[k] * mm / length);
+                    const double steps = std::abs(stretch.to[i] - from[i]) + (stretch.is_joined ? 1 : 0);
+                    const double share = std::min(1.0, steps / axis.steps_per_mm / length);
+                    mm_s = std::min(mm_s, most_feed_ * feed_[k] * share);
                 }
                 stretch.fastest.push_back(mm_s * axis.steps_per_mm * static_cast<double>(machine_.tick_ns) * 1e-9);
             }
