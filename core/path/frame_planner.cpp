@@ -250,6 +250,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     const double slower = failure.is_full ? std::clamp(share * share, kSlowest, kSlower) : kSlower;
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
     const double to = failure.is_full ? to_double(ticks) : at;
+    if (!has_made_) { start_slower(slower); }
     double least = at_.w0;
     std::size_t last = at_.interval;
     for (const Passage& passage : path_.passages()) {
@@ -261,6 +262,13 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
         if (passage.begin > to + kMargin_ticks) { break; }
     }
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));
+}
+
+/// From rest the speed of the first step is free, too: it may be one from which the limits leave no way to brake.
+void FramePlanner::start_slower(double slower) {
+    window_.lower(at_.interval, slower * at_.w0);
+    window_.update(at_.interval, at_.interval);
+    at_.w0 = window_.interval(at_.interval).reach;
 }
 
 /// The interval under way is finished as planned.

@@ -87,6 +87,7 @@ private:
     void trace_tail(const Cursor& from);
     Cursor cursor_at(const TimedPath& path, Ticks t, bool is_braking) const;
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
+    void start_slower(double slower);
     PathFrame brake();
     PathPlace place_of_rest(const PathFrame& frame, const Cursor& behind) const;
     void take(Cursor next);
