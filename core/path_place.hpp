@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// In `block` of the program, `along` the lead axis of its move, in 2^-64 steps.
+/// In `block` of the program, so far `along` its move, in 2^-64 mm. By the LAI method: in 2^-64 steps of the lead axis.
 struct PathPlace {
     std::uint32_t block = 0;
     Displacement along;

@@ -34,9 +34,9 @@ TEST(Rights, OnlyACoordinatorSendsSetpoints) {
 }
 
 TEST(Rights, AnAxisWritesInItsOwnPartitionAlone) {
-    EXPECT_THAT(published(axis_member(mill(), 1)), HasSubstr("<partition>mill@6/1</partition>"));
-    EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("<partition>mill@5</partition>")));
-    EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("mill@5/0")));
+    EXPECT_THAT(published(axis_member(mill(), 1)), HasSubstr("<partition>mill@7/1</partition>"));
+    EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("<partition>mill@6</partition>")));
+    EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("mill@6/0")));
 }
 
 TEST(Rights, AViewerPublishesNothing) { EXPECT_THAT(published(viewer_member()), Not(HasSubstr("<publish>"))); }
