@@ -1,0 +1,213 @@
+// The frames of a leg: the program is read a bounded amount at a time, and what comes of it depends on the program alone.
+#include "core/coordinator/path/program_frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/coordinator/path/lai_frames.hpp"
+#include "core/coordinator/path/program_plan.hpp"
+
+namespace lockstep {
+namespace {
+
+MachineConfig two_axes() {
+    MachineConfig machine{.name = "two"};
+    for (const char* name : {"X", "Y"}) {
+        machine.axes.push_back({.name = name,
+                                .steps_per_mm = 80,
+                                .start_velocity_mm_s = 10,
+                                .max_velocity_mm_s = 150,
+                                .max_accel_mm_s2 = 1500,
+                                .max_decel_mm_s2 = 1500,
+                                .position_max_mm = 500});
+    }
+    return machine;
+}
+
+Program line_in_parts(double length_mm, double part_mm, double feed_mm_s = 100) {
+    Program program{.name = "line", .axes = {"X", "Y"}, .start_mm = {0, 0}};
+    const auto parts = static_cast<int>(std::lround(length_mm / part_mm));
+    for (int k = 1; k <= parts; ++k) { program.blocks.push_back({k, LinearMove{{part_mm * k, 0}, feed_mm_s, false}}); }
+    return program;
+}
+
+Program wave(int chords) {
+    Program program{.name = "wave", .axes = {"X", "Y"}, .start_mm = {0, 0}};
+    for (int k = 1; k <= chords; ++k) {
+        program.blocks.push_back({k, LinearMove{{0.1 * k, 10 - 10 * std::cos(0.01 * k)}, 60, false}});
+    }
+    return program;
+}
+
+class Frames : public testing::Test {
+protected:
+    explicit Frames(const Program& program = wave(2000), MachineConfig config = two_axes())
+        : machine(std::move(config)), program_(std::make_shared<const Program>(program)) {
+        leg = ProgramPlanner(machine).plan(*program_, {0, 0}).value()[0];
+    }
+    OwnedSource source() const {
+        OwnedSource source = ProgramPlanner(machine).frames(program_, leg);
+        source->resume({0, {}}, std::vector<Position>(2), {});
+        return source;
+    }
+    static std::vector<PathFrame> up_to(OwnedSource& source, std::size_t count) {
+        std::vector<PathFrame> frames;
+        for (source->read_ahead(); frames.size() < count && !source->is_done(); source->read_ahead()) {
+            frames.push_back(*source->next().value());
+        }
+        return frames;
+    }
+    static std::vector<Position> rest_of(const PathFrame& frame) {
+        std::vector<Position> at;
+        for (const AxisTrack& track : frame.axes) {
+            at.push_back(track.from);
+            for (const Piece& piece : track.body) { at.back() = at.back() + piece.covered(); }
+            for (const Piece& piece : track.tail) { at.back() = at.back() + piece.covered(); }
+        }
+        return at;
+    }
+    static bool are_same(const PathFrame& a, const PathFrame& b) {
+        return a.ticks == b.ticks && a.rest == b.rest && a.places == b.places && a.axes == b.axes;
+    }
+
+    MachineConfig machine;
+    std::shared_ptr<const Program> program_;
+    Leg leg;
+};
+
+class ProgramFramesTest : public Frames {};
+
+TEST_F(ProgramFramesTest, ReadABoundedNumberOfBlocksAtATime) {
+    OwnedSource source = this->source();
+    int reads = 0;
+    for (; !source->is_ready(); ++reads) { source->read(); }
+    EXPECT_GE(reads, 2) << "2000 blocks are not read at once";
+    EXPECT_FALSE(source->is_done());
+}
+
+TEST_F(ProgramFramesTest, DoNotDependOnHowFarTheProgramWasRead) {
+    OwnedSource late = source();
+    OwnedSource early = source();
+    for (int n = 0; n < 1000; ++n) { early->read(); }
+    const auto a = up_to(late, 1000);
+    const auto b = up_to(early, 1000);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) { EXPECT_TRUE(are_same(a[k], b[k])) << k; }
+    EXPECT_EQ(rest_of(a.back())[0].count(), leg.to[0]);
+    EXPECT_EQ(rest_of(a.back())[1].count(), leg.to[1]);
+}
+
+TEST_F(ProgramFramesTest, GoOnFromARestAsANewSourceDoes) {
+    OwnedSource source = this->source();
+    const auto frames = up_to(source, 5);
+    const std::vector<Position> rest = rest_of(frames[4]);
+    source->resume(frames[4].rest, rest, {80, 100});
+    OwnedSource other = ProgramPlanner(machine).frames(program_, leg);
+    other->resume(frames[4].rest, rest, {80, 100});
+    const auto a = up_to(source, 1000);
+    const auto b = up_to(other, 1000);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) { EXPECT_TRUE(are_same(a[k], b[k])) << k; }
+    EXPECT_EQ(a[0].axes[0].from, rest[0]);
+}
+
+TEST_F(ProgramFramesTest, NameTheMovesThatBeginInThem) {
+    OwnedSource source = this->source();
+    std::uint32_t next = 0;
+    for (source->read_ahead(); !source->is_done(); source->read_ahead()) {
+        const auto frame = source->next().value();
+        for (const MoveBegin& begin : source->begins()) {
+            if (begin.block + 1 == next) { continue; }  // at the end of the frame before, too
+            EXPECT_EQ(begin.block, next++);
+            EXPECT_LE(begin.at, static_cast<double>(frame->ticks.value));
+        }
+    }
+    EXPECT_EQ(next, 2000U);
+}
+
+Ticks duration_of(const Program& program) {
+    const MachineConfig machine = two_axes();
+    const ProgramPlanner planner(machine);
+    const Leg leg = planner.plan(program, {0, 0}).value()[0];
+    const auto source = planner.frames(std::make_shared<const Program>(program), leg);
+    source->resume({0, {}}, std::vector<Position>(2), {});
+    Ticks duration;
+    for (source->read_ahead(); !source->is_done(); source->read_ahead()) { duration += (*source->next())->ticks; }
+    return duration;
+}
+
+TEST(ProgramTime, OfALineIsTheSameHoweverFinelyItIsCut) {
+    const auto whole = static_cast<double>(duration_of(line_in_parts(200, 200)).value);
+    const double ramps = 92 * 92 / 1500.0 / 100;  // from 8 mm/s to 100 mm/s and back: 0.8 of the start velocity
+    EXPECT_NEAR(whole, (2 + ramps) * 1e6, 1e3);
+    for (const double part_mm : {50.0, 1.0, 0.05, 0.01}) {
+        EXPECT_NEAR(static_cast<double>(duration_of(line_in_parts(200, part_mm)).value), whole, 1e-3 * whole) << part_mm;
+    }
+}
+
+TEST(LegTimes, OfALineAreThatOfItsRiseCruiseAndFall) {
+    const MachineConfig machine = two_axes();
+    for (const double part_mm : {200.0, 1.0, 0.05}) {
+        const Leg leg = ProgramPlanner(machine).plan(line_in_parts(200, part_mm), {0, 0}).value()[0];
+        EXPECT_NEAR(leg.times->seconds(), 2 + 100.0 / 1500, 1e-3) << part_mm;
+        EXPECT_NEAR(leg.times->seconds_from({static_cast<std::uint32_t>(leg.end / 2), {}}),
+                    part_mm == 200 ? leg.times->seconds() : leg.times->seconds() / 2, 1e-3);
+        EXPECT_EQ(leg.times->seconds_from({leg.end, {}}), 0);
+    }
+}
+
+TEST(LegTimes, CountDwellsAndTheWayAlongAMove) {
+    LegTimes times(two_axes(), 3);
+    const std::vector<double> way{150, 0};
+    times.add_move(way, 50);
+    times.add_rest(2);
+    times.finish();
+    EXPECT_NEAR(times.seconds(), 3 + 50.0 / 1500 + 2, 1e-3);
+    EXPECT_NEAR(times.seconds_from({3, Displacement::steps(75)}), (3 + 50.0 / 1500) / 2 + 2, 1e-3) << "mm along it";
+    EXPECT_NEAR(times.seconds_from({4, {}}), 2, 1e-3);
+}
+
+class LaiFramesTest : public Frames {
+protected:
+    LaiFramesTest() : Frames(corner(), lai()) {}
+    static MachineConfig lai() {
+        MachineConfig machine = two_axes();
+        machine.coordination = StepMethod::Lai;
+        return machine;
+    }
+    static Program corner() {
+        Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {0, 0}};
+        program.blocks = {{1, LinearMove{{40, 10}, 50, false}}, {2, Dwell{0.1}}, {3, LinearMove{{40, 60}, 50, false}}};
+        return program;
+    }
+};
+
+TEST_F(LaiFramesTest, EndWhereTheProgramDoes) {
+    OwnedSource source = this->source();
+    const auto frames = up_to(source, 1000);
+    EXPECT_TRUE(frames.back().last);
+    EXPECT_EQ(rest_of(frames.back())[0].count(), 3200);
+    EXPECT_EQ(rest_of(frames.back())[1].count(), 4800);
+}
+
+/// Also behind a rest within a period.
+TEST_F(LaiFramesTest, AreTheSameWhenResumedTwiceAtOnePlace) {
+    OwnedSource source = this->source();
+    for (int rests = 0; rests < 3; ++rests) {
+        const auto frames = up_to(source, 2);
+        const std::vector<Position> rest = rest_of(frames[1]);
+        source->resume(frames[1].rest, rest, {});
+        OwnedSource again = source;
+        again->resume(frames[1].rest, rest, {});
+        OwnedSource once = source;
+        const auto a = up_to(once, 1000);
+        const auto b = up_to(again, 1000);
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t k = 0; k < a.size(); ++k) { EXPECT_TRUE(are_same(a[k], b[k])) << rests << ": " << k; }
+        EXPECT_EQ(rest_of(a.back())[1].count(), 4800);
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
