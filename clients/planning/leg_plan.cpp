@@ -7,7 +7,8 @@ namespace lockstep {
 namespace {
 
 /// Begins are in the order of the moves.
-void note_begins(const std::vector<MoveBegin>& begins, Ticks frame, std::size_t& next, std::vector<PlannedMove>& moves) {
+void note_begins(const std::vector<MoveBegin>& begins, Ticks frame, std::size_t& next,
+                 std::vector<PlannedMove>& moves) {
     for (const MoveBegin& begin : begins) {
         const Ticks at = frame + Ticks{std::llround(begin.at)};
         for (; next < moves.size() && moves[next].block <= begin.block; ++next) { moves[next].begin = at; }

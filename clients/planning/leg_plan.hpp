@@ -43,7 +43,8 @@ struct LegPlan {
     Ticks duration;
 
     Ticks end(std::size_t move) const { return move + 1 < moves.size() ? moves[move + 1].begin : duration; }
-    /// Where an axis is when a move begins, and when it ends: on a joined path less than a step from the program's place.
+    /// Where an axis is when a move begins, and when it ends: on a joined path less than a step from the program's
+    /// place.
     std::int64_t from(std::size_t move, std::size_t axis) const { return axes[axis].at(moves[move].begin).count(); }
     std::int64_t to(std::size_t move, std::size_t axis) const { return axes[axis].at(end(move)).count(); }
 };

@@ -22,7 +22,8 @@ AxisCounts start_counts(const MachineConfig& machine, const Program& program) {
     return counts;
 }
 
-/// Speeds in steps per tick. By the LAI method speed changes by jumps from period to period: these are its acceleration.
+/// Speeds in steps per tick. By the LAI method speed changes by jumps from period to period: these are its
+/// acceleration.
 class Peaks {
 public:
     Peaks(const MachineConfig& machine, std::size_t axis, const LegPlan& leg)
@@ -47,7 +48,9 @@ private:
 
     void note_jump(Ticks at, double change, AxisPlan& axis) {
         const double mm_s = std::abs(change) * mm_ * per_s_;
-        if (machine_.coordination != StepMethod::Lai || is_between_moves(at)) { return raise(axis.peak_jump_mm_s, mm_s); }
+        if (machine_.coordination != StepMethod::Lai || is_between_moves(at)) {
+            return raise(axis.peak_jump_mm_s, mm_s);
+        }
         raise(axis.peak_acceleration_mm_s2, mm_s / (static_cast<double>(kLaiPeriod_ns) * 1e-9));
     }
 

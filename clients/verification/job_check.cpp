@@ -148,9 +148,8 @@ void JobCheck::begin_epoch(const job_t& record) {
     std::vector<Progress> axes;
     for (const Position at : start->at) { axes.push_back({.at = at}); }
     const auto epoch = static_cast<Epoch>(record.epoch);
-    epoch_.emplace(
-        EpochReplay(job_->replay->machine(), epoch, std::move(*start), overrides, {record.start_tick}),
-        std::move(axes));
+    epoch_.emplace(EpochReplay(job_->replay->machine(), epoch, std::move(*start), overrides, {record.start_tick}),
+                   std::move(axes));
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
@@ -185,8 +184,7 @@ void JobCheck::end(const job_t& record) {
     } else if (!job.broken.empty()) {
         return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
     } else if (record.outcome == "done" && left) {
-        return differ(job.label + " is recorded as done, but its program continues at " +
-                      text_of(left->place));
+        return differ(job.label + " is recorded as done, but its program continues at " + text_of(left->place));
     }
     ++findings_.jobs;
 }

@@ -35,9 +35,8 @@ Ticks stepping_time(const LegPlan& leg, std::size_t move, std::size_t axis) {
 
 AskedMove move_of(const LegPlan& leg, std::size_t k) {
     const auto steps = [&](std::size_t axis) { return std::abs(leg.to(k, axis) - leg.from(k, axis)); };
-    AskedMove move{.line = leg.moves[k].line,
-                   .length_mm = leg.moves[k].length_mm,
-                   .planned = leg.end(k) - leg.moves[k].begin};
+    AskedMove move{
+        .line = leg.moves[k].line, .length_mm = leg.moves[k].length_mm, .planned = leg.end(k) - leg.moves[k].begin};
     for (std::size_t axis = 1; axis < leg.axes.size(); ++axis) {
         if (steps(axis) > steps(move.lead)) { move.lead = axis; }
     }

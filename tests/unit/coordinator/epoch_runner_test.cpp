@@ -34,7 +34,8 @@ std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumbe
                            Epoch epoch = 1) {
     const bool rests = ran > 0;
     return {
-        {AxisState{.stamp = slot, .epoch = epoch, .held = held, .veto = veto, .ran = ran, .at_rest = rests, .position = at},
+        {AxisState{
+             .stamp = slot, .epoch = epoch, .held = held, .veto = veto, .ran = ran, .at_rest = rests, .position = at},
          slot}};
 }
 

@@ -1,4 +1,5 @@
-// The frames of a leg: the program is read a bounded amount at a time, and what comes of it depends on the program alone.
+// The frames of a leg: the program is read a bounded amount at a time, and what comes of it depends on the program
+// alone.
 #include "core/coordinator/path/program_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -142,7 +143,8 @@ TEST(ProgramTime, OfALineIsTheSameHoweverFinelyItIsCut) {
     const double ramps = 92 * 92 / 1500.0 / 100;  // from 8 mm/s to 100 mm/s and back: 0.8 of the start velocity
     EXPECT_NEAR(whole, (2 + ramps) * 1e6, 1e3);
     for (const double part_mm : {50.0, 1.0, 0.05, 0.01}) {
-        EXPECT_NEAR(static_cast<double>(duration_of(line_in_parts(200, part_mm)).value), whole, 1e-3 * whole) << part_mm;
+        EXPECT_NEAR(static_cast<double>(duration_of(line_in_parts(200, part_mm)).value), whole, 1e-3 * whole)
+            << part_mm;
     }
 }
 

@@ -161,7 +161,8 @@ private:
         const Mean before = mean(n - m, n);
         const Mean after = mean(n, n + m);
         const double change = std::max(after.low - before.high, before.low - after.high);
-        const double most = std::max(limits_.accel, limits_.decel) * between + static_cast<double>(jumps) * limits_.start;
+        const double most =
+            std::max(limits_.accel, limits_.decel) * between + static_cast<double>(jumps) * limits_.start;
         if (change > most) { object("sudden change", n, change, most, m); }
     }
 

@@ -17,7 +17,10 @@ void check_job(const Recording& recording, const JobRecord& job, const std::vect
                                   std::to_string(left->before.first) + " to " + std::to_string(left->before.last) +
                                   " of " + std::to_string(job.course.stretches.size()) + " moves"});
     } else if (job.outcome == JobOutcome::Done && following.end.last < job.course.end() - kHair) {
-        violations.push_back({"together", {}, {}, {},
+        violations.push_back({"together",
+                              {},
+                              {},
+                              {},
                               "done, but only " + std::to_string(following.end.last) + " of " +
                                   std::to_string(job.course.stretches.size()) + " moves were made"});
     }

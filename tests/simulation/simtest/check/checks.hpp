@@ -14,10 +14,10 @@ Violations check_counts(const Recording& recording);
 /// Within limits: a motion exists within the axis's speed, acceleration, deceleration and sudden change whose
 /// half-step crossings are all within the tick before their step.
 ///
-/// For any two adjacent windows of steps, the mean speeds differ by at most a times the time between their middles, plus
-/// one start velocity for each joint of moves that can be in them. The mean of a window is computed with its time one
-/// tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked; rests
-/// with v^2 = v0^2 + 2 a s.
+/// For any two adjacent windows of steps, the mean speeds differ by at most a times the time between their middles,
+/// plus one start velocity for each joint of moves that can be in them. The mean of a window is computed with its time
+/// one tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked;
+/// rests with v^2 = v0^2 + 2 a s.
 Violations check_limits(const Recording& recording);
 
 /// Together: at every step there is a place on the program's path, never before the one of the step before, such that

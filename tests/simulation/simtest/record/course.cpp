@@ -22,10 +22,16 @@ double length_mm(const MachineConfig& machine, const Places& from, const Places&
 class CourseMaker {
 public:
     CourseMaker(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed)
-        : program_(program), machine_(machine), most_feed_(most_feed), at_(from.begin(), from.end()), course_{.from = from} {}
+        : program_(program),
+          machine_(machine),
+          most_feed_(most_feed),
+          at_(from.begin(), from.end()),
+          course_{.from = from} {}
 
     Course take() {
-        for (const Block& block : program_.blocks) { std::visit([this](const auto& a) { add(a); }, block.action); }
+        for (const Block& block : program_.blocks) {
+            std::visit([this](const auto& a) { add(a); }, block.action);
+        }
         come_to_rest();
         for (const double place : at_) { course_.to.push_back(std::llround(place)); }
         for (std::size_t k = 0; k < course_.stretches.size(); ++k) { mark_joined(k); }

@@ -17,12 +17,12 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm);
 
 /// A straight move, a dwell or a pause.
 struct Stretch {
-    Places to;            // on whole steps where the machine rests
-    Places fastest;       // speed of each axis, steps per tick: the limit, or the axis's part of the feed
+    Places to;               // on whole steps where the machine rests
+    Places fastest;          // speed of each axis, steps per tick: the limit, or the axis's part of the feed
     bool is_joined = false;  // with a move before or behind
     double within = 0;       // steps: how far an axis may be from it, whole pulses included
-    double seconds = 0;   // of a dwell
-    bool rests = false;   // a dwell or pause
+    double seconds = 0;      // of a dwell
+    bool rests = false;      // a dwell or pause
     bool pauses = false;
 };
 

@@ -105,7 +105,8 @@ public:
     Follower(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until)
         : recording_(recording), places_(job.course), counts_(recording.axes.size()) {
         for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-            Axis axis{.index = i, .steps = recording.steps_of(job, i), .until = until[i], .counts = {job.course.from[i]}};
+            Axis axis{
+                .index = i, .steps = recording.steps_of(job, i), .until = until[i], .counts = {job.course.from[i]}};
             for (const StepEdge& step : axis.steps) { axis.counts.push_back(axis.counts.back() + step.direction); }
             look_ahead(axis);
             axes_.push_back(std::move(axis));
@@ -136,8 +137,9 @@ private:
     Tick next_tick() const { return std::ranges::min_element(axes_, {}, &Axis::next_made)->next_made; }
 
     static Range range(const Axis& axis) {
-        const auto [low, high] = std::minmax_element(axis.counts.begin() + static_cast<std::ptrdiff_t>(axis.made),
-                                                     axis.counts.begin() + static_cast<std::ptrdiff_t>(axis.may_have) + 1);
+        const auto [low, high] =
+            std::minmax_element(axis.counts.begin() + static_cast<std::ptrdiff_t>(axis.made),
+                                axis.counts.begin() + static_cast<std::ptrdiff_t>(axis.may_have) + 1);
         return std::pair{static_cast<double>(*low), static_cast<double>(*high)};
     }
 
