@@ -259,6 +259,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
         least = is_fixed ? *at_.w1 : std::max(0.0, window_.bounds(part).least_after(least));
         last = passage.interval;
         if (!is_fixed && passage.begin >= from) { window_.lower(last + 1, std::max(slower * passage.w1, least)); }
+        if (failure.is_full && last > at_.interval) { window_.slow(last, slower); }
         if (passage.begin > to + kMargin_ticks) { break; }
     }
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));

@@ -26,6 +26,8 @@ struct JoinedPiece {
     Quadratic shape;
     bool is_charged = false;  // the jumps at its ends are paid for like curvature: by `charged` in place of bend
     AxisVector charged;       // steps per mm^2
+    double begin_cap = 0x1p100;  // w at its joints, where that is better: so slow that the piece recovers their jumps
+    double end_cap = 0x1p100;
 };
 
 /// Whether speed changes steadily from end to end (Curved), or rises, is constant and falls (Straight).

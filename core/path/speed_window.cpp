@@ -9,6 +9,8 @@ namespace {
 constexpr double kNothing = 1e-12;        // steps per mm
 constexpr double kStopShare = 0.8;        // of the start velocity, where the path begins or ends: joints follow
 constexpr double kRestShare = 0.4;        // where it rests for a short time: two jumps follow each other
+constexpr double kWorthSlowing = 2;         // the pieces beside it are passed more slowly, too
+constexpr int kMostHalves = 40;
 constexpr std::size_t kChargedParts = 4;  // a straight piece whose joints are paid for needs nodes to change speed at
 
 double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
@@ -84,6 +86,8 @@ struct SpeedWindow::FastPassage {
         cruise = std::max(0.0, length - (v0 + peak) / 2 * rise - (v1 + peak) / 2 * fall) / peak;
     }
 
+    double ticks() const { return rise + cruise + fall; }
+
     /// What an axis of this slope and acceleration limit recovers of jumps up (or down), in steps per tick.
     double recovers(double slope, double limit, bool is_up) const {
         const double along = (is_up ? slope : -slope) * acceleration;
@@ -91,9 +95,8 @@ struct SpeedWindow::FastPassage {
     }
 };
 
-/// Jumps from and to rest stand alone. Of the others, each piece recovers half of those at its ends, so that they never
-/// add up to more than one. Where it is too short for that, what its joints turn counts as bend, spread over the piece.
-void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
+SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, const Quadratic* before,
+                                                   const Quadratic* next) const {
     const Quadratic& shape = piece.shape;
     const Interval whole{.kind = IntervalKind::Curved, .from = before == nullptr ? begin_u_ : 0, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
@@ -102,11 +105,20 @@ void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quad
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
     }
-    const double w0 = std::min(joint(before, &shape).cap, top);
-    const double w1 = std::min(joint(&shape, next).cap, top);
-    const FastPassage fast(w0, w1, top, path_acceleration, whole.length());
+    const double w0 = std::min({joint(before, &shape).cap, top, piece.begin_cap});
+    const double w1 = std::min({joint(&shape, next).cap, top, piece.end_cap});
+    return {w0, w1, top, path_acceleration, whole.length()};
+}
+
+/// Jumps from and to rest stand alone. Of the others, each piece recovers half of those at its ends, so that they never
+/// add up to more than one. Where it is too short for that, what its joints turn counts as bend, spread over the piece.
+void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
+    const Quadratic& shape = piece.shape;
+    const FastPassage fast = fast_passage(piece, before, next);
+    const double length = shape.length - (before == nullptr ? begin_u_ : 0);
     const bool follows = before != nullptr && before->length > 0;
     const bool goes_on = next != nullptr && next->length > 0;
+    piece.is_charged = false;
     piece.charged = shape.bend;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double turn0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
@@ -115,7 +127,27 @@ void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quad
         const double recovered =
             shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
         if (std::abs(jumps) > recovered) { piece.is_charged = true; }
-        piece.charged[i] += (turn0 + turn1) / (2 * whole.length());
+        piece.charged[i] += (turn0 + turn1) / (2 * length);
+    }
+}
+
+/// A long piece with a joint that one axis recovers slowly: to pass the joint slowly costs less than to go through the
+/// whole piece as slowly as the charge allows.
+void SpeedWindow::slow_joints(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
+    const double from = before == nullptr ? begin_u_ : 0;
+    const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = piece.shape.length};
+    const double charged_ticks = whole.length() / std::sqrt(IntervalBounds(setup_, piece, whole).cap(overrides_));
+    const FastPassage fast = fast_passage(piece, before, next);
+    JoinedPiece slowed{.shape = piece.shape};
+    double share = 1;
+    for (int halves = 0; halves < kMostHalves; ++halves) {
+        share /= 2;
+        if (before != nullptr && before->length > 0) { slowed.begin_cap = share * fast.v0 * fast.v0; }
+        if (next != nullptr && next->length > 0) { slowed.end_cap = share * fast.v1 * fast.v1; }
+        charge(slowed, before, next);
+        if (slowed.is_charged) { continue; }
+        if (kWorthSlowing * fast_passage(slowed, before, next).ticks() < charged_ticks) { piece = slowed; }
+        return;
     }
 }
 
@@ -127,7 +159,10 @@ void SpeedWindow::close_pending(const Quadratic* next) {
     }
     JoinedPiece piece{.shape = *pending_};
     if (piece.shape.length > 0) { charge(piece, before(), next); }
-    cut_piece(piece, joint(before(), &*pending_));
+    if (piece.is_charged && piece.shape.is_straight) { slow_joints(piece, before(), next); }
+    Joint begin = joint(before(), &*pending_);
+    begin.cap = std::min({begin.cap, piece.begin_cap, pieces_.empty() ? kMost : pieces_.back().end_cap});
+    cut_piece(piece, begin);
     before_ = pending_;
 }
 
@@ -231,6 +266,11 @@ void SpeedWindow::lower(std::size_t number, double cap) {
         Interval& part = intervals_[number - first_];
         part.cap = std::min(part.cap, cap);
     }
+}
+
+void SpeedWindow::slow(std::size_t number, double slower) {
+    Interval& part = intervals_[number - first_];
+    if (part.kind == IntervalKind::Straight) { part.top *= slower; }
 }
 
 void SpeedWindow::drop_before(std::size_t number) {

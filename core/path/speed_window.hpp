@@ -8,7 +8,7 @@
 //
 // A joint of two pieces is a sudden change of each axis's speed by the difference of its slopes times the speed. It is
 // at most kJointShare of the start velocity. Joints that follow each other faster than the acceleration recovers their
-// jumps are paid for like curvature (core/motion/strain.hpp has the rule).
+// jumps are paid for like curvature (core/motion/strain.hpp has the rule), or passed more slowly where that is faster.
 #pragma once
 
 #include <deque>
@@ -58,6 +58,8 @@ public:
     void lower(std::size_t number, double cap);
     /// Finds reach anew for the intervals [first, last].
     void update(std::size_t first, std::size_t last);
+    /// A straight interval takes longer, by a factor of the speed's square.
+    void slow(std::size_t number, double slower);
     /// Forgets what is before an interval.
     void drop_before(std::size_t number);
     /// New overrides, from an interval's end where it `is_under_way`, else from its beginning; `w` is the speed there.
@@ -82,7 +84,9 @@ private:
     void close_end();
     bool is_passed(const Quadratic& piece, const Quadratic* next) const;
     Joint joint(const Quadratic* before, const Quadratic* after) const;
+    FastPassage fast_passage(const JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
     void charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
+    void slow_joints(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
     void cut_piece(const JoinedPiece& piece, const Joint& begin);
     void look_ahead();
     bool may_rise(std::size_t piece) const;

@@ -31,7 +31,7 @@ TurnResult SpeedWindow::turn(const Overrides& overrides, std::size_t number, boo
 bool SpeedWindow::may_rise(std::size_t piece) const {
     const std::size_t k = piece - first_piece_;
     if (pieces_[k].is_charged) { return true; }
-    JoinedPiece turned{.shape = pieces_[k].shape};
+    JoinedPiece turned = pieces_[k];
     const Quadratic* before = k > 0 ? &pieces_[k - 1].shape : nullptr;
     const Quadratic* next = k + 1 < pieces_.size() ? &pieces_[k + 1].shape : pending_ ? &*pending_ : nullptr;
     charge(turned, before, next);

@@ -58,12 +58,13 @@ std::vector<PathMove> moves_of(const MachineConfig& machine) {
         ADD_FAILURE() << read.error().front().message;
         return {};
     }
-    const auto legs = ProgramPlanner(machine).plan(read->program, {0, 0});
+    const ProgramPlanner planner(machine);
+    const auto legs = planner.plan(read->program, {0, 0});
     if (!legs) {
         ADD_FAILURE() << legs.error().text;
         return {};
     }
-    return legs->front().moves;
+    return planner.moves(read->program, legs->front());
 }
 
 Path planned(const std::vector<PathMove>& moves, const MachineConfig& machine, LaiFollowing following) {
