@@ -24,8 +24,8 @@ namespace lockstep {
 /// A piece with what its joints cost.
 struct JoinedPiece {
     Quadratic shape;
-    bool is_charged = false;  // the jumps at its ends are paid for like curvature: by `charged` in place of bend
-    AxisVector charged;       // steps per mm^2
+    bool is_charged = false;     // the jumps at its ends are paid for like curvature: by `charged` in place of bend
+    AxisVector charged;          // steps per mm^2
     double begin_cap = 0x1p100;  // w at its joints, where that is better: so slow that the piece recovers their jumps
     double end_cap = 0x1p100;
 };

@@ -104,6 +104,16 @@ const PathPhase& PieceFit::phase_at(const Stretch& s) const {
     return phases[k];
 }
 
+/// The axis turns within the piece, and with more acceleration than it may speed up with: a part of it would not be
+/// allowed, so a tail with it could not be cut.
+bool PieceFit::is_hard_turn(std::size_t i, double v0, double a, double ticks) const {
+    const double v1 = v0 + a * ticks;
+    const double one_tick = std::abs(a);
+    const AxisLimits& axis = setup_.limits[i];
+    return v0 * v1 < 0 && std::min(std::abs(v0), std::abs(v1)) > one_tick &&
+           std::abs(a) > std::min(axis.max_acceleration, axis.max_deceleration);
+}
+
 bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points) {
     const Stretch s = stretch(begin, end);
     const double ticks = to_double(end - begin);
@@ -118,6 +128,7 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
         const bool is_near = std::abs(v0 - first.velocity(i, to_double(begin))) <= most &&
                              std::abs(v0 + a * ticks - last.velocity(i, to_double(end))) <= most;
         if (!(is_near && is_close(s, i, points[i].position.as_steps(), v0, a))) { return false; }
+        if (tolerance_ <= 1 && is_hard_turn(i, v0, a, ticks)) { return false; }
         try_pieces_[i] = solve_piece(points[i].position, to, end - begin, a);
     }
     for (std::size_t i = 0; i < setup_.axes(); ++i) {

@@ -42,6 +42,7 @@ private:
     bool is_close(const Stretch& stretch, std::size_t axis, double from, double v0, double a) const;
     const PathPhase& phase_at(const Stretch& stretch) const;
     double acceleration(const Stretch& stretch, std::size_t axis) const;
+    bool is_hard_turn(std::size_t i, double v0, double a, double ticks) const;
     bool try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points);
     Ticks longest(Ticks now, Ticks limit, std::span<const MotionPoint> points);
     Ticks longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points);

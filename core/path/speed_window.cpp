@@ -6,10 +6,10 @@
 namespace lockstep {
 namespace {
 
-constexpr double kNothing = 1e-12;        // steps per mm
-constexpr double kStopShare = 0.8;        // of the start velocity, where the path begins or ends: joints follow
-constexpr double kRestShare = 0.4;        // where it rests for a short time: two jumps follow each other
-constexpr double kWorthSlowing = 2;         // the pieces beside it are passed more slowly, too
+constexpr double kNothing = 1e-12;   // steps per mm
+constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: joints follow
+constexpr double kRestShare = 0.4;   // where it rests for a short time: two jumps follow each other
+constexpr double kWorthSlowing = 2;  // the pieces beside it are passed more slowly, too
 constexpr int kMostHalves = 40;
 constexpr std::size_t kChargedParts = 4;  // a straight piece whose joints are paid for needs nodes to change speed at
 

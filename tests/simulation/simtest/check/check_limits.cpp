@@ -114,19 +114,21 @@ private:
 
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n, n + m) > 0) { return; }
-        const double most = std::min(limits_.top, at_ == nullptr ? limits_.top : feed(n) * kRounding * hurry_);
+        const double most = std::min(limits_.top, at_ == nullptr ? limits_.top : feed(n, n + m) * kRounding * hurry_);
         const double speed = least(static_cast<double>(m)) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
-    /// Joined moves lead from one's direction to the other's.
-    double feed(std::size_t n) const {
-        const std::size_t here = std::min(static_cast<std::size_t>((*at_)[n].last), course_.stretches.size() - 1);
-        double fastest = course_.stretches[here].fastest[axis_];
-        if (!course_.stretches[here].is_joined) { return fastest; }
-        if (here > 0) { fastest = std::max(fastest, course_.stretches[here - 1].fastest[axis_]); }
-        if (here + 1 < course_.stretches.size()) {
-            fastest = std::max(fastest, course_.stretches[here + 1].fastest[axis_]);
+    /// Of all moves in which the steps can be. Joined moves lead from one's direction to the other's.
+    double feed(std::size_t from, std::size_t to) const {
+        const auto first = static_cast<std::size_t>((*at_)[from].first);
+        const auto last = static_cast<std::size_t>((*at_)[to].last);
+        double fastest = 0;
+        for (std::size_t k = first > 0 ? first - 1 : 0; k < course_.stretches.size() && k <= last + 1; ++k) {
+            const bool is_beside = k < first || k > last;
+            if (!is_beside || course_.stretches[k].is_joined) {
+                fastest = std::max(fastest, course_.stretches[k].fastest[axis_]);
+            }
         }
         return fastest;
     }

@@ -58,6 +58,7 @@ private:
         }
         if (stretch.to == at_) { return; }
         feed_.push_back(move.rapid ? 0 : move.feed_mm_s);
+        asked_.push_back(stretch.to);
         at_ = stretch.to;
         course_.stretches.push_back(std::move(stretch));
     }
@@ -65,11 +66,13 @@ private:
         come_to_rest();
         course_.stretches.push_back({.to = at_, .seconds = dwell.seconds, .rests = true});
         feed_.push_back(0);
+        asked_.push_back(at_);
     }
     void add(const Pause&) {
         come_to_rest();
         course_.stretches.push_back({.to = at_, .rests = true, .pauses = true});
         feed_.push_back(0);
+        asked_.push_back(at_);
         ++course_.pauses;
     }
 
@@ -87,8 +90,8 @@ private:
         if (k == 0 || k == course_.stretches.size()) { return true; }
         if (course_.stretches[k - 1].rests || course_.stretches[k].rests) { return true; }
         const Places a = start_of(k - 1);
-        const Places& b = course_.stretches[k - 1].to;
-        const Places& c = course_.stretches[k].to;
+        const Places& b = asked_[k - 1];  // before rests were moved to whole steps
+        const Places& c = asked_[k];
         const double before = length_mm(machine_, a, b);
         const double behind = length_mm(machine_, b, c);
         double product = 0;
@@ -146,7 +149,8 @@ private:
     double most_feed_;
     Places at_;
     Course course_;
-    std::vector<double> feed_;  // of each stretch; 0: none
+    std::vector<double> feed_;   // of each stretch; 0: none
+    std::vector<Places> asked_;  // where each stretch leads to by the program
 };
 
 }  // namespace
