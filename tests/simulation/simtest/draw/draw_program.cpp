@@ -23,6 +23,23 @@ public:
         }
     }
 
+    /// Goes on behind the last move of a program.
+    ProgramDrawer(Draw& draw, const MachineConfig& machine, Program program)
+        : draw_(draw), machine_(machine), program_(std::move(program)) {
+        for (const std::string& name : program_.axes) {
+            const auto named = std::ranges::find(machine.axes, name, &AxisConfig::name);
+            places_.push_back(static_cast<std::size_t>(named - machine.axes.begin()));
+        }
+        for (const Block& block : program_.blocks) {
+            if (const auto* move = std::get_if<LinearMove>(&block.action)) { at_ = move->target_mm; }
+        }
+        moved_ = !at_.empty();
+    }
+
+    Program with_dense_curve() {
+        if (moved_) { dense_curve(); }
+        return std::move(program_);
+    }
     Program take() {
         for (std::int64_t groups = draw_.whole(1, kMostGroups); groups > 0 && seconds_ < kProgramSeconds; --groups) {
             group();
@@ -43,7 +60,7 @@ private:
             case 1: return anywhere();
             case 2: return reversal();
             case 3: return single_steps();
-            case 4: return draw_.chance(0.5) ? polyline() : dense_curve();
+            case 4: return polyline();
             case 5: return zigzag();
             case 6: return from_end_to_end();
             case 7: return add(Dwell{draw_.chance(0.3) ? 1e-6 : draw_.magnitude(1e-4, 0.2)});
@@ -161,5 +178,9 @@ private:
 }  // namespace
 
 Program draw_program(Draw& draw, const MachineConfig& machine) { return ProgramDrawer(draw, machine).take(); }
+
+Program with_dense_curve(Draw& draw, const MachineConfig& machine, Program program) {
+    return ProgramDrawer(draw, machine, std::move(program)).with_dense_curve();
+}
 
 }  // namespace lockstep::simtest

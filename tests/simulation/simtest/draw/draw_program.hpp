@@ -12,4 +12,7 @@ namespace lockstep::simtest {
 
 Program draw_program(Draw& draw, const MachineConfig& machine);
 
+/// Goes on with a smooth curve or a line in chords of a fraction of a step and more.
+Program with_dense_curve(Draw& draw, const MachineConfig& machine, Program program);
+
 }  // namespace lockstep::simtest

@@ -116,6 +116,14 @@ void give_overrides(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
+/// Half of the programs end with a dense curve. The random numbers are separate, as for overrides.
+void give_dense_curves(std::uint64_t seed, Scenario& scenario) {
+    Draw draw(seed ^ 0x0de05ecc0de05eccU);
+    for (Task& task : scenario.tasks) {
+        if (draw.chance(0.5)) { task.program = with_dense_curve(draw, scenario.machine, std::move(task.program)); }
+    }
+}
+
 /// Some homings are stopped. The random numbers are separate, as for overrides.
 void give_homing_stop(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x5109051095109510U);
@@ -249,6 +257,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
         give_device_faults(seed, asked.mixed, scenario);
         scenario.resets_early = Draw(seed ^ 0x0ea717ea717ea717U).chance(0.3);
     }
+    give_dense_curves(seed, scenario);
     return scenario;
 }
 
