@@ -16,6 +16,9 @@ constexpr double kStray_steps = 2 * 0.04;
 double least(double steps) { return steps - kStray_steps; }
 double most_of(double steps) { return steps + kStray_steps; }
 
+/// A feed is kept within this share of the start velocity: what one piece makes of a speed that changes.
+constexpr double kFeedShare = 0.005;
+
 /// How a device's own clock changes machine time. The limits of an axis hold in its device's time, including clock
 /// corrections; a feed is a speed in machine time.
 struct OwnClock {
@@ -114,7 +117,8 @@ private:
 
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n, n + m) > 0) { return; }
-        const double most = std::min(limits_.top, at_ == nullptr ? limits_.top : feed(n, n + m) * kRounding * hurry_);
+        const double asked = at_ == nullptr ? limits_.top : feed(n, n + m) * kRounding * hurry_;
+        const double most = std::min(limits_.top, asked + kFeedShare * limits_.start);
         const double speed = least(static_cast<double>(m)) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
