@@ -111,7 +111,8 @@ SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, con
 }
 
 /// Jumps from and to rest stand alone. Of the others, each piece recovers half of those at its ends, so that they never
-/// add up to more than one. Where it is too short for that, what its joints turn counts as bend, spread over the piece.
+/// add up to more than one. Where it is too short for an axis to do that, what its joints turn counts as bend of this
+/// axis, spread over the piece.
 void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
     const Quadratic& shape = piece.shape;
     const FastPassage fast = fast_passage(piece, before, next);
@@ -126,7 +127,8 @@ void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quad
         const double jumps = (turn0 * fast.v0 + turn1 * fast.v1) / 2;
         const double recovered =
             shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
-        if (std::abs(jumps) > recovered) { piece.is_charged = true; }
+        if (std::abs(jumps) <= recovered) { continue; }
+        piece.is_charged = true;
         piece.charged[i] += (turn0 + turn1) / (2 * length);
     }
 }

@@ -30,12 +30,18 @@ TurnResult SpeedWindow::turn(const Overrides& overrides, std::size_t number, boo
 /// Whether a piece that was begun recovers the jumps at its ends as before, although it gets faster.
 bool SpeedWindow::may_rise(std::size_t piece) const {
     const std::size_t k = piece - first_piece_;
-    if (pieces_[k].is_charged) { return true; }
-    JoinedPiece turned = pieces_[k];
+    const JoinedPiece& begun = pieces_[k];
+    JoinedPiece turned = begun;
     const Quadratic* before = k > 0 ? &pieces_[k - 1].shape : nullptr;
     const Quadratic* next = k + 1 < pieces_.size() ? &pieces_[k + 1].shape : pending_ ? &*pending_ : nullptr;
     charge(turned, before, next);
-    return !turned.is_charged;
+    const auto is_paid = [&](std::size_t axis, const JoinedPiece& as) {
+        return as.is_charged && as.charged.begin()[axis] != as.shape.bend.begin()[axis];
+    };
+    for (std::size_t axis = 0; axis < setup_.axes(); ++axis) {
+        if (is_paid(axis, turned) && !is_paid(axis, begun)) { return false; }
+    }
+    return true;
 }
 
 /// What is left of the piece in which the new overrides begin. Its joint is behind.
