@@ -61,7 +61,7 @@ double IntervalBounds::least_after(double w0) const {
         if (std::abs(t1) < kNothing) { return; }
         w1 = std::max(w1, (w0 * (t1 > 0 ? t0 : -t0) - change) / std::abs(t1));
     });
-    return w1;
+    return std::min(w1, w0);  // within the limits no axis needs more: rounding, which grows from interval to interval
 }
 
 /// Overrides turn the feed; of rapid moves they turn the speeds that the axes allow, which they never exceed.

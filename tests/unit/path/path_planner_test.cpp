@@ -240,6 +240,17 @@ TEST(PathPlanner, GoesOnFromTheBeginningAgain) {
     for (std::size_t k = 0; k < first.frames.size(); ++k) { EXPECT_EQ(again.frames[k].axes, first.frames[k].axes); }
 }
 
+/// The joint at its end turns an axis that is slow but has time, and hardly the one that brakes all the way.
+TEST(PathPlanner, GoesFastThroughALongPieceWhoseJointOneAxisAloneCannotRecover) {
+    const std::vector<TestAxis> machine{{12.5, 724, 724, 91, 171}, {60.5, 4.76, 6.34, 3.47, 5.71}};
+    PathPlanner planner(setup_of(machine));
+    planner.begin(std::vector{Position::steps(9279), Position::steps(-63)});
+    planner.line({{166.6603, -0.9810}}, {}, 1);
+    planner.line({{165.6530, -1.2343}}, {.feed_mm_per_tick = 28e-6}, 2);
+    planner.line({{165.6434, -1.2432}}, {.feed_mm_per_tick = 0.96e-6}, 3);
+    EXPECT_LT(finish(planner).seconds(), 4.5) << "575 mm with 91 mm/s^2, and 1 mm";
+}
+
 /// A dwell that was begun is begun anew.
 TEST(PathPlanner, RestsAgainWhereItWasInterruptedInADwell) {
     PathPlanner planner(setup_of(mill()));
