@@ -13,10 +13,10 @@ namespace {
 TEST(IntervalBounds, TheSlowestPassageNeverGetsFaster) {
     const PathSetup setup = setup_of(mill());
     JoinedPiece piece{.shape = {.length = 100, .is_straight = true}, .is_charged = true};
-    for (const double slope : {80.0, 0.008, 0.0}) { piece.shape.slope.append(slope); }
+    for (const double slope : {80.0, 2.6, 0.0}) { piece.shape.slope.append(slope); }
     for (int axis = 0; axis < 3; ++axis) { piece.shape.bend.append(0); }
     piece.charged = piece.shape.bend;
-    piece.charged[1] = 0.02;
+    piece.charged[1] = 6;
     Interval part{.kind = IntervalKind::Curved};
     double w = 1;
     for (int k = 0; k < 400; ++k) {
