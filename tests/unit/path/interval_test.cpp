@@ -16,7 +16,7 @@ TEST(IntervalBounds, TheSlowestPassageNeverGetsFaster) {
     for (const double slope : {80.0, 2.6, 0.0}) { piece.shape.slope.append(slope); }
     for (int axis = 0; axis < 3; ++axis) { piece.shape.bend.append(0); }
     piece.charged = piece.shape.bend;
-    piece.charged[1] = 6;
+    piece.charged[1] = -6;
     Interval part{.kind = IntervalKind::Curved};
     double w = 1;
     for (int k = 0; k < 400; ++k) {
