@@ -11,8 +11,6 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     const bool lacks_device = static_cast<FaultCode>(state.unproved) == FaultCode::DeviceMissing;
     if (lacks_device && state.homed) { object(axis, now, "it says that it is homed, and that it has no device"); }
     if (lacks_device) { unnoticed_[axis].reset(); }
-    if (lacks_device && is_new_[axis]) { pulses_[axis] = 0; }  // of the device before, read late
-    if (!lacks_device && has_device_[axis] && !unnoticed_[axis]) { is_new_[axis] = false; }
     const bool may_not_know = has_yet_to_notice(axis);
     if (lacks_device || !has_device_[axis] || may_not_know) { return; }  // it says where the device was last seen
     if (claimed + node.controller().zero_count() != pulses_[axis]) {
@@ -43,10 +41,7 @@ void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) 
     has_device_[fault.process] = !begins;
     if (begins) { unnoticed_[fault.process] = 0; }
     if (fault.kind == VirtualFault::Kind::StopDevice && !begins) { unnoticed_[fault.process].reset(); }
-    if (!begins && fault.kind != VirtualFault::Kind::StopDevice) {
-        pulses_[fault.process] = 0;
-        is_new_[fault.process] = true;
-    }
+    if (!begins && fault.kind != VirtualFault::Kind::StopDevice) { pulses_[fault.process] = 0; }
 }
 
 void ClaimCheck::object(std::size_t axis, Tick now, const std::string& what) {

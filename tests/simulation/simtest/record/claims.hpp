@@ -17,7 +17,6 @@ public:
           recording_(recording),
           pulses_(recording.axes.size(), 0),
           has_device_(recording.axes.size(), true),
-          is_new_(recording.axes.size(), false),
           unnoticed_(recording.axes.size()) {}
 
     void on_step(std::size_t axis, StepEdge step) override { pulses_[axis] += step.direction; }
@@ -32,7 +31,6 @@ private:
     Recording& recording_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<bool> has_device_;      // and the axis has taken it
-    std::vector<bool> is_new_;          // the axis has not looked at it yet
     std::vector<std::optional<Slot>>
         unnoticed_;  // of an axis that has not noticed that its device was lost: its states
 };
