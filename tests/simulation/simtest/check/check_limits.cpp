@@ -119,7 +119,7 @@ private:
         if (joints(n, n + m) > 0) { return; }
         const double asked = at_ == nullptr ? limits_.top : feed(n, n + m) * kRounding * hurry_;
         const double most = std::min(limits_.top, asked + kFeedShare * limits_.start);
-        const double speed = least(static_cast<double>(m)) / (time(n, n + m) + rounding_);
+        const double speed = least(std::abs(distance(n, n + m))) / (time(n, n + m) + rounding_);
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
@@ -142,7 +142,7 @@ private:
         const double t2 = time(n, n + m);
         const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
         const std::size_t jumps = joints(n - m, n + m);
-        if (jumps > 0) { return check_change_with_joints(n, m, between, jumps); }
+        if (jumps > 0 || turns(n - m, n + m)) { return check_change_either_way(n, m, between, jumps); }
         const double fewest = least(static_cast<double>(m));
         const double most = most_of(static_cast<double>(m));
         const double rises = fewest / (t2 + rounding_) - most / std::max(t1 - rounding_, 1e-3);
@@ -153,7 +153,12 @@ private:
         if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
 
-    void check_change_with_joints(std::size_t n, std::size_t m, double between, std::size_t jumps) {
+    /// Joined moves can lead an axis forth and back.
+    bool turns(std::size_t from, std::size_t to) const {
+        return std::abs(distance(from, to)) < static_cast<double>(to - from);
+    }
+
+    void check_change_either_way(std::size_t n, std::size_t m, double between, std::size_t jumps) {
         struct Mean {
             double low, high;
         };
@@ -190,7 +195,7 @@ private:
     void check_ramp(const char* rule, std::size_t from, std::size_t at, std::size_t m, double speed, double rate) {
         if (joints(from, from + m) > 0) { return; }
         const double t = time(from, from + m) + rounding_;
-        const double mean = least(static_cast<double>(m)) / t;
+        const double mean = least(std::abs(distance(from, from + m))) / t;
         const double most = speed + rate * (t / 2 + kJointTicks);
         if (mean > most) { object(rule, at, mean, most, m); }
     }

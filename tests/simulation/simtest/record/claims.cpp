@@ -41,7 +41,10 @@ void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) 
     has_device_[fault.process] = !begins;
     if (begins) { unnoticed_[fault.process] = 0; }
     if (fault.kind == VirtualFault::Kind::StopDevice && !begins) { unnoticed_[fault.process].reset(); }
-    if (!begins && fault.kind != VirtualFault::Kind::StopDevice) { pulses_[fault.process] = 0; }
+    if (!begins && fault.kind != VirtualFault::Kind::StopDevice) {
+        pulses_[fault.process] = 0;
+        power_up_[fault.process] = vm_.device_time(fault.process);
+    }
 }
 
 void ClaimCheck::object(std::size_t axis, Tick now, const std::string& what) {

@@ -16,10 +16,14 @@ public:
         : vm_(vm),
           recording_(recording),
           pulses_(recording.axes.size(), 0),
+          power_up_(recording.axes.size()),
           has_device_(recording.axes.size(), true),
           unnoticed_(recording.axes.size()) {}
 
-    void on_step(std::size_t axis, StepEdge step) override { pulses_[axis] += step.direction; }
+    /// Pulses of a device that was replaced meanwhile can be reported late.
+    void on_step(std::size_t axis, StepEdge step) override {
+        if (step.tick >= power_up_[axis]) { pulses_[axis] += step.direction; }
+    }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
@@ -30,7 +34,8 @@ private:
     VirtualMachine& vm_;
     Recording& recording_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
-    std::vector<bool> has_device_;      // and the axis has taken it
+    std::vector<Tick> power_up_;    // in its own time
+    std::vector<bool> has_device_;  // and the axis has taken it
     std::vector<std::optional<Slot>>
         unnoticed_;  // of an axis that has not noticed that its device was lost: its states
 };
