@@ -15,7 +15,8 @@ double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, a
 
 }  // namespace
 
-/// visit(slope - bend d, slope + bend d, 2 d a): for the axis's own bend, and for the one its joints charge.
+/// visit(p, q, 2 d a) for each bound |q w1 - p w0| <= 2 d a: at the interval's beginning and end, by the axis's own
+/// bend, and at its middle by the one that its joints charge.
 template <typename Visit>
 void IntervalBounds::each_axis(Visit visit) const {
     const double d = interval_.length();
@@ -24,7 +25,8 @@ void IntervalBounds::each_axis(Visit visit) const {
         const double slope = piece_.shape.slope_at(i, middle);
         const double bend = piece_.shape.bend.begin()[i] * d;
         const double change = 2 * d * weaker(setup_.limits[i]);
-        visit(slope - bend, slope + bend, change);
+        visit(slope - 2.5 * bend, slope - 0.5 * bend, change);
+        if (bend != 0) { visit(slope + 0.5 * bend, slope + 2.5 * bend, change); }
         if (!piece_.is_charged) { continue; }
         const double charged = piece_.charged.begin()[i] * d;
         visit(slope - charged, slope + charged, change);

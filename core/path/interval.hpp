@@ -1,14 +1,14 @@
 // A short part of a piece of geometry, in which the square of the speed is linear in the way.
 //
 // With t the slope of an axis at the interval's middle, c its bend, d the interval's length and w = (du/dt)^2 at its
-// ends, the axis accelerates at the middle by
+// ends, the axis's acceleration changes steadily along the interval, from
 //
-//     (w1 (t + c d) - w0 (t - c d)) / 2d,      which may be from -a to a.
+//     (w1 (t - c d / 2) - w0 (t - 5 c d / 2)) / 2d    to    (w1 (t + 5 c d / 2) - w0 (t + c d / 2)) / 2d.
 //
-// These bounds on (w0, w1) are linear and hold at (0, 0): if w0 can be followed by w1, then every share of w0 by the
-// same share of w1. So a backward pass that finds the greatest w of each node from which rest can be reached, and a
-// forward pass that is as fast as those allow, are exact: H. Pham, Q.-C. Pham, "A New Approach to Time-Optimal Path
-// Parameterization Based on Reachability Analysis", IEEE T-RO 34 (2018).
+// Both may be from -a to a. These bounds on (w0, w1) are linear and hold at (0, 0): if w0 can be followed by w1, then
+// every share of w0 by the same share of w1. So a backward pass that finds the greatest w of each node from which rest
+// can be reached, and a forward pass that is as fast as those allow, are exact: H. Pham, Q.-C. Pham, "A New Approach to
+// Time-Optimal Path Parameterization Based on Reachability Analysis", IEEE T-RO 34 (2018).
 //
 // On a straight piece the limits are the same everywhere. It is one interval: speeding up, cruising, braking.
 #pragma once

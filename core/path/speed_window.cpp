@@ -77,8 +77,11 @@ struct SpeedWindow::FastPassage {
     double fall = 0;
     double acceleration = 0;  // mm per tick^2
 
-    FastPassage(double w0, double w1, double top, double a, double length) : v0(std::sqrt(w0)), acceleration(a) {
-        w1 = std::min(w1, w0 + 2 * a * length);
+    FastPassage(double w0, double w1, double top, double a, double length) : acceleration(a) {
+        const double most_change = 2 * a * length;
+        w0 = std::min(w0, w1 + most_change);
+        w1 = std::min(w1, w0 + most_change);
+        v0 = std::sqrt(w0);
         v1 = std::sqrt(w1);
         const double peak = std::sqrt(std::max({std::min((w0 + w1) / 2 + a * length, top), w0, w1}));
         rise = (peak - v0) / a;

@@ -35,7 +35,9 @@ PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
     }
     runner_.load(planner_.frames(job_.program, leg));
     resume_ = {leg.first, {}};
-    begin_epoch({}, loop);
+    std::vector<Position> at;
+    for (const std::int64_t count : leg.from) { at.push_back(Position::steps(count)); }
+    begin_epoch(std::move(at), loop);
     return Next::Moves;
 }
 

@@ -1,6 +1,7 @@
 // Checks that what each axis reports is true: compares every one of its states with its pulses and its slide.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,7 @@ public:
         : vm_(vm),
           recording_(recording),
           pulses_(recording.axes.size(), 0),
-          power_up_(recording.axes.size()),
+          power_up_(recording.axes.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
           has_device_(recording.axes.size(), true),
           unnoticed_(recording.axes.size()) {}
 
@@ -34,8 +35,8 @@ private:
     VirtualMachine& vm_;
     Recording& recording_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
-    std::vector<Tick> power_up_;    // in its own time
-    std::vector<bool> has_device_;  // and the axis has taken it
+    std::vector<Tick> power_up_;        // in its own time
+    std::vector<bool> has_device_;      // and the axis has taken it
     std::vector<std::optional<Slot>>
         unnoticed_;  // of an axis that has not noticed that its device was lost: its states
 };
