@@ -82,7 +82,7 @@ bool PieceFit::is_close(const Stretch& s, std::size_t i, double from, double v0,
     const double ticks = to_double(s.end - s.begin);
     const auto is_near = [&](const PathPhase& phase, double t) {
         const double gone = t - begin;
-        return std::abs(phase.place(i, t) - from - (v0 + a * gone / 2) * gone) <= tolerance_ * kFitShare;
+        return std::abs(phase.place(i, t) - from - (v0 + a * gone / 2) * gone) <= kFitShare;
     };
     for (std::size_t k = s.first; k <= s.last; ++k) {
         const PathPhase& phase = phases[k];

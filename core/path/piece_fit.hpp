@@ -54,7 +54,7 @@ private:
     const TimedPath& path_;
     std::size_t phase_ = 0;  // the last that begins at or before now
     Ticks guess_;
-    double tolerance_ = 1;       // times kFitShare and kSpeedTolerance
+    double tolerance_ = 1;       // times kSpeedTolerance
     std::vector<Piece> pieces_;  // of the last try that succeeded
     std::vector<MotionPoint> points_;
     std::vector<Piece> try_pieces_;
