@@ -31,5 +31,32 @@ TEST(IntervalBounds, TheSlowestPassageNeverGetsFaster) {
     }
 }
 
+/// x'' = x' u'' + x'' u'^2 anywhere in an interval that is gone through as fast as its bounds allow.
+TEST(IntervalBounds, AxesKeepTheirAccelerationsFromEndToEnd) {
+    const PathSetup setup = setup_of(mill());
+    Random random(19);
+    for (int n = 0; n < 2'000; ++n) {
+        JoinedPiece piece{.shape = {.length = 0.25, .is_straight = false}};
+        for (const double scale : setup.steps_per_mm) {
+            piece.shape.slope.append(uniform(random, -scale, scale));
+            piece.shape.bend.append(uniform(random, -scale, scale) / 4);
+        }
+        const Interval part{.kind = IntervalKind::Curved, .from = 0, .to = 0.25};
+        const IntervalBounds bounds(setup, piece, part);
+        const double w0 = bounds.limit() * uniform(random, 0, 1);
+        const double w1 = n % 2 == 0 ? bounds.after(w0) : std::max(0.0, bounds.least_after(w0));
+        if (w0 > bounds.before(w1)) { continue; }  // this speed is too high for the interval
+        for (std::size_t axis = 0; axis < setup.axes(); ++axis) {
+            for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                const double w = w0 + share * (w1 - w0);
+                const double slope = piece.shape.slope_at(axis, share * 0.25);
+                const double acceleration = slope * (w1 - w0) / 0.5 + piece.shape.bend[axis] * w;
+                ASSERT_LE(std::abs(acceleration), setup.limits[axis].max_acceleration * (1 + 1e-9))
+                    << n << " " << share;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lockstep
