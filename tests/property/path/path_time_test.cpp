@@ -1,4 +1,6 @@
-// How long paths take: the same however finely they are cut, and as long as the limits ask for.
+// How long paths take: the same however finely they are cut, and as long as the limits ask for. The rows that the tests
+// print are the table in docs/dense-paths.md.
+#include <cstdio>
 #include <numbers>
 
 #include "tests/property/path/path_run.hpp"
@@ -9,9 +11,20 @@ namespace {
 
 constexpr double kFeed = 100;  // mm/s
 
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
 double thousandth(double mm) { return std::round(mm * 1000) / 1000; }
 
 std::vector<slow::Axis> slow_axes() { return {{10, 150, 1500}, {10, 150, 1500}, {4, 25, 300}}; }
+
+/// A row of the table.
+void print(const std::string& path, double seconds, double least) {
+    std::printf("| %s | %.3f | %+.2f %% |\n", path.c_str(), seconds, 100 * (seconds / least - 1));
+}
 
 double seconds_of(const TestProgram& program) {
     const PathSetup setup = setup_of(mill());
@@ -34,7 +47,9 @@ TestProgram cut_line(double length, double mm) {
 TEST(PathTime, OfALineIsTheSameHoweverItIsCut) {
     const double whole = seconds_of(cut_line(200, 200));
     for (const double mm : {0.01, 0.05, 0.1, 0.2, 1.0, 7.0}) {
-        EXPECT_NEAR(seconds_of(cut_line(200, mm)), whole, 0.001 * whole) << mm << " mm";
+        const double seconds = seconds_of(cut_line(200, mm));
+        EXPECT_NEAR(seconds, whole, 0.001 * whole) << mm << " mm";
+        print("a line of 200 mm in parts of " + number(mm) + " mm, against the whole", seconds, whole);
     }
 }
 
@@ -83,9 +98,15 @@ TEST(PathTime, OfACircleIsNearTheLeast) {
         }
         const slow::Grid grid = slow::grid_of_curve(places);
         const double least = slow::Solver(grid, slow_axes(), kFeed).seconds();
-        EXPECT_LT(seconds_of_arc(radius), 1.01 * least) << radius;
-        EXPECT_GT(seconds_of_arc(radius), 0.995 * least) << radius;
-        EXPECT_LT(seconds_of(cut_circle(radius, 0.001)), 1.01 * least) << radius;
+        const double arc = seconds_of_arc(radius);
+        EXPECT_LT(arc, 1.01 * least) << radius;
+        EXPECT_GT(arc, 0.995 * least) << radius;
+        print("a circle of " + number(radius) + " mm radius, twice, as an arc", arc, least);
+        for (const double error_mm : {0.001, 0.005, 0.01}) {
+            const double chords = seconds_of(cut_circle(radius, error_mm));
+            if (error_mm <= 0.001) { EXPECT_LT(chords, 1.01 * least) << radius; }
+            print("the same from chords of " + number(1000 * error_mm) + " um error", chords, least);
+        }
     }
 }
 
@@ -108,6 +129,7 @@ TEST(PathTime, OfASplineIsNearTheLeast) {
         const double seconds = seconds_of(program);
         EXPECT_LT(seconds, 1.01 * least) << parts;
         EXPECT_GT(seconds, 0.99 * least) << parts;
+        print("a spline in three axes, " + number(parts) + " chords", seconds, least);
     }
 }
 
@@ -127,8 +149,10 @@ TEST(PathTime, OfRandomPolylinesIsNearTheLeast) {
             }
             const slow::Grid grid = slow::grid_of_polyline(corners, 0.002);
             const double least = slow::Solver(grid, slow_axes(), kFeed).seconds();
-            EXPECT_LT(seconds_of(program), 1.01 * least) << "seed " << seed << " size " << size;
-            EXPECT_GT(seconds_of(program), 0.995 * least) << "seed " << seed << " size " << size;
+            const double seconds = seconds_of(program);
+            EXPECT_LT(seconds, 1.01 * least) << "seed " << seed << " size " << size;
+            EXPECT_GT(seconds, 0.995 * least) << "seed " << seed << " size " << size;
+            if (seed == 1) { print("100 random corners, up to " + number(size) + " mm apart", seconds, least); }
         }
     }
 }
