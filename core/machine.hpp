@@ -48,7 +48,8 @@ struct AxisConfig {
     double position_min_mm = 0;
     double position_max_mm = 0;
     StepMethod method = StepMethod::Ranade;
-    std::optional<double> safe_height_mm;  // where it is clear of the work; none: nothing is known of it
+    std::optional<double> unhomed_jog_mm_s;  // how fast it may be jogged unhomed; none: not at all
+    std::optional<double> safe_height_mm;    // where it is clear of the work; none: nothing is known of it
     HomingConfig homing;
     PlantConfig plant;
 };
@@ -113,6 +114,7 @@ struct MachineConfig {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns) * 1e-3;
     }
     Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
+    Ticks jog_hold_ticks() const { return {timing.jog_hold_us * 1000 / tick_ns}; }
     Ticks clock_error_limit() const { return {timing.clock_error_limit_us * 1000 / tick_ns}; }
     /// To begin: a quarter is kept in hand, since the bound grows while exchanges are lost.
     Ticks clock_error_to_begin() const {

@@ -52,7 +52,7 @@ struct JobLog {
     std::vector<std::string> axes_not_known;    // the log lacks steps of these axes
     TickHistogram late;                         // of its steps
 
-    bool is_on_a_line() const { return kind != "own-move"; }  // its axes move together
+    bool is_on_a_line() const { return kind != "own-move" && kind != "jog"; }  // its axes move together
     std::int64_t interruptions() const { return std::max<std::int64_t>(0, epochs - legs); }
     bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };

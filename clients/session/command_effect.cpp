@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 constexpr std::chrono::seconds kPatience{10};
 
 bool shows_effect(CommandKind command, MachinePhase phase) {
-    const bool moves =
-        phase == MachinePhase::Homing || phase == MachinePhase::Running || phase == MachinePhase::Stopping;
+    const bool moves = phase == MachinePhase::Homing || phase == MachinePhase::Jogging ||
+                       phase == MachinePhase::Running || phase == MachinePhase::Stopping;
     switch (command) {
         case CommandKind::Hold:
         case CommandKind::Stop:

@@ -125,8 +125,9 @@ void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
     for (const AxisState& peer : inputs.peers) { following_.take(peer, loop.slot); }
     for (const MachineState& state : inputs.coordinator) { receive(state, loop); }
     for (const AxisCommand& order : inputs.commands) {
-        const bool is_new = order.axis == axis_ && condition_.orders.is_new(order.sequence);
-        if (is_new && owner_.is_from_owner(order.term)) { carry_out(order, loop); }
+        if (order.axis != axis_ || !owner_.is_from_owner(order.term)) { continue; }
+        if (order.kind == AxisCommandKind::Jog) { own_.renew(order, loop); }
+        if (condition_.orders.is_new(order.sequence)) { carry_out(order, loop); }
     }
     for (const Command& request : inputs.requests) {
         if (stops_.take(request)) { stop_now(loop); }
@@ -158,6 +159,7 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
         case AxisCommandKind::StopNow: condition_.orders.end(FaultCode::None); return stop_now(loop);
         case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);
         case AxisCommandKind::Halt: return own_.halt(loop);
+        case AxisCommandKind::Jog: return own_.jog(order, is_resting(), loop);
     }
 }
 

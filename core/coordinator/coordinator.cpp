@@ -1,5 +1,7 @@
 #include "core/coordinator/coordinator.hpp"
 
+#include <utility>
+
 #include "core/coordinator/reply.hpp"
 
 namespace lockstep {
@@ -18,13 +20,19 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
 CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
     CoordinatorOutputs out;
     const Slot slot = rules::slot_of(inputs.now, slot_);
-    CoordinatorLoop loop{machine_, axes_,      orders_, programs_,        condition_,
-                         out,      inputs.now, slot,    gate_.next(slot), ownership_.term()};
+    CoordinatorLoop loop{machine_,   axes_, orders_,          programs_,         condition_,         out,
+                         inputs.now, slot,  gate_.next(slot), ownership_.term(), is_late(inputs.now)};
     axes_.forgive(gate_.missed(slot), slot);
     receive(inputs, loop);
     change_owner(loop);
     ownership_.owns() ? own(loop) : stand_by(loop);
     return out;
+}
+
+/// The last step was longer ago than a jog's hold allows for.
+bool Coordinator::is_late(Tick now) {
+    const std::optional<Tick> last = std::exchange(stepped_, now);
+    return last && now - *last > Ticks{machine_.jog_hold_ticks().value / 2};
 }
 
 void Coordinator::receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop) {
@@ -99,6 +107,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     if (condition_.phase() == MachinePhase::Idle && axes_.without_device()) { loop.enter(MachinePhase::Waiting); }
     for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
     for (const Command& command : inbox_.take()) { answer(command, loop); }
+    jobs_.advance_jogs(loop);
     if (!gate_.enter(loop.slot)) { return; }
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
@@ -132,7 +141,10 @@ void Coordinator::lose_axis(std::size_t axis, CoordinatorLoop& loop) {
 
 void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
     if (const Reply* last = inbox_.answer_to(command)) {
-        if (command.sequence == last->sequence) { loop.out.replies.push_back(*last); }
+        if (command.sequence != last->sequence) { return; }
+        loop.out.replies.push_back(*last);
+        const bool is_over = command.kind == CommandKind::Jog && !jobs_.renew_jog(command, loop);
+        if (is_over) { loop.out.replies.back().job = 0; }
         return;
     }
     const CommandResult result = carry_out(command, loop);
@@ -152,6 +164,7 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
         case CommandKind::EmergencyStop: return stop_at_once(loop);
         case CommandKind::MoveOwn: return jobs_.move_own(command, loop);
         case CommandKind::Override: return jobs_.turn(command, loop);
+        case CommandKind::Jog: return jobs_.jog(command, loop);
     }
     return refuse(FaultCode::NothingToDo, "unknown command");
 }

@@ -35,6 +35,7 @@ public:
 
 private:
     // Whoever owns the machine.
+    bool is_late(Tick now);
     void receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop);
     void receive(const AxisState& state, CoordinatorLoop& loop);
     void change_owner(CoordinatorLoop& loop);
@@ -68,6 +69,7 @@ private:
     MachineCondition condition_;
     JobRunner jobs_;
     SlotGate gate_;
+    std::optional<Tick> stepped_;
 };
 
 }  // namespace lockstep

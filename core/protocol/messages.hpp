@@ -114,8 +114,9 @@ struct ClockReply {
     bool operator==(const ClockReply&) const = default;
 };
 
-/// MoveOwn: to a place by itself, not coordinated with others. Halt: a move of its own is braked and given up.
-enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt };
+/// MoveOwn: to a place by itself, not coordinated with others. Halt: a move of its own is braked and given up. Jog: to
+/// a place by itself, while the order is renewed.
+enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog };
 
 /// Coordinator to one axis. Repeated each slot until the axis's state says it is done.
 struct AxisCommand {
@@ -123,18 +124,32 @@ struct AxisCommand {
     std::uint64_t sequence = 0;  // rises within a term; an axis carries out each once
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
-    std::int64_t target_steps = 0;  // MoveOwn: machine coordinates
+    std::int64_t target_steps = 0;  // MoveOwn, Jog: machine coordinates
     Ticks ticks;                    // MoveOwn: how long it lasts; 0: as fast as the axis's limits allow
+    double speed_mm_s = 0;          // Jog: at most, above 0
+    Tick until;                     // Jog: the axis begins to brake by then, unless a repetition names a later time
     bool operator==(const AxisCommand&) const = default;
 };
 
 /// Standby: who says so does not own the machine; the owner's word counts.
-enum class MachinePhase : std::uint8_t { Waiting, Idle, Homing, Running, Holding, Paused, Stopping, Fault, Standby };
+enum class MachinePhase : std::uint8_t {
+    Waiting,
+    Idle,
+    Homing,
+    Running,
+    Holding,
+    Paused,
+    Stopping,
+    Fault,
+    Standby,
+    Jogging
+};
 
 enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
-/// MoveOwn: axes to their places each by itself, not coordinated.
-enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn };
+/// MoveOwn: axes to their places each by itself, not coordinated. Jog: axes by themselves, while clients hold their
+/// keys.
+enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn, Jog };
 
 /// Positions of all axes in 64 bits: of two places that differ in any bit it differs but once in 2^64.
 constexpr std::uint64_t digest_of(std::span<const Position> positions) {
@@ -188,8 +203,29 @@ struct MachineState {
     bool operator==(const MachineState&) const = default;
 };
 
-/// Override: feed and rapid of coordinated moves, from the next frame that is not made yet.
-enum class CommandKind : std::uint8_t { Home, Move, Run, Hold, Resume, Stop, EmergencyStop, Reset, MoveOwn, Override };
+/// Override: feed and rapid of coordinated moves, from the next frame that is not made yet. Jog: the axes move while
+/// the client repeats the command; each repetition renews it for MachineConfig::jog_hold_ticks.
+enum class CommandKind : std::uint8_t {
+    Home,
+    Move,
+    Run,
+    Hold,
+    Resume,
+    Stop,
+    EmergencyStop,
+    Reset,
+    MoveOwn,
+    Override,
+    Jog
+};
+
+/// One axis of a jog.
+struct JogAxis {
+    std::uint32_t axis = 0;
+    double speed_mm_s = 0;   // at most; its sign is the direction
+    double distance_mm = 0;  // at most, above 0; 0: to the end of the travel
+    bool operator==(const JogAxis&) const = default;
+};
 
 /// A client to the coordinator. Answered by a Reply with the same client and sequence; never replayed.
 struct Command {
@@ -201,6 +237,7 @@ struct Command {
     Ticks ticks;                // MoveOwn: how long each axis's move lasts; 0: as fast as its limits allow
     int feed_percent = 0;       // Override; 0: as it is
     int rapid_percent = 0;      // Override; 0: as it is
+    std::vector<JogAxis> jogs;  // Jog: all axes that the client jogs from now on; none: it releases them
     bool operator==(const Command&) const = default;
 };
 
@@ -222,7 +259,7 @@ struct Reply {
     std::uint64_t sequence = 0;
     ReplyStatus status = ReplyStatus::Accepted;
     std::uint16_t fault = 0;  // FaultCode of a refusal
-    std::uint64_t job = 0;    // the job a command began
+    std::uint64_t job = 0;    // the job a command began; to a jog's renewal: 0 when it is over
     std::string text;         // what, where, the limit and the remedy, for a person
     bool operator==(const Reply&) const = default;
 };

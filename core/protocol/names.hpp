@@ -24,19 +24,19 @@ constexpr std::string_view name_of(AxisPhase phase) {
 }
 
 constexpr std::string_view name_of(MachinePhase phase) {
-    return detail::pick_name(std::array<std::string_view, 9>{"Waiting", "Idle", "Homing", "Running", "Holding",
-                                                             "Paused", "Stopping", "Fault", "Standby"},
+    return detail::pick_name(std::array<std::string_view, 10>{"Waiting", "Idle", "Homing", "Running", "Holding",
+                                                              "Paused", "Stopping", "Fault", "Standby", "Jogging"},
                              phase);
 }
 
 constexpr std::string_view name_of(CommandKind kind) {
-    return detail::pick_name(std::array<std::string_view, 10>{"home", "move", "run", "hold", "resume", "stop", "estop",
-                                                              "reset", "move --own", "override"},
+    return detail::pick_name(std::array<std::string_view, 11>{"home", "move", "run", "hold", "resume", "stop", "estop",
+                                                              "reset", "move --own", "override", "jog"},
                              kind);
 }
 
 constexpr std::string_view name_of(AxisCommandKind kind) {
-    return detail::pick_name(std::array<std::string_view, 5>{"home", "reset", "stop now", "move", "halt"}, kind);
+    return detail::pick_name(std::array<std::string_view, 6>{"home", "reset", "stop now", "move", "halt", "jog"}, kind);
 }
 
 }  // namespace lockstep

@@ -20,6 +20,7 @@ struct ProtocolTiming {
     int send_ahead_slots = 31;  // A >= V + m + s + 4
     int frame_slots = 5;
     TimeSource time_source = TimeSource::Shared;
+    std::int64_t jog_hold_us = 20'000;         // how long a jog goes on after a renewal has reached the coordinator
     std::int64_t clock_error_limit_us = 2500;  // of an axis's machine time, to move; at most most_clock_error_us()
 
     constexpr int check_slots() const { return RULE_CHECK_AHEAD(late_check_slots); }          // V

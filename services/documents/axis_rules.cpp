@@ -34,6 +34,7 @@ public:
         check_ramp("max_decel_mm_s2", axis_.max_decel_mm_s2);
         check_travel();
         check_homing_speeds();
+        check_unhomed_jog();
         check_homing_places();
         check_plant();
         check_method();
@@ -81,6 +82,7 @@ private:
         length("homing.touch_tolerance_mm", axis_.homing.touch_tolerance_mm);
         place("homing.switch_position_mm", axis_.homing.switch_position_mm);
         place("homing.park_mm", axis_.homing.park_mm);
+        if (axis_.unhomed_jog_mm_s) { speed("unhomed_jog_mm_s", *axis_.unhomed_jog_mm_s); }
         if (axis_.safe_height_mm) { place("safe_height_mm", *axis_.safe_height_mm); }
         place("plant.start_position_mm", axis_.plant.start_position_mm);
         length("plant.travel_margin_mm", axis_.plant.travel_margin_mm);
@@ -137,6 +139,14 @@ private:
         problems_.require_between({"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
                                   "homing.latch_velocity_mm_s is " + number_text(latch) +
                                       ", above homing.search_velocity_mm_s " + number_text(search) + "; lower it");
+    }
+
+    void check_unhomed_jog() {
+        if (!axis_.unhomed_jog_mm_s) { return; }
+        problems_.require_between(
+            {"unhomed_jog_mm_s", "start_velocity_mm_s"}, *axis_.unhomed_jog_mm_s <= axis_.start_velocity_mm_s,
+            "unhomed_jog_mm_s is " + number_text(*axis_.unhomed_jog_mm_s) + ", above start_velocity_mm_s " +
+                number_text(axis_.start_velocity_mm_s) + ": a limit switch stops the pulses at once; lower it");
     }
 
     void check_homing_places() {

@@ -50,6 +50,7 @@ ProtocolTiming read_timing(const proto::Timing& message) {
         .frame_slots = message.has_frame_slots() ? message.frame_slots() : preset.frame_slots,
         .time_source = read_time_source(message.time_source()),
     };
+    if (message.has_jog_hold_ms()) { timing.jog_hold_us = std::int64_t{message.jog_hold_ms()} * 1000; }
     timing.clock_error_limit_us =
         message.has_clock_error_limit_us() ? message.clock_error_limit_us() : timing.most_clock_error_us();
     return timing;
@@ -185,6 +186,7 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
         reader.refuse("method", "method is " + std::to_string(message.method()) + "; it is one of " + kMethodNames);
     }
     axis.method = read_method(message.method());
+    if (message.has_unhomed_jog_mm_s()) { axis.unhomed_jog_mm_s = message.unhomed_jog_mm_s(); }
     if (message.has_safe_height_mm()) { axis.safe_height_mm = message.safe_height_mm(); }
     axis.host = message.host();
     axis.device = message.has_device() ? message.device() : axis.device;

@@ -29,6 +29,7 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
     problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxStallSlots + 50);
     problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 1, kMaxSlots);
     problems.require_range("timing.frame_slots", t.frame_slots, 1, kMaxSlots);
+    problems.require_range("timing.jog_hold_ms", static_cast<double>(t.jog_hold_us) / 1000, 20, 500);
 }
 
 /// The setpoint protocol's inequalities.

@@ -12,6 +12,9 @@ void write_timing(const ProtocolTiming& timing, proto::Timing& message) {
     message.set_freshness_slots(timing.freshness_slots);
     message.set_send_ahead_slots(timing.send_ahead_slots);
     message.set_frame_slots(timing.frame_slots);
+    if (timing.jog_hold_us != ProtocolTiming{}.jog_hold_us) {
+        message.set_jog_hold_ms(static_cast<std::int32_t>(timing.jog_hold_us / 1000));
+    }
     if (timing.time_source == TimeSource::Shared) { return; }  // the limit has no meaning
     constexpr std::array kSources{proto::SHARED, proto::NETWORK, proto::PTP};
     message.set_time_source(kSources[static_cast<std::size_t>(timing.time_source)]);
@@ -86,6 +89,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_position_min_mm(axis.position_min_mm);
     message.set_position_max_mm(axis.position_max_mm);
     message.set_method(method_to_proto(axis.method));
+    if (axis.unhomed_jog_mm_s) { message.set_unhomed_jog_mm_s(*axis.unhomed_jog_mm_s); }
     if (axis.safe_height_mm) { message.set_safe_height_mm(*axis.safe_height_mm); }
     if (!axis.host.empty()) { message.set_host(axis.host); }
     if (axis.device != AxisConfig{}.device) { message.set_device(axis.device); }

@@ -13,7 +13,7 @@
 namespace lockstep {
 
 std::string_view name_of(JobKind kind) {
-    constexpr std::array<std::string_view, 4> kNames{"home", "move", "run", "own-move"};
+    constexpr std::array<std::string_view, 5> kNames{"home", "move", "run", "own-move", "jog"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -75,6 +75,8 @@ public:
     /// As a client would: over the network. Returns its sequence number.
     std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, Ticks ticks = {});
     std::uint64_t turn(const Overrides& overrides);
+    /// As it is: another client's, or one that is renewed.
+    void send(const Command& command) { post_.multicast(now_, post_.client(), command); }
     /// The last command once more, with its sequence number: for a client whose reply does not come.
     void repeat_command();
     /// A program that has arrived whole at every coordinator.

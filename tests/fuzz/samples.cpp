@@ -103,6 +103,13 @@ void check_health(Bytes& bytes) {
     (void)from_wire(wire);
 }
 
+void check_command(Bytes& bytes) {
+    auto wire = bytes.take<lockstep_wire_Command>();
+    auto jogs = bytes.take_some<lockstep_wire_JogAxis>(lockstep_wire_MAX_JOGS + 1);
+    show(wire.jogs, jogs);
+    check(wire);
+}
+
 void check_chunk(Bytes& bytes) {
     auto wire = bytes.take<lockstep_wire_ProgramChunk>();
     auto content = bytes.take_some<std::uint8_t>(255);
@@ -132,7 +139,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         case 6: check(bytes.take<lockstep_wire_AxisCommand>()); break;
         case 7: check(bytes.take<lockstep_wire_ClockRequest>()); break;
         case 8: check(bytes.take<lockstep_wire_ClockReply>()); break;
-        default: check(bytes.take<lockstep_wire_Command>()); break;
+        default: check_command(bytes); break;
     }
     return 0;
 }

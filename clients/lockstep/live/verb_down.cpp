@@ -34,7 +34,8 @@ void bring_to_rest(const ChosenMachine& machine, Output& output) {
     if (!session || !session->reach(1s)) { return; }
     const auto moves = [&] {
         const MachinePhase phase = session->state()->state.phase;
-        return phase == MachinePhase::Homing || phase == MachinePhase::Running || phase == MachinePhase::Stopping;
+        return phase == MachinePhase::Homing || phase == MachinePhase::Jogging || phase == MachinePhase::Running ||
+               phase == MachinePhase::Stopping;
     };
     if (!moves()) { return; }
     output.print("stopping first ...");

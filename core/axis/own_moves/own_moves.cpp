@@ -11,6 +11,9 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 5'000'000;
+// Of a jog: its frames end in time with its renewals, and it begins soon.
+constexpr std::int64_t kJogFrame_ns = 2'000'000;
+constexpr std::int64_t kJogLead_ns = 8'000'000;
 
 }  // namespace
 
@@ -21,6 +24,9 @@ OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps be
       slot_(machine.slot_ticks()),
       frame_{kFrame_ns / machine.tick_ns},
       ahead_(slot_ * (2 * machine.timing.stall_slots + 4)),
+      jog_hold_(machine.jog_hold_ticks()),
+      jog_frame_{kJogFrame_ns / machine.tick_ns},
+      jog_lead_{kJogLead_ns / machine.tick_ns},
       begin_steps_(begin_steps),
       homing_(axis_) {}
 
@@ -55,6 +61,49 @@ FaultCode OwnMoves::refusal_of(const AxisCommand& order, std::int64_t steps, boo
     const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), axis_.max_velocity_mm_s, order.ticks};
     const bool possible = OwnPieces::plan(axis_, tick_ns_, axis_.method, request, begin_steps_).has_value();
     return possible ? FaultCode::None : FaultCode::BadProgram;
+}
+
+void OwnMoves::jog(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
+    const FaultCode why = jog_refusal_of(order, is_resting, loop);
+    if (why != FaultCode::None) { return loop.refuse(order, why); }
+    const Position here = loop.condition.position.in_machine(loop.device.status().position);
+    const std::int64_t steps = order.target_steps - here.count();
+    if (steps == 0) { return loop.condition.orders.end(FaultCode::None); }
+    const double fastest =
+        loop.condition.position.homed() ? axis_.max_velocity_mm_s : axis_.unhomed_jog_mm_s.value_or(0);
+    start_jog({.steps = steps, .speed_mm_s = std::min(order.speed_mm_s, fastest)}, order.until, loop);
+}
+
+FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, const AxisLoop& loop) const {
+    if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }
+    if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
+    if (!loop.device.is_present()) { return FaultCode::DeviceMissing; }
+    if (order.speed_mm_s <= 0) { return FaultCode::BadProgram; }
+    if (!loop.condition.position.homed()) { return axis_.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
+    const bool is_within = order.target_steps >= limits_.min_steps && order.target_steps <= limits_.max_steps;
+    return is_within ? FaultCode::None : FaultCode::OutsideTravel;
+}
+
+/// A jog that is not renewed for long enough to begin ends here: the owner orders it again while its client renews it.
+void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
+    const Tick start = loop.now + jog_lead_;
+    if (std::min(until, loop.now + jog_hold_) < start + jog_frame_ * 2) {
+        return loop.condition.orders.end(FaultCode::None);
+    }
+    const std::int64_t count = loop.device.status().position.count();
+    const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
+    auto pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {std::abs(move.steps), move.speed_mm_s}, {});
+    OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_, jog_frame_);
+    run_.emplace(move, std::move(frames), count + move.steps, 0, ahead_);
+    run_->allow_until(std::min(until, loop.now + jog_hold_));
+    loop.begin_run(Trigger::None, true);
+    feed(loop);
+}
+
+/// An order from before a stall has run out, and one from a clock that is ahead does not hold for longer.
+void OwnMoves::renew(const AxisCommand& order, const AxisLoop& loop) {
+    if (!run_ || !run_->is_jog() || order.sequence != loop.condition.orders.taken()) { return; }
+    run_->allow_until(std::min(order.until, loop.now + jog_hold_));
 }
 
 /// By the axis's method; or by Ranade's, where homing is slower or longer than the method allows.
@@ -112,7 +161,8 @@ void OwnMoves::end(AxisLoop& loop) {
         homing_.abandon();
         return loop.fail(FaultCode::FrameBeyondLimits);
     }
-    if (const auto rest = ended.rest(device)) { return go_on(*rest, ended.tries_of_rest(device), loop); }
+    const auto rest = ended.is_jog() ? std::nullopt : ended.rest(device);
+    if (rest) { return go_on(*rest, ended.tries_of_rest(device), loop); }
     if (parks || !is_homing()) { phases.happen(AxisEvent::MotionEnds); }
     if (parks && ended.is_halted()) { lose_zero_outside_travel(loop); }
     if (!is_homing()) { return end_order(loop); }

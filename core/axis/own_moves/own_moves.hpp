@@ -21,6 +21,10 @@ public:
     // Orders of the owner. `is_resting`: the axis runs nothing, neither its own nor the owner's frames.
     void home(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     void move(const AxisCommand& order, bool is_resting, AxisLoop& loop);
+    /// Moves while the order is renewed: towards its target, where the axis rests at the latest.
+    void jog(const AxisCommand& order, bool is_resting, AxisLoop& loop);
+    /// A jog's order that has come again.
+    void renew(const AxisCommand& order, const AxisLoop& loop);
     void halt(AxisLoop& loop);
 
     // While a move is in progress.
@@ -34,8 +38,10 @@ public:
 
 private:
     FaultCode refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting, const AxisLoop& loop) const;
+    FaultCode jog_refusal_of(const AxisCommand& order, bool is_resting, const AxisLoop& loop) const;
     OwnMove frames_of(const LocalMove& move, Position from, Tick start) const;
     void start(const LocalMove& move, int tries, AxisLoop& loop);
+    void start_jog(const LocalMove& move, Tick until, AxisLoop& loop);
     void go_on(const LocalMove& rest, int tries, AxisLoop& loop);
     void lose_zero_outside_travel(AxisLoop& loop) const;
     void end_order(AxisLoop& loop);
@@ -51,6 +57,9 @@ private:
     Ticks slot_;
     Ticks frame_;  // how long a frame lasts, about: a halt waits for its end
     Ticks ahead_;  // of frames given to the device: longer than a process may stall
+    Ticks jog_hold_;
+    Ticks jog_frame_;
+    Ticks jog_lead_;  // from the order to the first frame's start
     BeginSteps begin_steps_;
     Homing homing_;
     std::optional<OwnRun> run_;

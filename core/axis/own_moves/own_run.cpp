@@ -3,6 +3,7 @@
 #include <utility>
 
 namespace lockstep {
+
 /// The first frame is loaded at once, however late it starts: without one the device can neither begin its run nor end
 /// it.
 void OwnRun::feed(AxisLoop& loop) {
@@ -10,12 +11,16 @@ void OwnRun::feed(AxisLoop& loop) {
     const auto wants_more = [&] { return frames_.none_made() || (!frames_.all_made() && frames_.end() < ahead); };
     while (!is_halted_ && (waiting_ || wants_more())) {
         if (!waiting_) { waiting_ = frames_.next(); }
+        if (!may_load(*waiting_)) { return; }
         if (!loop.device.reserve(waiting_->track.body.size() + waiting_->track.tail.size())) { return; }
         held_.push_back(*std::exchange(waiting_, std::nullopt));
         loop.load(held_.back());
         loop.out.orders.emplace_back(device::Arm{held_.back().number});
     }
 }
+
+/// The device itself ends a jog that is not renewed: it is given nothing for the time after.
+bool OwnRun::may_load(const HeldFrame& frame) const { return !until_ || frame.number == 1 || frame.end() <= *until_; }
 
 void OwnRun::halt(AxisLoop& loop) {
     is_halted_ = true;

@@ -2,6 +2,7 @@
 // frame rests by its tail.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -19,6 +20,10 @@ public:
     OwnRun(const LocalMove& move, OwnMove frames, std::int64_t target, int tries, Ticks ahead)
         : move_(move), frames_(std::move(frames)), ahead_(ahead), target_(target), tries_(tries) {}
 
+    /// A jog: the device gets no frame that ends later than this, whatever `ahead` is. Times only rise.
+    void allow_until(Tick until) { until_ = std::max(until_.value_or(until), until); }
+    bool is_jog() const { return until_.has_value(); }
+
     /// Loads frames until the device has enough ahead, or no room.
     void feed(AxisLoop& loop);
     /// The device ends the frame in progress and runs its tail: it brakes within the length of a frame.
@@ -35,6 +40,8 @@ public:
     int tries_of_rest(const DeviceStatus& device) const { return device.frame > 0 ? 0 : tries_ + 1; }
 
 private:
+    bool may_load(const HeldFrame& frame) const;
+
     LocalMove move_;
     OwnMove frames_;                    // those to come
     HeldFrames held_{64};               // those loaded and not yet recorded
@@ -42,6 +49,7 @@ private:
     RunRecorder recorder_;
     Ticks ahead_;
     std::int64_t target_;
+    std::optional<Tick> until_;
     int tries_;
     bool is_halted_ = false;
 };

@@ -26,6 +26,8 @@ public:
     /// A new owner counts from the beginning: what the last one ordered is over.
     void restart() { *this = {}; }
 
+    /// The newest order taken.
+    std::uint64_t taken() const { return taken_; }
     /// The newest order that has ended.
     std::uint64_t done() const { return done_; }
     /// Why the newest order was refused or failed; None: it was not.

@@ -31,6 +31,11 @@ bool AxisOrders::is_open(std::size_t axis, AxisCommandKind kind, const AxisRoste
     return !is_done(axis, axes) && orders_[axis]->kind == kind;
 }
 
+void AxisOrders::renew(std::size_t axis, Tick until, std::vector<AxisCommand>& out) {
+    orders_[axis]->until = until;
+    out.push_back(*orders_[axis]);
+}
+
 void AxisOrders::repeat(const AxisRoster& axes, std::vector<AxisCommand>& out) const {
     for (std::size_t i = 0; i < orders_.size(); ++i) {
         if (!is_done(i, axes)) { out.push_back(*orders_[i]); }

@@ -29,6 +29,8 @@ public:
     bool is_open(std::size_t axis, AxisCommandKind kind, const AxisRoster& axes) const;
     /// The newest order to the axis, done or not.
     const std::optional<AxisCommand>& newest(std::size_t axis) const { return orders_[axis]; }
+    /// The newest order to the axis, which holds for longer now; it goes out at once.
+    void renew(std::size_t axis, Tick until, std::vector<AxisCommand>& out);
     void repeat(const AxisRoster& axes, std::vector<AxisCommand>& out) const;
 
     /// The axis has carried out an order that was not given here, and takes none with a lower number any more.

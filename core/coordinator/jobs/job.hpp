@@ -17,7 +17,7 @@ struct MachineJob {
     std::shared_ptr<const Program> program;  // null for homing
 
     /// Its axes move each by itself, and the coordinator sends no frames.
-    bool is_alone() const { return kind == JobKind::Home || kind == JobKind::MoveOwn; }
+    bool is_alone() const { return kind == JobKind::Home || kind == JobKind::MoveOwn || kind == JobKind::Jog; }
 };
 
 /// The jobs of the machine, whichever coordinator began them: their count, and how the last one ended.

@@ -20,7 +20,7 @@ void JobRunner::begin(JobKind kind, const Command& command, std::vector<std::int
     job_ = MachineJob{.number = count_.begin(loop.term),
                       .kind = kind,
                       .program_id = is_path ? command.program : 0,
-                      .program = kind == JobKind::Home ? nullptr : loop.programs.find(command.program)};
+                      .program = is_path || kind == JobKind::MoveOwn ? loop.programs.find(command.program) : nullptr};
     loop.out.jobs.push_back({.kind = JobEvent::Kind::Begun,
                              .job = job_->number,
                              .job_kind = kind,
@@ -76,6 +76,18 @@ CommandResult JobRunner::move_own(const Command& command, CoordinatorLoop& loop)
     return {};
 }
 
+/// Several clients may jog different axes in one job. A release needs nothing of the machine.
+CommandResult JobRunner::jog(const Command& command, CoordinatorLoop& loop) {
+    if (!is_jogging() && command.jogs.empty()) { return {}; }
+    const CommandResult ready = is_jogging() ? check_present(loop) : check_ready(loop, in_motion());
+    if (!ready && !command.jogs.empty()) { return ready; }
+    if (auto pressed = jogs_.press(command, loop); !pressed || is_jogging()) { return pressed; }
+    intent_ = Intent::GoOn;
+    begin(JobKind::Jog, command, {}, loop);
+    loop.enter(MachinePhase::Jogging);
+    return {};
+}
+
 CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
     if (axes_move_alone()) { return interrupt_alone(intent, loop); }
     if (loop.condition.is_held()) {
@@ -97,7 +109,7 @@ CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
     return {};
 }
 
-/// Homing cannot go on from where it was held: a hold ends it as a stop does.
+/// Homing and a jog cannot go on from where they were held: a hold ends them as a stop does.
 CommandResult JobRunner::interrupt_alone(Intent intent, CoordinatorLoop& loop) {
     if (intent == Intent::Hold && job_->kind == JobKind::MoveOwn) {
         return refuse(FaultCode::Busy,

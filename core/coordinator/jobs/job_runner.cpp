@@ -40,11 +40,12 @@ void JobRunner::advance_homing(CoordinatorLoop& loop) {
 }
 
 void JobRunner::advance_alone(CoordinatorLoop& loop) {
-    const AxisSet axes = job_->kind == JobKind::Home ? homing_.axes() : own_.axes();
+    const AxisSet axes = job_->kind == JobKind::Home ? homing_.axes() : has_jog() ? 0 : own_.axes();
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         if (loop.axes.is_present(i, loop.slot) && !loop.is_order_done(i)) { return; }
     }
     if (intent_ == Intent::Abort) { return end_failed(loop); }
+    if (is_jogging() && !jogs_.none()) { return; }
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         if (!has_axis(axes, i) || !loop.axes.state(i)) { continue; }
         const AxisState& state = *loop.axes.state(i);
@@ -55,11 +56,19 @@ void JobRunner::advance_alone(CoordinatorLoop& loop) {
     end(intent_ == Intent::Stop ? JobOutcome::Stopped : JobOutcome::Done, loop);
 }
 
+void JobRunner::advance_jogs(CoordinatorLoop& loop) {
+    if (!has_jog()) { return; }
+    const auto refused = jogs_.advance(loop);
+    if (refused) { fail(static_cast<FaultCode>(loop.axes.state(*refused)->command_fault), *refused, loop); }
+}
+
 /// An emergency stop ordered before stays the newest order.
 void JobRunner::halt_alone(CoordinatorLoop& loop) {
+    jogs_.release_all();
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes);
+                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Jog, loop.axes);
         if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
     }
 }
@@ -175,6 +184,7 @@ void JobRunner::stand_down() {
     job_.reset();
     inherited_.forget();
     path_.give_up_epoch();
+    jogs_.release_all();
     intent_ = Intent::GoOn;
 }
 

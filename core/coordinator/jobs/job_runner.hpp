@@ -6,6 +6,7 @@
 #include "core/coordinator/jobs/homing_sequence.hpp"
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job.hpp"
+#include "core/coordinator/jobs/jogs.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
 #include "core/coordinator/jobs/path_job.hpp"
 #include "core/coordinator/state/refusal.hpp"
@@ -16,17 +17,22 @@ class JobRunner {
 public:
     JobRunner(const MachineConfig& machine, std::uint64_t config_hash, BeginSteps begin_steps,
               std::optional<OnTakeover> on_takeover)
-        : begin_steps_(begin_steps), path_(machine), inherited_(on_takeover, config_hash) {}
+        : begin_steps_(begin_steps), path_(machine), jogs_(machine), inherited_(on_takeover, config_hash) {}
 
     // Commands of clients.
     CommandResult home(const Command& command, CoordinatorLoop& loop);
     CommandResult run(const Command& command, CoordinatorLoop& loop);
     CommandResult move_own(const Command& command, CoordinatorLoop& loop);
+    CommandResult jog(const Command& command, CoordinatorLoop& loop);
+    /// The same command again. False: its jog is over.
+    bool renew_jog(const Command& command, const CoordinatorLoop& loop) { return jogs_.renew(command, loop); }
     CommandResult interrupt(Intent intent, CoordinatorLoop& loop);
     CommandResult resume(CoordinatorLoop& loop);
     /// At any time: overrides hold until they are turned again.
     CommandResult turn(const Command& command, const CoordinatorLoop& loop);
 
+    /// Each loop.
+    void advance_jogs(CoordinatorLoop& loop);
     /// Each slot.
     void advance(CoordinatorLoop& loop);
     /// Every axis follows this coordinator and rests: goes on with an inherited job.
@@ -58,6 +64,8 @@ public:
     void report(MachineState& state, const CoordinatorLoop& loop) const;
 
 private:
+    bool has_jog() const { return job_ && job_->kind == JobKind::Jog; }
+    bool is_jogging() const { return has_jog() && intent_ == Intent::GoOn; }
     bool axes_move_alone() const { return job_ && job_->is_alone(); }
     void begin(JobKind kind, const Command& command, std::vector<std::int64_t> start_counts, CoordinatorLoop& loop);
     void home_next_group(CoordinatorLoop& loop);
@@ -81,6 +89,7 @@ private:
     PathJob path_;
     HomingSequence homing_;
     OwnTargets own_;
+    Jogs jogs_;
     InheritedJob inherited_;
 };
 

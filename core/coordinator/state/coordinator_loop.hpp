@@ -22,8 +22,9 @@ struct CoordinatorLoop {
     CoordinatorOutputs& out;
     Tick now;
     Slot slot = 0;
-    Slot next_state = 0;  // the slot of the next state that it publishes
-    Term term;            // the coordinator's own, where it owns the machine
+    Slot next_state = 0;   // the slot of the next state that it publishes
+    Term term;             // the coordinator's own, where it owns the machine
+    bool is_late = false;  // the process stalled: what it receives in this loop may be old
 
     void notice(const CoordinatorNotice& notice) { out.notices.push_back(notice); }
     void enter(MachinePhase phase) { condition.enter(phase, out.notices); }

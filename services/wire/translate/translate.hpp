@@ -49,6 +49,13 @@ struct MachineStateMessage : lockstep_wire_MachineState {
     std::vector<lockstep_wire_FrameRest> rest_storage;
 };
 
+/// A command and the array it points to; not copyable either.
+struct CommandMessage : lockstep_wire_Command {
+    CommandMessage() : lockstep_wire_Command{} {}
+    CommandMessage(CommandMessage&&) = default;
+    std::vector<lockstep_wire_JogAxis> jog_storage;
+};
+
 SetpointMessage to_wire(const Frame& frame);
 lockstep_wire_AxisState to_wire(const AxisState& state);
 lockstep_wire_AxisHealth to_wire(const AxisHealth& health);
@@ -56,7 +63,7 @@ lockstep_wire_AxisCommand to_wire(const AxisCommand& command);
 MachineStateMessage to_wire(const MachineState& state);
 lockstep_wire_ClockRequest to_wire(const ClockRequest& request);
 lockstep_wire_ClockReply to_wire(const ClockReply& reply);
-lockstep_wire_Command to_wire(const Command& command);
+CommandMessage to_wire(const Command& command);
 /// Points to the chunk's bytes: valid as long as they are. At most kMaxChunkBytes.
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk);
 /// A text that is too long is cut between two characters.

@@ -8,7 +8,7 @@ constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // leaves room fo
 
 // The enumerations on the wire have core's order.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
-static_assert(lockstep_wire_AXIS_HALT == static_cast<int>(AxisCommandKind::Halt));
+static_assert(lockstep_wire_AXIS_JOG == static_cast<int>(AxisCommandKind::Jog));
 
 lockstep_wire_AxisState to_wire(const AxisState& state) {
     return {.axis = state.axis,
@@ -83,23 +83,29 @@ lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
             .axis = command.axis,
             .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind),
             .target_steps = command.target_steps,
-            .ticks = command.ticks.value};
+            .ticks = command.ticks.value,
+            .speed_mm_s = command.speed_mm_s,
+            .until = command.until.value};
 }
 
 FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
     check.within<std::uint64_t>("sequence", wire.sequence_number, 0, kMostOrders);
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
-    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Halt);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Jog);
     check.far("target_steps", wire.target_steps);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
+    check.finite("speed_mm_s", wire.speed_mm_s);
+    check.far("until", wire.until);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return AxisCommand{.term = {wire.term, wire.coordinator},
                        .sequence = wire.sequence_number,
                        .axis = wire.axis,
                        .kind = kind,
                        .target_steps = wire.target_steps,
-                       .ticks = {wire.ticks}};
+                       .ticks = {wire.ticks},
+                       .speed_mm_s = wire.speed_mm_s,
+                       .until = {wire.until}};
 }
 
 }  // namespace lockstep

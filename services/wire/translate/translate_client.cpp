@@ -1,4 +1,5 @@
 #include <cstring>
+#include <span>
 
 #include "services/wire/dds/cut_text.hpp"
 #include "services/wire/translate/checks.hpp"
@@ -7,26 +8,44 @@
 namespace lockstep {
 namespace {
 
-static_assert(lockstep_wire_COMMAND_OVERRIDE == static_cast<int>(CommandKind::Override));
+static_assert(lockstep_wire_COMMAND_JOG == static_cast<int>(CommandKind::Jog));
 static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refused));
 
 }  // namespace
 
-lockstep_wire_Command to_wire(const Command& command) {
-    return {.client = command.client,
+CommandMessage to_wire(const Command& command) {
+    CommandMessage message;
+    lockstep_wire_Command& wire = message;
+    wire = {.client = command.client,
             .sequence_number = command.sequence,
             .kind = static_cast<lockstep_wire_CommandKind>(command.kind),
             .axes = command.axes,
             .program = command.program,
             .ticks = command.ticks.value,
             .feed_percent = static_cast<std::uint16_t>(command.feed_percent),
-            .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent)};
+            .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent),
+            .jogs = {}};
+    for (const JogAxis& jog : command.jogs) {
+        message.jog_storage.push_back({.axis = jog.axis, .speed_mm_s = jog.speed_mm_s, .distance_mm = jog.distance_mm});
+    }
+    const auto size = static_cast<std::uint32_t>(message.jog_storage.size());
+    wire.jogs = {._maximum = size, ._length = size, ._buffer = message.jog_storage.data(), ._release = false};
+    return message;
 }
 
 FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     Checks check("command");
-    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Override);
+    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Jog);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
+    check.within<std::size_t>("the number of jogs", wire.jogs._length, 0, lockstep_wire_MAX_JOGS);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    std::vector<JogAxis> jogs;
+    for (const auto& jog : std::span(wire.jogs._buffer, wire.jogs._length)) {
+        check.within<std::size_t>("a jog's axis", jog.axis, 0, kMaxAxes - 1);
+        check.finite("a jog's speed_mm_s", jog.speed_mm_s);
+        check.finite("a jog's distance_mm", jog.distance_mm);
+        jogs.push_back({jog.axis, jog.speed_mm_s, jog.distance_mm});
+    }
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Command{.client = wire.client,
                    .sequence = wire.sequence_number,
@@ -35,7 +54,8 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
                    .program = wire.program,
                    .ticks = {wire.ticks},
                    .feed_percent = wire.feed_percent,
-                   .rapid_percent = wire.rapid_percent};
+                   .rapid_percent = wire.rapid_percent,
+                   .jogs = std::move(jogs)};
 }
 
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {

@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-static_assert(lockstep_wire_MACHINE_STANDBY == static_cast<int>(MachinePhase::Standby));
+static_assert(lockstep_wire_MACHINE_JOGGING == static_cast<int>(MachinePhase::Jogging));
 static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
 
 namespace {
@@ -76,7 +76,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
     check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
     check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
-    const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Standby);
+    const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Jogging);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     MachineState state{.term = {wire.term, wire.coordinator},

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "services/virtual/virtual_machine.hpp"
+#include "tests/unit/virtual/jogger.hpp"
 
 namespace lockstep {
 
@@ -42,7 +44,11 @@ public:
     void move() { give(CommandKind::Run, kFeed_mm_s); }
     /// The same by itself, as fast as it can.
     void move_own() { give(CommandKind::MoveOwn, 0); }
+    /// In positive direction, while the client below renews it.
+    void jog() { client_.press({{.axis = 0, .speed_mm_s = kFeed_mm_s}}); }
+    Jogger& client() { return client_; }
     void wait(Ticks time) {
+        if (client_.is_alive()) { return pass(vm_, {&client_}, time); }
         (void)vm_.advance_until([] { return false; }, time);
     }
     /// From now on until the time between two pulses has grown by more than two ticks, and until no pulse comes.
@@ -59,6 +65,11 @@ public:
         return {ms(t[std::min(i, t.size()) - 1]), ms(t.back())};
     }
 
+    std::optional<Tick> first_pulse_after(Tick tick) const {
+        const auto found = std::ranges::lower_bound(pulses_.ticks, tick);
+        return found == pulses_.ticks.end() ? std::nullopt : std::optional(*found);
+    }
+
 private:
     void give(CommandKind kind, double feed_mm_s) {
         const AxisConfig& axis = vm_.machine().axes[0];
@@ -72,6 +83,7 @@ private:
     }
 
     VirtualMachine vm_;
+    Jogger client_{vm_};
     Pulses pulses_;
 };
 

@@ -18,9 +18,11 @@ namespace {
 constexpr int kTimes = 40;
 constexpr Ticks kSecond = MovingMachine::kSecond;
 
+enum class Motion { Together, Own, Jog };
+
 struct Event {
     const char* name;
-    bool own;  // in a move of the axis on its own
+    Motion motion;
     std::function<void(MovingMachine&)> happens;
     bool comes_to_rest = true;
 };
@@ -50,11 +52,34 @@ MachineConfig with(MachineConfig machine, const Profile& profile) {
     return machine;
 }
 
+void begin(Motion motion, MovingMachine& moving) {
+    switch (motion) {
+        case Motion::Together: return moving.move();
+        case Motion::Own: return moving.move_own();
+        case Motion::Jog: return moving.jog();
+    }
+}
+
+/// From the client's command to the first pulse.
+void measure_begin_of_jog(const MachineConfig& machine, const Profile& profile) {
+    std::vector<double> begins;
+    for (int i = 0; i < kTimes; ++i) {
+        MovingMachine moving(with(machine, profile));
+        moving.wait(Ticks{profile.slot_us * i * 7 / kTimes});
+        const Tick pressed = moving.vm().now();
+        moving.jog();
+        moving.wait(kSecond);
+        begins.push_back(static_cast<double>((moving.first_pulse_after(pressed).value_or(pressed) - pressed).value) /
+                         1000);
+    }
+    std::printf("| jog: begins | %s | %s | |\n", profile.name, spread(begins).c_str());
+}
+
 void measure(const MachineConfig& machine, const Profile& profile, const Event& event) {
     std::vector<double> brakes, rests;
     for (int i = 0; i < kTimes; ++i) {
         MovingMachine moving(with(machine, profile));
-        event.own ? moving.move_own() : moving.move();
+        begin(event.motion, moving);
         const ProtocolTiming& t = moving.vm().machine().timing;
         moving.wait(kSecond + Ticks{t.slot_us * t.frame_slots * i / kTimes + t.slot_us * i * 7 / kTimes});
         const Reaction reaction = moving.after([&] { event.happens(moving); });
@@ -77,12 +102,18 @@ int main_of(const char* file) {
     };
     const std::size_t last = machine->axes.size() - 1;
     const Event events[] = {
-        {"hold", false, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Hold); }},
-        {"stop", false, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Stop); }},
-        {"feed from 100 to 10 %", false, [](MovingMachine& m) { (void)m.vm().turn({.feed_percent = 10}); }, false},
-        {"another axis's process ends", false, [&](MovingMachine& m) { crash(m, last); }},
-        {"the coordinator's process ends", false, [&](MovingMachine& m) { crash(m, machine->axes.size()); }},
-        {"stop of a move of its own", true, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Stop); }},
+        {"hold", Motion::Together, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Hold); }},
+        {"stop", Motion::Together, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Stop); }},
+        {"feed from 100 to 10 %", Motion::Together, [](MovingMachine& m) { (void)m.vm().turn({.feed_percent = 10}); },
+         false},
+        {"another axis's process ends", Motion::Together, [&](MovingMachine& m) { crash(m, last); }},
+        {"the coordinator's process ends", Motion::Together, [&](MovingMachine& m) { crash(m, machine->axes.size()); }},
+        {"stop of a move of its own", Motion::Own, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Stop); }},
+        {"jog: its key is released", Motion::Jog, [](MovingMachine& m) { m.client().release(); }},
+        {"jog: its client ends", Motion::Jog, [](MovingMachine& m) { m.client().die(); }},
+        {"jog: the coordinator's process ends", Motion::Jog, [&](MovingMachine& m) { crash(m, machine->axes.size()); }},
+        {"jog: the axis's process stalls", Motion::Jog,
+         [](MovingMachine& m) { m.vm().schedule({.process = 0, .at = m.vm().now(), .lasts = kSecond}); }},
     };
     constexpr Profile kProfiles[] = {{"slots of 10 ms, s = 10, e = 2", 10'000, 10, 2},
                                      {"slots of 10 ms, s = 10, e = 10", 10'000, 10, 10},
@@ -90,6 +121,7 @@ int main_of(const char* file) {
     std::printf(
         "| event, at 100 mm/s | profile | brakes after: least / median / most, ms | rests after, ms "
         "|\n|---|---|---|---|\n");
+    for (const Profile& profile : kProfiles) { measure_begin_of_jog(*machine, profile); }
     for (const Event& event : events) {
         for (const Profile& profile : kProfiles) { measure(*machine, profile, event); }
     }

@@ -50,5 +50,63 @@ TEST(Reactions, AnAxisThatMovesByItselfBrakesWithinThirtyMilliseconds) {
     expect_braking(0, 30, true, [](VirtualMachine& vm) { (void)vm.command(CommandKind::Stop); });
 }
 
+/// A jog of X at 100 mm/s, and the event at several places of a loop and of a slot.
+void expect_jog_to_brake(double to_ms, const std::function<void(MovingMachine&)>& event) {
+    for (int i = 0; i < 20; ++i) {
+        MovingMachine moving(machine_by_default());
+        moving.jog();
+        moving.wait(Ticks{500'000 + i * 5'700});
+        EXPECT_LE(moving.after([&] { event(moving); }).brakes_ms, to_ms) << i;
+    }
+}
+
+TEST(Reactions, AJogBeginsWithinSixtyMilliseconds) {
+    for (int i = 0; i < 20; ++i) {
+        MovingMachine moving(machine_by_default());
+        moving.wait(Ticks{500'000 + i * 1'300});
+        const Tick pressed = moving.vm().now();
+        moving.jog();
+        moving.wait(Ticks{100'000});
+        const auto first = moving.first_pulse_after(pressed);
+        ASSERT_TRUE(first) << i;
+        EXPECT_LE((*first - pressed).value, 60'000) << i;
+    }
+}
+
+TEST(Reactions, AJogThatIsReleasedBrakesWithinThirtyMilliseconds) {
+    expect_jog_to_brake(30, [](MovingMachine& m) { m.client().release(); });
+}
+
+TEST(Reactions, AJogBrakesWithinThirtyMillisecondsOfItsLastRenewal) {
+    expect_jog_to_brake(30, [](MovingMachine& m) {
+        m.client().renew();
+        m.client().die();
+    });
+}
+
+TEST(Reactions, AJogWhoseCoordinatorEndsBrakesWithinThirtyMilliseconds) {
+    expect_jog_to_brake(30, [](MovingMachine& m) {
+        m.vm().schedule({.kind = VirtualFault::Kind::Crash, .process = 2, .at = m.vm().now(), .lasts = {9'000'000}});
+    });
+}
+
+TEST(Reactions, AJogWhoseCableIsCutBrakesWithinThirtyMilliseconds) {
+    for (const std::size_t process : {std::size_t{0}, std::size_t{2}}) {
+        expect_jog_to_brake(30, [&](MovingMachine& m) {
+            m.vm().schedule(
+                {.kind = VirtualFault::Kind::Cut, .process = process, .at = m.vm().now(), .lasts = {9'000'000}});
+        });
+    }
+}
+
+/// Its device has no frames for longer.
+TEST(Reactions, AJogWhoseAxisStallsBrakesWithinThirtyMilliseconds) {
+    for (const auto kind : {VirtualFault::Kind::Freeze, VirtualFault::Kind::Crash}) {
+        expect_jog_to_brake(30, [&](MovingMachine& m) {
+            m.vm().schedule({.kind = kind, .process = 0, .at = m.vm().now(), .lasts = {9'000'000}});
+        });
+    }
+}
+
 }  // namespace
 }  // namespace lockstep

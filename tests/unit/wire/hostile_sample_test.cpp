@@ -143,7 +143,7 @@ TEST(HostileMachineState, IsRefused) {
         lie(wire);
         expect_refused(wire, field);
     };
-    refused("phase", [](auto& w) { overwrite(w.phase, 9); });
+    refused("phase", [](auto& w) { overwrite(w.phase, 10); });
     refused("outcome", [](auto& w) { overwrite(w.outcome, 3); });
     refused("fault_axis", [](auto& w) { w.fault_axis = kMaxAxes; });
     refused("progress", [](auto& w) { w.progress = 1.01; });
@@ -152,22 +152,32 @@ TEST(HostileMachineState, IsRefused) {
     refused("stamp", [](auto& w) { w.stamp = INT64_MAX; });
 }
 
+TEST(HostileAxisCommands, AreRefused) {
+    const auto refused = [](const char* field, const auto& change) {
+        auto wire = to_wire(AxisCommand{});
+        change(wire);
+        expect_refused(wire, field);
+    };
+    refused("kind", [](auto& w) { overwrite(w.kind, 6); });
+    refused("target_steps", [](auto& w) { w.target_steps = INT64_MAX; });
+    refused("axis", [](auto& w) { w.axis = kMaxAxes; });
+    refused("speed_mm_s", [](auto& w) { w.speed_mm_s = std::nan(""); });
+    refused("until", [](auto& w) { w.until = INT64_MAX; });
+}
+
 TEST(HostileCommands, AreRefused) {
-    auto axis_command = to_wire(AxisCommand{});
-    overwrite(axis_command.kind, 5);
-    expect_refused(axis_command, "kind");
-    axis_command = to_wire(AxisCommand{});
-    axis_command.target_steps = INT64_MAX;
-    expect_refused(axis_command, "target_steps");
-    axis_command = to_wire(AxisCommand{});
-    axis_command.axis = kMaxAxes;
-    expect_refused(axis_command, "axis");
-    auto command = to_wire(Command{});
-    overwrite(command.kind, 10);
-    expect_refused(command, "kind");
-    command = to_wire(Command{});
-    command.ticks = -1;
-    expect_refused(command, "ticks");
+    const auto refused = [](const char* field, const auto& change) {
+        auto wire = to_wire(Command{.jogs = {{.axis = 1, .speed_mm_s = 2}}});
+        change(static_cast<lockstep_wire_Command&>(wire));
+        expect_refused(static_cast<const lockstep_wire_Command&>(wire), field);
+    };
+    refused("kind", [](auto& w) { overwrite(w.kind, 11); });
+    refused("ticks", [](auto& w) { w.ticks = -1; });
+    refused("the number of jogs", [](auto& w) { w.jogs._length = lockstep_wire_MAX_JOGS + 1; });
+    refused("a jog's axis", [](auto& w) { w.jogs._buffer[0].axis = kMaxAxes; });
+    refused("a jog's speed_mm_s", [](auto& w) { w.jogs._buffer[0].speed_mm_s = std::nan(""); });
+    refused("a jog's distance_mm",
+            [](auto& w) { w.jogs._buffer[0].distance_mm = std::numeric_limits<double>::infinity(); });
 }
 
 TEST(HostileChunk, IsRefused) {

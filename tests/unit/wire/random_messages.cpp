@@ -63,9 +63,11 @@ AxisCommand RandomMessages::axis_command() {
     return {.term = term(),
             .sequence = bits() >> 2,
             .axis = index(kMaxAxes),
-            .kind = static_cast<AxisCommandKind>(index(5)),
+            .kind = static_cast<AxisCommandKind>(index(6)),
             .target_steps = far(),
-            .ticks = {between(0, INT32_MAX)}};
+            .ticks = {between(0, INT32_MAX)},
+            .speed_mm_s = static_cast<double>(between(0, 1'000'000)) / 7,
+            .until = {far()}};
 }
 
 ClockRequest RandomMessages::clock_request() {
@@ -89,7 +91,7 @@ MachineState RandomMessages::machine_state() {
     return {.term = term(),
             .stamp = far(),
             .tick = {far()},
-            .phase = static_cast<MachinePhase>(index(9)),
+            .phase = static_cast<MachinePhase>(index(10)),
             .fault = fault(),
             .fault_axis = index(kMaxAxes),
             .epoch = bits(),
@@ -112,15 +114,25 @@ MachineState RandomMessages::machine_state() {
             .process = {.reopened = bits(), .lost_log_lines = bits()}};
 }
 
+std::vector<JogAxis> RandomMessages::jogs() {
+    std::vector<JogAxis> jogs(index(64 + 1));
+    for (JogAxis& jog : jogs) {
+        jog = {index(kMaxAxes), static_cast<double>(between(-1'000'000, 1'000'000)) / 7,
+               static_cast<double>(between(0, 1'000'000)) / 7};
+    }
+    return jogs;
+}
+
 Command RandomMessages::command() {
     return {.client = bits(),
             .sequence = bits(),
-            .kind = static_cast<CommandKind>(index(10)),
+            .kind = static_cast<CommandKind>(index(11)),
             .axes = bits(),
             .program = bits(),
             .ticks = {between(0, INT32_MAX)},
             .feed_percent = static_cast<int>(between(0, UINT16_MAX)),
-            .rapid_percent = static_cast<int>(between(0, UINT16_MAX))};
+            .rapid_percent = static_cast<int>(between(0, UINT16_MAX)),
+            .jogs = jogs()};
 }
 
 ProgramChunk RandomMessages::chunk() {

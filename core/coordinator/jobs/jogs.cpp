@@ -1,0 +1,138 @@
+#include "core/coordinator/jobs/jogs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/number_text.hpp"
+
+namespace lockstep {
+namespace {
+
+// A client that has not renewed its jog for so long is gone. One that stalls for less finds its axes at rest, and moves
+// them on.
+constexpr std::int64_t kForgetAfter_ns = 500'000'000;
+
+/// From here in the direction asked for, as far as asked. An unhomed axis knows no end of its travel.
+std::int64_t target_of(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
+    const std::int64_t here = state.position.count();
+    const double travel_mm = axis.position_max_mm - axis.position_min_mm;
+    const double far_mm = asked.distance_mm > 0 ? std::min(asked.distance_mm, 2 * travel_mm) : 2 * travel_mm;
+    const std::int64_t steps = std::max<std::int64_t>(1, to_steps(axis, far_mm));
+    const std::int64_t target = asked.speed_mm_s < 0 ? here - steps : here + steps;
+    if (!state.homed) { return target; }
+    return std::clamp(target, to_steps(axis, axis.position_min_mm), to_steps(axis, axis.position_max_mm));
+}
+
+CommandResult check_homed(const AxisConfig& axis, const AxisState& state) {
+    if (state.homed || axis.unhomed_jog_mm_s) { return {}; }
+    return refuse(FaultCode::NotHomed,
+                  "axis " + axis.name + " is not homed, and unhomed_jog_mm_s is not configured for it");
+}
+
+CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
+    const double speed = std::abs(speed_mm_s);
+    if (speed > 0 && speed <= axis.max_velocity_mm_s) { return {}; }
+    return refuse(FaultCode::BadProgram, "axis " + axis.name + ": a jog at " + short_number(speed) +
+                                             " mm/s is not above 0, to max_velocity_mm_s " +
+                                             short_number(axis.max_velocity_mm_s));
+}
+
+}  // namespace
+
+CommandResult Jogs::press(const Command& command, CoordinatorLoop& loop) {
+    std::vector<std::optional<Jog>> asked(jogs_.size());
+    for (const JogAxis& axis : command.jogs) {
+        if (axis.axis >= jogs_.size()) { return refuse(FaultCode::BadProgram, "no such axis"); }
+        auto jog = jog_of(axis, command, loop);
+        if (!jog) { return std::unexpected(jog.error()); }
+        asked[axis.axis] = *jog;
+    }
+    for (std::size_t i = 0; i < jogs_.size(); ++i) {
+        const bool is_mine = jogs_[i] && jogs_[i]->client == command.client;
+        if (asked[i] || is_mine) { jogs_[i] = asked[i]; }
+    }
+    return {};
+}
+
+std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Command& command,
+                                               const CoordinatorLoop& loop) const {
+    const AxisConfig& axis = loop.machine.axes[asked.axis];
+    const auto& before = jogs_[asked.axis];
+    if (before && before->client != command.client) {
+        return refuse(FaultCode::Busy, "axis " + axis.name + " is jogged by another client");
+    }
+    const AxisState& state = *loop.axes.state(asked.axis);
+    if (auto homed = check_homed(axis, state); !homed) { return std::unexpected(homed.error()); }
+    if (auto speed = check_speed(axis, asked.speed_mm_s); !speed) { return std::unexpected(speed.error()); }
+    if (const std::int64_t target = target_of(asked, axis, state); state.at_rest && target == state.position.count()) {
+        return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " stands at the end of its travel, " +
+                                                    short_number(to_mm(axis, static_cast<double>(target))) + " mm");
+    }
+    Jog jog{command.client, command.sequence, asked, loop.is_late ? loop.now - hold_ : loop.now, {}};
+    if (before && asked.distance_mm == 0 && before->asked == asked) { jog.target = before->target; }
+    return jog;
+}
+
+/// What arrives after a stall may be old: the client may be dead.
+bool Jogs::renew(const Command& command, const CoordinatorLoop& loop) {
+    bool is_known = false;
+    for (auto& jog : jogs_) {
+        if (!jog || jog->client != command.client || jog->sequence != command.sequence) { continue; }
+        is_known = true;
+        if (!loop.is_late) { jog->renewed = loop.now; }
+    }
+    return is_known;
+}
+
+void Jogs::release_all() { std::ranges::fill(jogs_, std::nullopt); }
+
+bool Jogs::none() const {
+    return std::ranges::none_of(jogs_, [](const auto& jog) { return jog.has_value(); });
+}
+
+std::optional<std::size_t> Jogs::advance(CoordinatorLoop& loop) {
+    for (std::size_t i = 0; i < jogs_.size(); ++i) {
+        switch (next(i, loop)) {
+            case Next::Nothing: break;
+            case Next::Order: order(i, loop); break;
+            case Next::Renew: loop.orders.renew(i, jogs_[i]->renewed + hold_, loop.out.axis_commands); break;
+            case Next::Halt: loop.out.axis_commands.push_back(loop.order(i, AxisCommandKind::Halt)); break;
+            case Next::Forget: jogs_[i].reset(); break;
+            case Next::Report: return i;
+        }
+    }
+    return std::nullopt;
+}
+
+Jogs::Next Jogs::next(std::size_t axis, const CoordinatorLoop& loop) const {
+    const auto& jog = jogs_[axis];
+    if (loop.is_order_done(axis)) { return jog ? next_at_rest(axis, loop) : Next::Nothing; }
+    if (!loop.orders.is_open(axis, AxisCommandKind::Jog, loop.axes)) { return Next::Nothing; }
+    const AxisCommand& order = *loop.orders.newest(axis);
+    const bool is_for_it = jog && jog->target == order.target_steps;
+    if (!is_for_it) { return Next::Halt; }
+    return jog->renewed + hold_ > order.until ? Next::Renew : Next::Nothing;
+}
+
+/// An axis that came to rest because renewals were late moves on with them.
+Jogs::Next Jogs::next_at_rest(std::size_t axis, const CoordinatorLoop& loop) const {
+    const Jog& jog = *jogs_[axis];
+    const auto& state = loop.axes.state(axis);
+    if (!state || loop.now - jog.renewed > Ticks{kForgetAfter_ns / loop.machine.tick_ns}) { return Next::Forget; }
+    if (jog.target && state->command_fault != 0) { return Next::Report; }
+    if (jog.target == state->position.count()) { return Next::Forget; }
+    return loop.now == jog.renewed ? Next::Order : Next::Nothing;
+}
+
+void Jogs::order(std::size_t axis, CoordinatorLoop& loop) {
+    Jog& jog = *jogs_[axis];
+    if (!jog.target) { jog.target = target_of(jog.asked, loop.machine.axes[axis], *loop.axes.state(axis)); }
+    AxisCommand& order = loop.order(axis, AxisCommandKind::Jog);
+    order.target_steps = *jog.target;
+    order.speed_mm_s = std::abs(jog.asked.speed_mm_s);
+    order.until = jog.renewed + hold_;
+    loop.out.axis_commands.push_back(order);
+}
+
+}  // namespace lockstep

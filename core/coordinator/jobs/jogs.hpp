@@ -1,0 +1,48 @@
+// The axes that clients jog. Each moves by itself, and only while its client renews its command: every renewal becomes
+// an order to the axis that holds for a short time (MachineConfig::jog_hold_ticks). The axis brakes when none follows.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/coordinator/state/refusal.hpp"
+
+namespace lockstep {
+
+class Jogs {
+public:
+    explicit Jogs(const MachineConfig& machine) : hold_(machine.jog_hold_ticks()), jogs_(machine.axes.size()) {}
+
+    /// The axes that the client jogs from now on: those that it jogged before and are not among them are released.
+    /// Nothing changes where one of them is refused. It counts as the first renewal.
+    CommandResult press(const Command& command, CoordinatorLoop& loop);
+    /// The same command has come again. False: none of its axes is jogged any more.
+    bool renew(const Command& command, const CoordinatorLoop& loop);
+    void release_all();
+
+    /// Each loop: gives orders to the axes. Returns an axis that refused its order.
+    std::optional<std::size_t> advance(CoordinatorLoop& loop);
+
+    bool none() const;
+
+private:
+    struct Jog {
+        Identity client = 0;
+        std::uint64_t sequence = 0;  // of its command
+        JogAxis asked;
+        Tick renewed;
+        std::optional<std::int64_t> target;  // steps; nothing: it was not ordered yet
+    };
+    /// What becomes of an axis in this loop.
+    enum class Next { Nothing, Order, Renew, Halt, Forget, Report };
+
+    std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const CoordinatorLoop& loop) const;
+    Next next(std::size_t axis, const CoordinatorLoop& loop) const;
+    Next next_at_rest(std::size_t axis, const CoordinatorLoop& loop) const;
+    void order(std::size_t axis, CoordinatorLoop& loop);
+
+    Ticks hold_;
+    std::vector<std::optional<Jog>> jogs_;  // by axis
+};
+
+}  // namespace lockstep
