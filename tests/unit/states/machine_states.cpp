@@ -109,6 +109,25 @@ void own_move_that_stops(Walker& m) {
     ask_for(m, CommandKind::Stop);
 }
 
+/// Its client holds the key until the command comes, and then falls silent.
+void jogging(Walker& m) {
+    m.home();
+    ASSERT_EQ(m.jog(7, 0, 0.4).status, ReplyStatus::Accepted);
+    EXPECT_EQ(m.vm.state()->phase, MachinePhase::Jogging);
+}
+
+void jogging_that_stops(Walker& m) {
+    jogging(m);
+    ask_for(m, CommandKind::Stop);
+}
+
+void limit_hit_in_a_jog(Walker& m) {
+    jogging(m);
+    m.vm.device(kX).plant().push(9'000);
+    (void)m.jog(7, 0, 0.1);
+    expect_phase(m, MachinePhase::Fault);
+}
+
 void limit_hit(Walker& m) {
     running(m);
     m.vm.device(kX).plant().push(9'000);
@@ -361,9 +380,12 @@ const std::vector<MachineSituation>& situations() {
         {"paused (M0)", paused, on_one_clock},
         {"own move", own_move, on_one_clock},
         {"own move, stopping", own_move_that_stops, on_one_clock},
+        {"jogging", jogging, on_one_clock},
+        {"jogging, stopping", jogging_that_stops, on_one_clock},
         {"stopping at a limit", stopping_at_a_limit, on_one_clock},
         {"limit hit", limit_hit, on_one_clock},
         {"limit hit in an own move", limit_hit_in_own_move, on_one_clock},
+        {"limit hit in a jog", limit_hit_in_a_jog, on_one_clock},
         {"limit hit, reset", limit_hit_and_reset, on_one_clock},
         {"steps lost", steps_lost, on_one_clock},
         {"emergency stop", emergency_stopped, on_one_clock},

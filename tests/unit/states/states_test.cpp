@@ -21,6 +21,7 @@ const std::vector<Question>& questions() {
         {"run, program not sent", CommandKind::Run, Program::Unknown},
         {"move", CommandKind::Move, Program::Known},
         {"move --own", CommandKind::MoveOwn, Program::Known},
+        {"jog", CommandKind::Jog},
         {"hold", CommandKind::Hold},
         {"resume", CommandKind::Resume},
         {"stop", CommandKind::Stop},

@@ -2,6 +2,7 @@
 
 #include "core/protocol/names.hpp"
 #include "services/documents/program_document.hpp"
+#include "tests/unit/virtual/jogger.hpp"
 
 namespace lockstep {
 namespace {
@@ -10,10 +11,12 @@ constexpr double kRestWithin_s = 2;  // a hold, a stop, an emergency stop, a res
 constexpr double kJobWithin_s = 60;  // homing, and any job of these tests
 constexpr int kRounds = 8;           // of remedies, until a job runs
 constexpr std::uint64_t kNotSent = 999;
+constexpr Identity kJogger = 60;
+constexpr double kJog_mm = 1;
 
 bool is_begun(CommandKind kind) {
     return kind == CommandKind::Home || kind == CommandKind::Run || kind == CommandKind::Move ||
-           kind == CommandKind::MoveOwn;
+           kind == CommandKind::MoveOwn || kind == CommandKind::Jog;
 }
 
 std::string_view text_of(JobOutcome outcome) {
@@ -34,6 +37,19 @@ Reply Walker::go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, b
     if (pauses) { program.blocks.insert(program.blocks.begin(), Block{0, Pause{}}); }
     vm.give_program(++programs_, program);
     return ask(kind, 0, programs_);
+}
+
+Reply Walker::jog(Identity client, double distance_mm, double seconds) {
+    Jogger jogger(vm, client);
+    jogger.press({{.axis = 0, .speed_mm_s = 20, .distance_mm = distance_mm}});
+    const Tick end = vm.now() + Ticks{static_cast<std::int64_t>(seconds * 1e6)};
+    while (vm.now() < end && jogger.reply() == nullptr) { pass(vm, {&jogger}, Ticks{500}); }
+    if (jogger.reply() == nullptr) { return {.status = ReplyStatus::Refused, .text = "no reply"}; }
+    const Reply reply = *jogger.reply();
+    if (reply.status == ReplyStatus::Refused) { return reply; }
+    const auto goes_on = [&] { return vm.state()->job < reply.job || vm.state()->phase == MachinePhase::Jogging; };
+    while (vm.now() < end && goes_on()) { pass(vm, {&jogger}, Ticks{20'000}); }
+    return reply;
 }
 
 void Walker::inject(VirtualFault fault, double seconds) {
@@ -58,6 +74,7 @@ bool Walker::is_settled() const {
     const MachineState& state = *vm.state();
     switch (state.phase) {
         case MachinePhase::Homing:
+        case MachinePhase::Jogging:
         case MachinePhase::Running:
         case MachinePhase::Stopping: return false;
         case MachinePhase::Waiting: return state.axes_present != all_axes(vm.machine().axes.size());
@@ -86,6 +103,7 @@ Reply Walker::put(const Question& question) {
         const Reply* reply = vm.reply_to(sequence);
         return reply == nullptr ? Reply{.status = ReplyStatus::Refused, .text = "no reply"} : *reply;
     }
+    if (question.kind == CommandKind::Jog) { return jog(kJogger, kJog_mm, kRestWithin_s); }
     if (question.program == Question::Program::None) { return ask(question.kind); }
     if (question.program == Question::Program::Unknown) { return ask(question.kind, 0, kNotSent); }
     return go(question.kind, 12, 14, 40);

@@ -36,6 +36,8 @@ public:
     /// A job of one straight line from the axes' positions; it pauses before, if `pauses`.
     Reply go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, bool pauses = false);
     void inject(VirtualFault fault, double seconds);
+    /// Of X, by a client that renews it for `seconds`, or until its end.
+    Reply jog(Identity client, double distance_mm, double seconds);
     /// Of the program that Question::Program::Unknown names.
     void send_all_but_the_last_chunk();
 
