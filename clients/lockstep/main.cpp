@@ -24,10 +24,12 @@ void add_verbs(CLI::App& app, Action& action) {
     add_keys(app, action);
     add_home(app, action);
     add_move(app, action);
+    add_jog(app, action);
     add_run(app, action);
     add_interrupts(app, action);
     add_override(app, action);
     add_offsets(app, action);
+    add_touch(app, action);
     add_tools(app, action);
     add_down(app, action);
     add_check(app, action);

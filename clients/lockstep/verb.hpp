@@ -37,9 +37,11 @@ void add_keys(CLI::App& app, Action& action);  // make, show, check
 void add_spy(CLI::App& app, Action& action);
 void add_home(CLI::App& app, Action& action);
 void add_move(CLI::App& app, Action& action);
+void add_jog(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_override(CLI::App& app, Action& action);
-void add_offsets(CLI::App& app, Action& action);     // set, clear
+void add_offsets(CLI::App& app, Action& action);  // set, clear
+void add_touch(CLI::App& app, Action& action);
 void add_tools(CLI::App& app, Action& action);       // set, remove
 void add_interrupts(CLI::App& app, Action& action);  // hold, resume, stop, estop, reset
 

@@ -224,6 +224,18 @@ std::expected<Reply, Failure> Session::command(Command command, const StopSignal
     return replies_.extract(command.sequence).mapped();
 }
 
+void Session::begin(Command& command) {
+    replies_.erase(command.sequence);
+    command.client = client_;
+    command.sequence = ++sequence_;
+    repeat(command);
+}
+
+const Reply* Session::reply_to(const Command& command) const {
+    const auto found = replies_.find(command.sequence);
+    return found == replies_.end() ? nullptr : &found->second;
+}
+
 std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
     const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
     const nanoseconds deadline = monotonic_now() + patience;

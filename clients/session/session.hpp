@@ -75,6 +75,11 @@ public:
     /// Repeats the command until the reply comes; fills in client and sequence. Error: no reply, or none soon after a
     /// signal to `stop`.
     std::expected<Reply, Failure> command(Command command, const StopSignal* stop = nullptr);
+    /// Gives the command this client's next number and sends it, for a command that is repeated while it holds.
+    void begin(Command& command);
+    void repeat(const Command& command) { (void)client_bus().commands.write(command); }
+    /// The newest reply to it. Null: none has come yet.
+    const Reply* reply_to(const Command& command) const;
     /// Sends an emergency stop to coordinator and axes: axes stop by themselves. Nothing: no coordinator replied in
     /// time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);

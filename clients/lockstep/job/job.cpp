@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "clients/lockstep/job/final_positions.hpp"
 #include "clients/lockstep/job/job_watch.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
@@ -16,8 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kFinalStatePatience = 1s;  // for the final states of the axes
-
 std::string outcome_name(JobResult result) {
     switch (result) {
         case JobResult::Done: return "done";
@@ -29,19 +28,6 @@ std::string outcome_name(JobResult result) {
         case JobResult::Lost: break;
     }
     return "lost";
-}
-
-/// Waits for axis states published after the end of the job: they come independently of the coordinator's.
-void add_final_positions(Session& session, proto::RunReport& report) {
-    const nanoseconds end = monotonic_now();
-    const MachineConfig& machine = session.config();
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const auto rests = [&] {
-            return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
-        };
-        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.receive(10ms); }
-        if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
-    }
 }
 
 std::string title(const Job& job) {

@@ -39,11 +39,13 @@ void Screen::draw(const std::string& text) {
     std::cout << redrawn(text, known ? size.ws_row : kUsualRows) << std::flush;
 }
 
-bool Screen::pressed(char key) {
-    bool found = false;
-    char read_key = 0;
-    while (keyboard_before_ && read(STDIN_FILENO, &read_key, 1) == 1) { found = found || read_key == key; }
-    return found;
+bool Screen::pressed(char key) { return typed().find(key) != std::string::npos; }
+
+std::string Screen::typed() {
+    std::string bytes;
+    char byte = 0;
+    while (keyboard_before_ && read(STDIN_FILENO, &byte, 1) == 1) { bytes += byte; }
+    return bytes;
 }
 
 std::string redrawn(const std::string& text, std::size_t rows) {

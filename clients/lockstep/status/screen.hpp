@@ -21,6 +21,8 @@ public:
     void draw(const std::string& text);
     /// Whether this key was pressed since the last call.
     bool pressed(char key);
+    /// What was typed since the last call, as bytes.
+    std::string typed();
 
 private:
     std::optional<termios> keyboard_before_;  // nothing: standard input is no terminal

@@ -49,15 +49,18 @@ ExitCode show_values(const LiveOptions& options, ValuesText text) {
 }
 
 ExitCode change_values(const LiveOptions& options, ValuesText text, const ChangeValues& change) {
+    return change_values_here(options, text,
+                              [&](Session& session, auto& values) { return change(session.config(), values); });
+}
+
+ExitCode change_values_here(const LiveOptions& options, ValuesText text, const ChangeHere& change) {
     Output output(options.json);
     auto session = open(options, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
     auto values = session->values();
     if (!values) { return output.fail(values.error()); }
     gcode::KeptValues wanted = values->values;
-    if (const auto changed = change(session->config(), wanted); !changed) {
-        return output.fail(bad_input(changed.error()));
-    }
+    if (const auto changed = change(*session, wanted); !changed) { return output.fail(bad_input(changed.error())); }
     if (const auto stored = store(*session, *values, wanted); !stored) { return output.fail(stored.error()); }
     return print(*session, *values, text, output);
 }

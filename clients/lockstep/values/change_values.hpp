@@ -5,6 +5,7 @@
 
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/values/values_text.hpp"
+#include "clients/session/session.hpp"
 #include "clients/text/exit_code.hpp"
 
 namespace lockstep {
@@ -15,5 +16,9 @@ using ChangeValues = std::function<Changed(const MachineConfig& machine, gcode::
 ExitCode show_values(const LiveOptions& options, ValuesText text);
 /// Waits until the change is on the coordinator's disk; then shows the values.
 ExitCode change_values(const LiveOptions& options, ValuesText text, const ChangeValues& change);
+
+using ChangeHere = std::function<Changed(Session& session, gcode::KeptValues& values)>;
+/// The same, with what the session receives of the axes.
+ExitCode change_values_here(const LiveOptions& options, ValuesText text, const ChangeHere& change);
 
 }  // namespace lockstep

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "clients/session/move_program.hpp"
+#include "core/gcode/gcode.hpp"
 #include "core/number_text.hpp"
+#include "services/documents/program_file.hpp"
 #include "services/documents/values/values_document.hpp"
 
 namespace lockstep {
@@ -162,6 +164,28 @@ Changed set_offset(const MachineConfig& machine, std::string_view name, const Ch
     if (home == nullptr) { values.g92_applies = true; }
     Point& place = home == nullptr ? values.g92 : **home;
     return for_each_word(words, [&](const Word& word) { return set_axis(machine, word, place); });
+}
+
+Changed touch_off(const MachineConfig& machine, const std::vector<double>& places_mm, std::string_view name,
+                  const ChangeWords& words, KeptValues& values) {
+    const auto system = find_system(in_capitals(name));
+    if (!system) {
+        return std::unexpected("'" + std::string(name) + "' is no coordinate system; write G54 to G59, G59.1 to G59.3");
+    }
+    std::string line = "G21 G10 L20 P" + std::to_string(*system + 1);
+    const Changed read = for_each_word(words, [&](const Word& word) -> Changed {
+        Point place{};
+        if (auto known = set_axis(machine, word, place); !known) { return known; }
+        line += " " + word.name + number_text(word.value);
+        return {};
+    });
+    if (!read) { return read; }
+    GcodeSetup setup = gcode_setup(machine, places_mm, "touch");
+    setup.values = values;
+    const auto result = read_gcode(line + "\nM2\n", setup);
+    if (!result) { return std::unexpected(result.error().front().message); }
+    values = result->values;
+    return {};
 }
 
 Changed clear_offset(std::string_view name, KeptValues& values) {

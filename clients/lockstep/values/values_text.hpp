@@ -24,6 +24,10 @@ using Changed = std::expected<void, std::string>;
 /// the words do not name stays. Error: what is wrong with it.
 Changed set_offset(const MachineConfig& machine, std::string_view name, const ChangeWords& words,
                    gcode::KeptValues& values);
+/// `name`: a coordinate system; words: what the machine's axes read in it from now on where they stand, `places_mm`.
+/// G92 and a rotation keep their effect (G10 L20).
+Changed touch_off(const MachineConfig& machine, const std::vector<double>& places_mm, std::string_view name,
+                  const ChangeWords& words, gcode::KeptValues& values);
 /// To the machine's zero; G28 and G30 to the park position. "all": every one.
 Changed clear_offset(std::string_view name, gcode::KeptValues& values);
 

@@ -52,6 +52,19 @@ TEST_F(Values, AreOnDiskWhenTheirCommandReturns) {
     }
 }
 
+TEST_F(Values, AreTouchedOffWhereTheMachineStands) {
+    EXPECT_EQ(run_lockstep({"touch", "X=0"}).code, 2) << "it is not homed";
+    home();
+    ASSERT_EQ(run_lockstep({"move", "X=50", "Y=-20"}).code, 0);
+    const Ran touched = run_lockstep({"touch", "X=0", "Y=5"});
+    ASSERT_EQ(touched.code, 0) << touched.err;
+    EXPECT_EQ(kept().system(0).origin().x(), 50);
+    EXPECT_EQ(kept().system(0).origin().y(), -25);
+    const auto report = run("G0 X1 Y5\nM2\n").json<proto::RunReport>();
+    EXPECT_DOUBLE_EQ(report.final_positions(0).position_mm(), 51);
+    EXPECT_DOUBLE_EQ(report.final_positions(1).position_mm(), -20);
+}
+
 TEST_F(Values, AreUsedByProgramsAndChangedAtTheirEnd) {
     home();
     ASSERT_EQ(offsets({"set", "G54", "X=100", "Y=10"}).code, 0);

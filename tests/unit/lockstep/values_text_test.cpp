@@ -45,6 +45,30 @@ TEST(SetOffset, OfG28BeginsWithTheParkPosition) {
     EXPECT_FALSE(set("G30", {"Z=50"}).home);
 }
 
+TEST(TouchOff, SetsWhatTheAxesReadWhereTheyStand) {
+    const std::vector<double> places{30, 40, 50, 0};
+    gcode::KeptValues values = set("G55", {"X=1", "Y=2", "Z=3"});
+    ASSERT_TRUE(touch_off(mill(), places, "G54", {"X=0", "Z=-1.5"}, values));
+    EXPECT_EQ(values.systems[0].origin, (gcode::Point{30, 0, 51.5}));
+    ASSERT_TRUE(touch_off(mill(), places, "g55", {"Y=10"}, values));
+    EXPECT_EQ(values.systems[1].origin, (gcode::Point{1, 30, 3})) << "the others keep their zero";
+}
+
+TEST(TouchOff, CountsTheOffsetsOfG92) {
+    gcode::KeptValues values = set("G92", {"X=4"});
+    ASSERT_TRUE(touch_off(mill(), {30, 40, 50, 0}, "G54", {"X=0"}, values));
+    EXPECT_EQ(values.systems[0].origin[0] + values.g92[0], 30);
+}
+
+TEST(TouchOff, OfWhatThereIsNotIsRefused) {
+    gcode::KeptValues values;
+    for (const ChangeWords& words : {ChangeWords{}, {"Q=1"}, {"X2=1"}, {"X"}, {"X=1e9"}}) {
+        EXPECT_FALSE(touch_off(mill(), {0, 0, 0, 0}, "G54", words, values));
+    }
+    EXPECT_FALSE(touch_off(mill(), {0, 0, 0, 0}, "G28", {"X=0"}, values));
+    EXPECT_EQ(values, gcode::KeptValues{});
+}
+
 TEST(ClearOffset, OfAllKeepsTheTools) {
     auto values = set("G59.3", {"X=1"}, set("G30", {"X=2"}));
     values.tools[1] = {.diameter = 2};

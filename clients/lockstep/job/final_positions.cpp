@@ -1,0 +1,28 @@
+#include "clients/lockstep/job/final_positions.hpp"
+
+#include "clients/session/reports.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kFinalStatePatience = 1s;
+
+}  // namespace
+
+void add_final_positions(Session& session, proto::RunReport& report) {
+    const nanoseconds end = monotonic_now();
+    const MachineConfig& machine = session.config();
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const auto rests = [&] {
+            return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
+        };
+        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.receive(10ms); }
+        if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,85 @@
+#include "clients/lockstep/jog/jog_screen.hpp"
+
+#include "clients/lockstep/job/hang_up.hpp"
+#include "clients/lockstep/jog/jog_keys.hpp"
+#include "clients/lockstep/jog/jog_link.hpp"
+#include "clients/lockstep/status/screen.hpp"
+#include "clients/text/format.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kReadPeriod = 5ms;
+constexpr nanoseconds kRedrawPeriod = 100ms;
+
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(width, text.size()), ' ');
+    return text;
+}
+
+std::string line_of(const Session& session, const JogKeys& keys, std::size_t axis) {
+    const AxisConfig& config = session.config().axes[axis];
+    const auto& received = session.axis(axis);
+    if (!received) { return padded("  " + config.name, 8) + "not received\n"; }
+    const AxisState& state = received->state;
+    const std::string place = fixed(to_mm(config, static_cast<double>(state.position.count())), 3);
+    const std::string homed = state.homed               ? ""
+                              : config.unhomed_jog_mm_s ? "not homed: slow, no soft limits"
+                                                        : "not homed";
+    return padded("  " + config.name, 8) + padded(place + " mm", 16) + padded(std::string(JogKeys::keys_of(axis)), 22) +
+           padded(fixed(keys.speed_mm_s(axis), 2) + " mm/s", 16) + homed + "\n";
+}
+
+std::string screen_text(const Session& session, const JogKeys& keys, const std::string& note) {
+    std::string text = session.config().name;
+    if (session.state()) { text += ": " + std::string(name_of(session.state()->state.phase)); }
+    text += "\n\n";
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) { text += line_of(session, keys, i); }
+    text +=
+        "\nHold a key to jog; an axis brakes 150 ms after the last repetition of its key.\n"
+        "+ and - change the speed, space releases all, q quits.\n";
+    return text + (note.empty() ? "" : "\n" + note + "\n");
+}
+
+/// What the coordinator last said against a jog.
+std::string note_of(const Session& session, const JogLink& link) {
+    if (session.is_silent()) { return "the coordinator is silent"; }
+    const Reply* reply = link.reply();
+    return reply != nullptr && reply->status == ReplyStatus::Refused ? "refused: " + reply->text : "";
+}
+
+}  // namespace
+
+/// A loop that comes late finds keys that were typed long ago: they count as released.
+ExitCode jog_by_keys(Session& session, Output&) {
+    const StopSignal stop;
+    const HangUp hang_up;
+    JogKeys keys(session.config());
+    JogLink link(session);
+    Screen screen;
+    nanoseconds drawn{};
+    std::string note;
+    for (nanoseconds last = monotonic_now(); !stop.requested() && !hang_up.came() && !keys.must_quit();) {
+        const nanoseconds now = monotonic_now();
+        const std::string typed = screen.typed();
+        now - last > JogKeys::kHold ? keys.release_all() : keys.take(typed, now);
+        last = now;
+        link.press(keys.jogs(now));
+        if (const std::string newest = note_of(session, link); link.is_pressed() || !newest.empty()) { note = newest; }
+        if (now - drawn >= kRedrawPeriod) {
+            drawn = now;
+            screen.draw(screen_text(session, keys, note));
+        }
+        link.pass(now + kReadPeriod);
+    }
+    link.release();
+    link.pass(monotonic_now() + 50ms);
+    return kExitDone;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,12 @@
+// lockstep jog on a terminal: keys jog the axes, and the screen shows where they are.
+#pragma once
+
+#include "clients/session/session.hpp"
+#include "clients/text/output.hpp"
+
+namespace lockstep {
+
+/// Until q or a signal.
+ExitCode jog_by_keys(Session& session, Output& output);
+
+}  // namespace lockstep

@@ -1,0 +1,62 @@
+#include "clients/lockstep/jog/jog_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clients/session/move_program.hpp"
+#include "core/number_text.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kUsualSpeed_mm_s = 10;
+
+std::expected<JogAxis, std::string> jog_axis(const MachineConfig& machine, const JogOptions& options,
+                                             const std::string& word) {
+    const char direction = word.empty() ? ' ' : word.back();
+    if (word.size() < 2 || (direction != '+' && direction != '-')) {
+        return std::unexpected("\"" + word + "\" is not an axis and a direction, such as X+ or Y-");
+    }
+    const auto axis = find_axis(machine, word.substr(0, word.size() - 1));
+    if (!axis) { return std::unexpected(axis.error()); }
+    const AxisConfig& config = machine.axes[*axis];
+    const double speed = options.speed_mm_s.value_or(usual_jog_speed(config));
+    if (!(speed > 0 && speed <= config.max_velocity_mm_s)) {
+        return std::unexpected("axis " + config.name + ": a jog at " + short_number(speed) +
+                               " mm/s is not above 0, to max_velocity_mm_s " + short_number(config.max_velocity_mm_s));
+    }
+    return JogAxis{.axis = static_cast<std::uint32_t>(*axis),
+                   .speed_mm_s = direction == '+' ? speed : -speed,
+                   .distance_mm = options.distance_mm.value_or(0)};
+}
+
+}  // namespace
+
+double usual_jog_speed(const AxisConfig& axis) { return std::min(kUsualSpeed_mm_s, axis.max_velocity_mm_s); }
+
+std::expected<std::vector<JogAxis>, std::string> jog_axes(const MachineConfig& machine, const JogOptions& options) {
+    if (options.distance_mm && !(*options.distance_mm > 0 && std::isfinite(*options.distance_mm))) {
+        return std::unexpected("--distance " + short_number(*options.distance_mm) + ": it is above 0 mm");
+    }
+    std::vector<JogAxis> jogs;
+    for (const std::string& word : options.words) {
+        const auto jog = jog_axis(machine, options, word);
+        if (!jog) { return std::unexpected(jog.error()); }
+        if (std::ranges::find(jogs, jog->axis, &JogAxis::axis) != jogs.end()) {
+            return std::unexpected("axis " + machine.axes[jog->axis].name + " is named twice");
+        }
+        jogs.push_back(*jog);
+    }
+    return jogs;
+}
+
+std::int64_t jog_target(const AxisConfig& axis, const JogAxis& jog, std::int64_t here) {
+    const std::int64_t min = to_steps(axis, axis.position_min_mm);
+    const std::int64_t max = to_steps(axis, axis.position_max_mm);
+    if (jog.distance_mm == 0) { return jog.speed_mm_s < 0 ? min : max; }
+    const std::int64_t steps =
+        to_steps(axis, std::min(jog.distance_mm, 2 * (axis.position_max_mm - axis.position_min_mm)));
+    return std::clamp(jog.speed_mm_s < 0 ? here - steps : here + steps, min, max);
+}
+
+}  // namespace lockstep

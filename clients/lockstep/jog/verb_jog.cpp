@@ -1,0 +1,167 @@
+// lockstep jog
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/job/final_positions.hpp"
+#include "clients/lockstep/job/hang_up.hpp"
+#include "clients/lockstep/jog/jog_link.hpp"
+#include "clients/lockstep/jog/jog_screen.hpp"
+#include "clients/lockstep/jog/jog_words.hpp"
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/reports.hpp"
+#include "clients/session/status_text.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/format.hpp"
+#include "services/runtime/clock.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kAnswerPatience = 3s;
+constexpr nanoseconds kBrakePatience = 10s;  // from the release to the end of the jog
+
+struct JogVerbOptions : LiveOptions {
+    JogOptions jog;
+};
+
+void warn_of_unhomed(const Session& session, const std::vector<JogAxis>& jogs, Output& output) {
+    for (const JogAxis& jog : jogs) {
+        const AxisConfig& axis = session.config().axes[jog.axis];
+        const auto& received = session.axis(jog.axis);
+        if (!received || received->state.homed || !axis.unhomed_jog_mm_s) { continue; }
+        output.warn("axis " + axis.name + " is not homed: it jogs at " + fixed(*axis.unhomed_jog_mm_s, 2) +
+                    " mm/s at most, and only a limit switch ends it");
+    }
+}
+
+/// Where each homed axis ends by itself.
+class Arrival {
+public:
+    Arrival(const Session& session, const std::vector<JogAxis>& jogs) : jogs_(jogs) {
+        for (const JogAxis& jog : jogs) {
+            const std::int64_t here = session.axis(jog.axis)->state.position.count();
+            targets_.push_back(jog_target(session.config().axes[jog.axis], jog, here));
+        }
+    }
+    bool is_complete(const Session& session) const {
+        for (std::size_t i = 0; i < jogs_.size(); ++i) {
+            const auto& received = session.axis(jogs_[i].axis);
+            if (!received || received->state.position.count() != targets_[i]) { return false; }
+        }
+        return true;
+    }
+
+private:
+    std::vector<JogAxis> jogs_;
+    std::vector<std::int64_t> targets_;
+};
+
+/// Renews the jog until it is over, or this process is asked to end. True: it released the jog.
+std::expected<bool, Failure> hold(Session& session, JogLink& link) {
+    const StopSignal stop;
+    const HangUp hang_up;
+    while (!link.is_over() && !stop.requested() && !hang_up.came()) {
+        link.pass(monotonic_now() + 20ms);
+        if (session.is_silent()) { return std::unexpected(session.silent()); }
+    }
+    const bool is_released = !link.is_over();
+    link.release();
+    for (const nanoseconds end = monotonic_now() + kBrakePatience; monotonic_now() < end;) {
+        link.pass(monotonic_now() + 20ms);
+        if (session.state()->state.phase != MachinePhase::Jogging) { break; }
+    }
+    return is_released;
+}
+
+ExitCode finish(Session& session, const Arrival& arrival, bool is_released, proto::RunReport& report, Output& output) {
+    add_final_positions(session, report);
+    report.set_outcome(is_released ? "released" : arrival.is_complete(session) ? "done" : "stopped");
+    if (auto fault = fault_of(session.state()->state, session.config())) {
+        report.set_outcome("failed");
+        *report.mutable_fault() = *std::move(fault);
+    }
+    output.report(report);
+    output.print("jog " + report.name() + ": " + report.outcome() + "; at " + places_text(report));
+    if (report.has_fault()) { output.print(fault_text(report.fault())); }
+    return report.outcome() == "done" || report.outcome() == "released" ? kExitDone : kExitFailed;
+}
+
+ExitCode refuse(const Reply& reply, proto::RunReport& report, Output& output) {
+    report.set_outcome("refused");
+    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    output.report(report);
+    if (!output.json()) {
+        output.warn("jog " + report.name() + ": refused: " + reply.text + "\n" + fault_text(report.fault()));
+    }
+    return kExitFailed;
+}
+
+ExitCode jog_by_words(Session& session, const JogOptions& options, const std::vector<JogAxis>& jogs, Output& output) {
+    if (auto axes = session.reach_axes(); !axes) { return output.fail(axes.error()); }
+    warn_of_unhomed(session, jogs, output);
+    const Arrival arrival(session, jogs);
+    proto::RunReport report;
+    report.set_kind("jog");
+    for (const std::string& word : options.words) {
+        report.set_name(report.name() + (report.name().empty() ? "" : " ") + word);
+    }
+    JogLink link(session);
+    link.press(jogs);
+    for (const nanoseconds end = monotonic_now() + kAnswerPatience; link.reply() == nullptr;) {
+        if (monotonic_now() > end) { return output.fail(session.silent()); }
+        link.pass(monotonic_now() + 5ms);
+    }
+    if (link.reply()->status == ReplyStatus::Refused) { return refuse(*link.reply(), report, output); }
+    report.set_job(link.reply()->job);
+    const auto released = hold(session, link);
+    if (!released) { return output.fail(released.error()); }
+    return finish(session, arrival, *released, report, output);
+}
+
+ExitCode jog(const JogVerbOptions& options) {
+    Output output(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    const auto jogs = jog_axes(machine->config, options.jog);
+    if (!jogs) { return output.fail(bad_input(jogs.error())); }
+    const bool has_keys = isatty(STDIN_FILENO) == 1 && output.is_terminal() && !options.json;
+    if (jogs->empty() && !has_keys) {
+        return output.fail(bad_input("without an axis, jog takes keys from a terminal; name axes: lockstep jog X+"));
+    }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return output.fail(session.error()); }
+    if (session->config_differs()) {
+        output.warn("the coordinator runs another configuration than this command reads");
+    }
+    if (!jogs->empty()) { return jog_by_words(*session, options.jog, *jogs, output); }
+    session->await_axes();
+    return jog_by_keys(*session, output);
+}
+
+}  // namespace
+
+void add_jog(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "jog",
+        "move axes while this command runs: by keys on a terminal, or those named, to a distance, the end of their "
+        "travel "
+        "or Ctrl-C. When it ends, however it does, the axes brake; each moves on its own, not in a line");
+    const auto options = std::make_shared<JogVerbOptions>();
+    verb->add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; none: by keys");
+    verb->add_option("--speed", options->jog.speed_mm_s, "mm/s of each axis; 10, or what the axis can do");
+    verb->add_option("--distance", options->jog.distance_mm,
+                     "mm of each axis; to the end of its travel where not given");
+    add_live_options(*verb, *options);
+    verb->footer(
+        footer("  lockstep jog\n  lockstep jog X+\n  lockstep jog X+ Y- --speed 25\n"
+               "  lockstep jog Z- --speed 2 --distance 0.5\n"));
+    verb->callback([&action, options] { action = [options] { return jog(*options); }; });
+}
+
+}  // namespace lockstep

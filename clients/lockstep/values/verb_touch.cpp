@@ -1,0 +1,59 @@
+// lockstep touch
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/lockstep/values/change_values.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/session/job_plan.hpp"
+#include "clients/session/move_program.hpp"
+
+namespace lockstep {
+namespace {
+
+struct TouchOptions : LiveOptions {
+    std::string system = "G54";
+    ChangeWords words;
+};
+
+/// Only an axis that is homed knows where it stands.
+Changed check_homed(const Session& session, const ChangeWords& words) {
+    for (const std::string& word : words) {
+        const auto target = parse_target(word);
+        const auto axis = target ? find_axis(session.config(), target->axis) : std::unexpected(target.error());
+        if (!axis) { return std::unexpected(axis.error()); }
+        if (session.axis(*axis)->state.homed) { continue; }
+        return std::unexpected("axis " + session.config().axes[*axis].name +
+                               " is not homed, so its place is not known; home it: lockstep home");
+    }
+    return {};
+}
+
+Changed touch(Session& session, const TouchOptions& options, gcode::KeptValues& values) {
+    const auto places = start_places(session);
+    if (!places) { return std::unexpected(places.error().errors.front().message); }
+    if (auto homed = check_homed(session, options.words); !homed) { return homed; }
+    return touch_off(session.config(), *places, options.system, options.words, values);
+}
+
+}  // namespace
+
+void add_touch(CLI::App& app, Action& action) {
+    CLI::App* verb = app.add_subcommand(
+        "touch", "set the work zero: what axes read in a coordinate system where they stand now, as G10 L20 does");
+    const auto options = std::make_shared<TouchOptions>();
+    verb->add_option("words", options->words, "X=0 Z=-0.1; axes that are not named keep their zero")->required();
+    verb->add_option("--system", options->system, "G54 to G59, G59.1 to G59.3; programs begin with G54")
+        ->capture_default_str();
+    add_live_options(*verb, *options);
+    verb->footer(footer("  lockstep touch X=0 Y=0\n  lockstep touch Z=0.1 --system G55\n"));
+    verb->callback([&action, options] {
+        action = [options] {
+            return change_values_here(*options, offsets_text, [options](Session& session, auto& values) {
+                return touch(session, *options, values);
+            });
+        };
+    });
+}
+
+}  // namespace lockstep
