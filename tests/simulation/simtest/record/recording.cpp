@@ -83,9 +83,16 @@ void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisN
         const auto* arm = std::get_if<device::Arm>(&order);
         if (arm != nullptr) { armed_[axis] = std::max(armed_[axis], arm->number); }
     }
-    if (!out.state) { return; }
-    const bool lacks = static_cast<FaultCode>(out.state->unproved) == FaultCode::DeviceMissing;
-    if (std::exchange(lacks_device_[axis], lacks) != lacks && lacks) { lose_run(axis, now); }
+    // An axis that does not know the time says what it finds in its states later, if it still lacks the device then.
+    bool loses = std::ranges::any_of(out.notices, [](const AxisNotice& notice) {
+        return notice.kind == AxisNotice::Kind::Fault && notice.fault == FaultCode::DeviceLost;
+    });
+    if (out.state) {
+        const bool lacks = static_cast<FaultCode>(out.state->unproved) == FaultCode::DeviceMissing;
+        loses = loses || (lacks && !lacks_device_[axis]);
+        lacks_device_[axis] = lacks;
+    }
+    if (loses) { lose_run(axis, now); }
 }
 
 void Recorder::take_state(std::size_t axis, const AxisState& state, Tick now) {
