@@ -278,6 +278,12 @@ std::expected<RevisedValues, Failure> Session::values() {
     return *std::move(values);
 }
 
+std::optional<RevisedValues> Session::newest_values() const {
+    if (!values_) { return std::nullopt; }
+    auto values = values_from_bytes(values_->bytes);
+    return values ? std::optional(*std::move(values)) : std::nullopt;
+}
+
 std::expected<void, Failure> Session::await_kept(std::uint64_t revision) {
     const nanoseconds deadline = monotonic_now() + kDiskPatience;
     while (!values_ || values_->revision < revision || !values_->on_disk) {

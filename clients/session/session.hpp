@@ -90,6 +90,8 @@ public:
 
     /// The machine's offsets and tools. Waits until they are received.
     std::expected<RevisedValues, Failure> values();
+    /// The newest received; nothing before the first, or where they cannot be read.
+    std::optional<RevisedValues> newest_values() const;
     /// Waits until the coordinator has this revision, or a later one, on its disk. Error: it cannot write it, or does
     /// not answer.
     std::expected<void, Failure> await_kept(std::uint64_t revision);

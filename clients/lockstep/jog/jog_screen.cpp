@@ -2,8 +2,8 @@
 
 #include "clients/lockstep/job/hang_up.hpp"
 #include "clients/lockstep/jog/jog_keys.hpp"
-#include "clients/lockstep/jog/jog_link.hpp"
 #include "clients/lockstep/status/screen.hpp"
+#include "clients/session/control/jog_link.hpp"
 #include "clients/text/format.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"

@@ -5,11 +5,11 @@
 
 #include "clients/lockstep/job/final_positions.hpp"
 #include "clients/lockstep/job/hang_up.hpp"
-#include "clients/lockstep/jog/jog_link.hpp"
 #include "clients/lockstep/jog/jog_screen.hpp"
 #include "clients/lockstep/jog/jog_words.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/session/control/jog_link.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"

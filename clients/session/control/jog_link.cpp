@@ -1,4 +1,4 @@
-#include "clients/lockstep/jog/jog_link.hpp"
+#include "clients/session/control/jog_link.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,54 @@
+// The two ways in which a sender connects: TCP, and a pseudo-terminal in place of a serial line.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+
+namespace lockstep::grbl {
+
+/// A file descriptor, closed with the object.
+class Descriptor {
+public:
+    explicit Descriptor(int fd = -1) : fd_(fd) {}
+    Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
+    Descriptor& operator=(Descriptor&& other) noexcept;
+    ~Descriptor();
+    int get() const { return fd_; }
+    bool is_open() const { return fd_ >= 0; }
+    int release();
+
+private:
+    int fd_;
+};
+
+/// Listens there. Error: the address cannot be used, and why.
+std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port);
+/// A connection that waits; nothing: none does.
+std::optional<Descriptor> accept_from(const Descriptor& listener);
+
+/// A pseudo-terminal, with a symbolic link to it that is removed with the object.
+class Terminal {
+public:
+    static std::expected<Terminal, std::string> open(const std::string& link);
+    Terminal(Terminal&& other) noexcept;
+    Terminal& operator=(Terminal&&) = delete;
+    ~Terminal();
+    const Descriptor& descriptor() const { return master_; }
+    /// A process has it open.
+    bool is_used() const;
+
+private:
+    Terminal(Descriptor master, std::string link) : master_(std::move(master)), link_(std::move(link)) {}
+    Descriptor master_;
+    std::string link_;
+};
+
+/// What has arrived within the time. Nothing: the other side is gone.
+std::optional<std::string> read_from(const Descriptor& from, std::chrono::milliseconds within);
+/// False: the other side is gone, or has not read for long.
+bool write_to(const Descriptor& to, const std::string& bytes);
+
+}  // namespace lockstep::grbl

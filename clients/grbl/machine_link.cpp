@@ -1,0 +1,165 @@
+#include "clients/grbl/machine_link.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "clients/session/control/store_values.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep::grbl {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kRepeatAfter = 250ms;
+constexpr nanoseconds kPatience = 3s;
+
+Answer answer_of(const Reply& reply) {
+    return {reply.status == ReplyStatus::Accepted, static_cast<FaultCode>(reply.fault), reply.text};
+}
+
+Command command_of(const Request& request) {
+    switch (request.kind) {
+        case Request::Kind::Hold: return {.kind = CommandKind::Hold};
+        case Request::Kind::Resume: return {.kind = CommandKind::Resume};
+        case Request::Kind::Reset: return {.kind = CommandKind::Reset};
+        case Request::Kind::Home: return {.kind = CommandKind::Home, .axes = request.axes};
+        case Request::Kind::Override:
+            return {.kind = CommandKind::Override,
+                    .feed_percent = request.overrides.feed_percent,
+                    .rapid_percent = request.overrides.rapid_percent};
+        default: return {.kind = CommandKind::Stop};
+    }
+}
+
+}  // namespace
+
+void MachineLink::carry_out(Request&& request, Grbl& grbl) {
+    switch (request.kind) {
+        case Request::Kind::Hold:
+        case Request::Kind::Resume:
+        case Request::Kind::Stop:
+        case Request::Kind::Override: return send(command_of(request), 0);
+        case Request::Kind::CancelJog: return jog_.release();
+        case Request::Kind::Reset:
+        case Request::Kind::Home: return send(command_of(request), request.number);
+        case Request::Kind::SetValues: return set_values(request, grbl);
+        case Request::Kind::RunLine: return grbl.answer(request.number, sink_.take(request.line));
+        case Request::Kind::Jog:
+            jog_.press(request.jogs);
+            new_jog_ = request.number;
+            has_jog_ = true;
+            return;
+    }
+}
+
+void MachineLink::release() {
+    jog_.release();
+    jog_.pass(monotonic_now() + 1ms);
+    new_jog_.reset();
+    has_jog_ = false;
+    for (Open& open : open_) { open.number = 0; }
+}
+
+void MachineLink::send(Command command, std::uint64_t number) {
+    session_.begin(command);
+    open_.push_back({command, number, monotonic_now()});
+}
+
+void MachineLink::pass(nanoseconds time, Grbl& grbl) {
+    jog_.pass(monotonic_now() + time);
+    grbl.see(view());
+    auto open = std::exchange(open_, {});
+    for (Open& one : open) {
+        if (!follow(one, grbl)) { open_.push_back(one); }
+    }
+    follow_jog(grbl);
+}
+
+bool MachineLink::follow(Open& open, Grbl& grbl) {
+    if (open.job != 0) { return has_ended(open, grbl); }
+    if (const Reply* reply = session_.reply_to(open.command)) {
+        const bool is_homing = open.command.kind == CommandKind::Home && reply->status == ReplyStatus::Accepted;
+        if (is_homing) { open.job = reply->job; }
+        if (!is_homing) { grbl.answer(open.number, answer_of(*reply)); }
+        return !is_homing;
+    }
+    const nanoseconds waited = monotonic_now() - open.sent;
+    if (waited > kPatience) { grbl.answer(open.number, {.text = "the coordinator does not answer"}); }
+    if (waited % kRepeatAfter < 2 * 5ms) { session_.repeat(open.command); }
+    return waited > kPatience;
+}
+
+bool MachineLink::has_ended(const Open& open, Grbl& grbl) const {
+    const auto& state = session_.state();
+    const bool is_over =
+        state && (state->state.job > open.job || (state->state.job == open.job && state->state.outcome));
+    if (!is_over || !rests()) { return false; }
+    const bool is_done = state->state.job == open.job && state->state.outcome == JobOutcome::Done;
+    grbl.answer(open.number, {is_done, static_cast<FaultCode>(state->state.fault),
+                              is_done ? "" : "homing was not brought to its end"});
+    return true;
+}
+
+void MachineLink::follow_jog(Grbl& grbl) {
+    const Reply* reply = jog_.reply();
+    if (!has_jog_ || reply == nullptr) { return; }
+    if (const auto number = std::exchange(new_jog_, std::nullopt)) { grbl.answer(*number, answer_of(*reply)); }
+    const auto& state = session_.state();
+    const bool is_refused = reply->status == ReplyStatus::Refused;
+    const bool is_ending = jog_.is_over() || !jog_.is_pressed();
+    const bool has_ended = is_ending && rests() && state && state->state.phase != MachinePhase::Jogging;
+    if (!is_refused && !has_ended) { return; }
+    has_jog_ = false;
+    jog_.release();
+    grbl.end_jog();
+}
+
+void MachineLink::set_values(const Request& request, Grbl& grbl) {
+    const auto before = session_.values();
+    if (!before) { return grbl.answer(request.number, {.text = before.error().errors.front().message}); }
+    RevisedValues values = *before;
+    const auto stored = store_values(session_, values, request.values);
+    if (stored) { values_ = request.values; }
+    grbl.see(view());
+    grbl.answer(request.number,
+                stored ? Answer{.is_done = true} : Answer{.text = stored.error().errors.front().message});
+}
+
+/// Every axis, as it last reported.
+bool MachineLink::rests() const {
+    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
+        if (!session_.axis(i) || !session_.axis(i)->state.at_rest) { return false; }
+    }
+    return true;
+}
+
+MachineView MachineLink::view() {
+    MachineView view;
+    const auto& state = session_.state();
+    view.is_received = state && !session_.is_silent();
+    if (!state) { return view; }
+    view.phase = state->state.phase;
+    view.fault = static_cast<FaultCode>(state->state.fault);
+    view.line = state->state.line;
+    view.overrides = state->state.overrides;
+    double squares = 0;
+    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
+        const AxisConfig& config = session_.config().axes[i];
+        const auto& axis = session_.axis(i);
+        view.is_received = view.is_received && session_.axis_present(i);
+        view.axes.push_back(axis ? AxisPlace{to_mm(config, static_cast<double>(axis->state.position.count())),
+                                             axis->state.homed, axis->state.at_rest}
+                                 : AxisPlace{});
+        const double per_tick = axis ? axis->state.velocity.steps_per_tick() : 0;
+        const double mm_min = per_tick * session_.config().ticks_per_second() / config.steps_per_mm * 60;
+        squares += mm_min * mm_min;
+    }
+    view.feed_mm_min = std::sqrt(squares);
+    if (const auto values = session_.newest_values()) { values_ = values->values; }
+    view.values = values_;
+    return view;
+}
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,99 @@
+// lockstep-grbl: the command line, and the loop between a sender and the machine.
+#include <csignal>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/grbl/channel.hpp"
+#include "clients/grbl/machine_link.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/output.hpp"
+#include "services/runtime/stop_signal.hpp"
+
+namespace {
+
+using namespace lockstep;
+using namespace std::chrono_literals;
+
+struct Options {
+    std::string machine_file;
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 2301;
+    std::string terminal;
+};
+
+/// One sender at a time: it is served until it leaves, or a signal comes.
+void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Session& session, const StopSignal& stop) {
+    grbl::NoLines lines;
+    grbl::MachineLink link(session, lines);
+    grbl::Grbl protocol(session.config(), LOCKSTEP_VERSION);
+    link.pass(50ms, protocol);
+    protocol.greet();
+    while (!stop.requested()) {
+        const auto bytes = grbl::read_from(sender, 2ms);
+        if (!bytes) { break; }
+        protocol.receive(*bytes);
+        for (grbl::Request& request : protocol.take_requests()) { link.carry_out(std::move(request), protocol); }
+        link.pass(2ms, protocol);
+        if (!grbl::write_to(sender, protocol.take_output())) { break; }
+        if (const auto second = grbl::accept_from(listener)) {
+            (void)grbl::write_to(*second, "[MSG:another sender is connected]\r\n");
+        }
+    }
+    link.release();
+}
+
+int serve_all(const grbl::Descriptor& listener, const std::optional<grbl::Terminal>& terminal, Session& session) {
+    const StopSignal stop;
+    while (!stop.requested()) {
+        if (const auto sender = grbl::accept_from(listener)) { serve(*sender, listener, session, stop); }
+        if (terminal && terminal->is_used()) { serve(terminal->descriptor(), listener, session, stop); }
+        session.receive(20ms);
+    }
+    return kExitDone;
+}
+
+int run(const Options& options) {
+    Output output(false);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    const auto listener = grbl::listen_at(options.address, options.port);
+    if (!listener) { return output.fail(failed(listener.error())); }
+    std::optional<grbl::Terminal> terminal;
+    if (!options.terminal.empty()) {
+        auto opened = grbl::Terminal::open(options.terminal);
+        if (!opened) { return output.fail(failed(opened.error())); }
+        terminal.emplace(std::move(*opened));
+    }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return output.fail(session.error()); }
+    std::signal(SIGPIPE, SIG_IGN);
+    output.print("machine '" + machine->config.name + "' takes grbl's protocol at " + options.address + ", port " +
+                 std::to_string(options.port) + (terminal ? ", and at " + options.terminal : ""));
+    std::cout << std::flush;
+    return serve_all(*listener, terminal, *session);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Takes a machine's commands from a sender that speaks grbl 1.1's protocol, over TCP or a pseudo-terminal, one "
+        "sender at a time, until SIGTERM or SIGINT. When the sender leaves, its jog brakes."};
+    Options options;
+    app.add_option("--machine", options.machine_file,
+                   "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
+                   "host, else /etc/lockstep/machine.textproto");
+    app.add_option("--address", options.address,
+                   "where to listen. Whoever reaches it moves the machine: nothing asks for a password")
+        ->capture_default_str();
+    app.add_option("--port", options.port, "the TCP port")->capture_default_str();
+    app.add_option("--pty", options.terminal, "also make a pseudo-terminal, and this symbolic link to it");
+    app.footer(
+        "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2302 --pty /tmp/grbl\n"
+        "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kExitDone : kExitBadInput; }
+    return run(options);
+}

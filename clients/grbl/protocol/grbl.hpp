@@ -1,0 +1,83 @@
+// One connection of a sender that speaks grbl 1.1's protocol, as a state machine: bytes and the machine's state in,
+// bytes and requests out. It does no I/O and reads no clock.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/grbl/protocol/line_modes.hpp"
+#include "clients/grbl/protocol/received_bytes.hpp"
+#include "clients/grbl/protocol/request.hpp"
+#include "clients/grbl/protocol/settings.hpp"
+#include "clients/grbl/protocol/status_report.hpp"
+
+namespace lockstep::grbl {
+
+class Grbl {
+public:
+    /// `version`: of Lockstep, for $I.
+    Grbl(const MachineConfig& machine, std::string version);
+
+    /// The sender has connected: it is greeted.
+    void greet();
+    void receive(std::string_view bytes);
+    /// The machine as it is now.
+    void see(const MachineView& view);
+    /// A request has ended; one that was given up meanwhile is ignored.
+    void answer(std::uint64_t number, const Answer& answer);
+    /// The jog that was answered before is over.
+    void end_jog();
+
+    std::string take_output() { return std::exchange(output_, {}); }
+    std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
+
+private:
+    void do_real_time(unsigned char byte);
+    void soft_reset();
+    void hold();
+    void turn(const Overrides& overrides);
+
+    void advance();
+    void do_line(const ReceivedLine& line);
+    void do_system(std::string_view text);
+    void do_gcode(const std::string& text);
+    void do_jog(std::string_view text);
+    void do_home(std::string_view axis);
+    void unlock();
+    void toggle_check();
+    void restore(std::string_view what);
+    void do_startup_block(std::string_view text);
+    void write_setting(std::string_view text);
+    void print_settings();
+    void print_parameters();
+    void print_build();
+
+    void say(const std::string& line) { output_ += line + "\r\n"; }
+    void ok() { say("ok"); }
+    void refuse(Error error, const std::string& text = {});
+    Request& ask(Request::Kind kind);
+    State state() const;
+    bool is_quiet() const;
+
+    MachineConfig machine_;
+    std::string version_;
+    ReceivedBytes bytes_;
+    MachineView view_;
+    Modes modes_;
+    ReportOptions options_;
+    StatusReport report_;
+    LineModes lines_;
+    std::string output_;
+    std::vector<Request> requests_;
+    std::uint64_t number_ = 0;                // of the last request
+    std::optional<std::uint64_t> waits_for_;  // the answer to a line depends on it
+    std::string before_ok_;                   // what comes before the ok then
+    bool has_jog_ = false;
+    std::optional<ReceivedLine> next_jog_;  // waits for the end of the one before
+};
+
+}  // namespace lockstep::grbl

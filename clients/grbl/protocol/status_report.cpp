@@ -1,0 +1,102 @@
+#include "clients/grbl/protocol/status_report.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace lockstep::grbl {
+namespace {
+
+constexpr double kInch_mm = 25.4;
+constexpr int kEvery = 30;  // WCO comes in one of so many reports at rest
+constexpr int kEveryMoving = 10;
+constexpr int kBlocks = 15;  // grbl's planner has so many; this one has no such limit
+
+const char* name_of(State state) {
+    switch (state) {
+        case State::Idle: return "Idle";
+        case State::Run: return "Run";
+        case State::Hold: return "Hold:0";
+        case State::HoldEnding: return "Hold:1";
+        case State::Jog: return "Jog";
+        case State::Alarm: return "Alarm";
+        case State::Check: return "Check";
+        case State::Home: return "Home";
+        case State::Sleep: break;
+    }
+    return "Sleep";
+}
+
+State state_of(MachinePhase phase) {
+    switch (phase) {
+        case MachinePhase::Idle: return State::Idle;
+        case MachinePhase::Homing: return State::Home;
+        case MachinePhase::Running: return State::Run;
+        case MachinePhase::Stopping: return State::HoldEnding;
+        case MachinePhase::Holding:
+        case MachinePhase::Paused: return State::Hold;
+        case MachinePhase::Jogging: return State::Jog;
+        default: return State::Alarm;
+    }
+}
+
+std::string number(double value, int digits) {
+    char text[400];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+bool is_at_rest(State state) { return state == State::Idle || state == State::Alarm || state == State::Hold; }
+
+}  // namespace
+
+State state_of(const MachineView& view, const Modes& modes) {
+    if (!view.is_received) { return State::Alarm; }
+    const State state = state_of(view.phase);
+    if (state != State::Idle) { return state; }
+    if (!view.is_at_rest()) { return State::Run; }  // what the axes report is older than the machine's state
+    if (modes.is_asleep) { return State::Sleep; }
+    if (!view.is_homed() && !modes.is_unlocked) { return State::Alarm; }
+    return modes.is_checking ? State::Check : State::Idle;
+}
+
+std::string places_text(const std::vector<double>& mm, bool inches) {
+    std::string text;
+    for (const double place : mm) {
+        text += (text.empty() ? "" : ",") + (inches ? number(place / kInch_mm, 4) : number(place, 3));
+    }
+    return text;
+}
+
+std::string StatusReport::text(const MachineView& view, State state, const std::vector<double>& offset_mm,
+                               std::size_t room, const ReportOptions& options) {
+    const bool has_machine_places = (options.mask & 1) != 0;
+    std::vector<double> places;
+    for (std::size_t i = 0; i < view.axes.size(); ++i) {
+        places.push_back(view.axes[i].mm - (has_machine_places ? 0 : offset_mm[i]));
+    }
+    std::string text = std::string("<") + name_of(state) + (has_machine_places ? "|MPos:" : "|WPos:") +
+                       places_text(places, options.inches);
+    if ((options.mask & 2) != 0) { text += "|Bf:" + std::to_string(kBlocks) + "," + std::to_string(room); }
+    if (view.line > 0 && state == State::Run) { text += "|Ln:" + std::to_string(view.line); }
+    text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + ",0";
+    if (offset_mm != offset_mm_) { offsets_due_ = 0; }
+    if (view.overrides.feed_percent != overrides_.feed_percent ||
+        view.overrides.rapid_percent != overrides_.rapid_percent) {
+        overrides_due_ = 0;
+    }
+    const int every = is_at_rest(state) ? kEvery : kEveryMoving;
+    if (offsets_due_-- <= 0) {
+        offsets_due_ = every - 1;
+        if (overrides_due_ == 0) { overrides_due_ = 1; }  // one of the two at a time, as grbl has it
+        offset_mm_ = offset_mm;
+        text += "|WCO:" + places_text(offset_mm, options.inches);
+    } else if (overrides_due_-- <= 0) {
+        overrides_due_ = every - 1;
+        overrides_ = view.overrides;
+        text += "|Ov:" + std::to_string(view.overrides.feed_percent) + "," +
+                std::to_string(view.overrides.rapid_percent) + ",100";
+    }
+    return text + ">";
+}
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,13 @@
+// Changes the machine's values that outlive programs.
+#pragma once
+
+#include <expected>
+
+#include "clients/session/session.hpp"
+
+namespace lockstep {
+
+/// `values` become `wanted`. Waits until the coordinator has them on its disk.
+std::expected<void, Failure> store_values(Session& session, RevisedValues& values, const gcode::KeptValues& wanted);
+
+}  // namespace lockstep

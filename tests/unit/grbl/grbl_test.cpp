@@ -1,0 +1,393 @@
+// A sender and a machine by hand: what grbl's protocol answers, and what it asks of the machine.
+#include "clients/grbl/protocol/grbl.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace lockstep::grbl {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+using Kind = Request::Kind;
+
+MachineConfig mill() {
+    MachineConfig machine{.name = "mill"};
+    for (const char* name : {"X", "Y", "Z"}) {
+        AxisConfig axis{.name = name,
+                        .steps_per_mm = 100,
+                        .start_velocity_mm_s = 5,
+                        .max_velocity_mm_s = 50,
+                        .max_accel_mm_s2 = 500,
+                        .max_decel_mm_s2 = 500,
+                        .position_min_mm = 0,
+                        .position_max_mm = 200};
+        axis.homing = {.search_velocity_mm_s = 5, .latch_velocity_mm_s = 1, .pulloff_mm = 2, .park_mm = 5};
+        machine.axes.push_back(axis);
+    }
+    return machine;
+}
+
+class Sender : public testing::Test {
+protected:
+    Sender() {
+        view.is_received = true;
+        view.phase = MachinePhase::Idle;
+        view.axes = {{10, true}, {20, true}, {30, true}};
+        grbl.see(view);
+        grbl.greet();
+        (void)grbl.take_output();
+    }
+    /// The lines that come back.
+    std::vector<std::string> send(std::string_view bytes) {
+        grbl.receive(bytes);
+        return lines();
+    }
+    std::vector<std::string> lines() {
+        std::vector<std::string> found;
+        const std::string output = grbl.take_output();
+        for (std::size_t at = 0; at < output.size();) {
+            const std::size_t end = output.find("\r\n", at);
+            EXPECT_NE(end, std::string::npos) << "every line has its end";
+            found.push_back(output.substr(at, end - at));
+            at = end + 2;
+        }
+        return found;
+    }
+    std::vector<Kind> asked() {
+        std::vector<Kind> kinds;
+        requests = grbl.take_requests();
+        for (const Request& request : requests) { kinds.push_back(request.kind); }
+        return kinds;
+    }
+    void change(MachinePhase phase, FaultCode fault = FaultCode::None) {
+        view.phase = phase;
+        view.fault = fault;
+        grbl.see(view);
+    }
+    std::string status() {
+        const auto found = send("?");
+        return found.empty() ? "" : found.back();
+    }
+
+    MachineView view;
+    Grbl grbl{mill(), "1.0"};
+    std::vector<Request> requests;
+};
+
+TEST_F(Sender, IsGreeted) {
+    grbl.greet();
+    EXPECT_THAT(lines(), ElementsAre("", "Grbl 1.1h ['$' for help]"));
+    view.axes[1].homed = false;
+    grbl.see(view);
+    grbl.greet();
+    EXPECT_THAT(lines(), ElementsAre("", "Grbl 1.1h ['$' for help]", "[MSG:'$H'|'$X' to unlock]"));
+}
+
+TEST_F(Sender, GetsOneAnswerForEachLine) {
+    EXPECT_THAT(send("\n"), ElementsAre("ok"));
+    EXPECT_THAT(send("\r\n(nothing)\r\n"), ElementsAre("ok", "ok"));
+    EXPECT_THAT(send("$\n"), ElementsAre(StartsWith("[HLP:"), "ok"));
+    EXPECT_THAT(send("$Q\n$12\n$\x01\n"), ElementsAre("error:3", "error:3", "error:3"));
+    EXPECT_THAT(send(" $ g \n"), ElementsAre("[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]", "ok"));
+    EXPECT_THAT(send("$I\n"), ElementsAre(StartsWith("[VER:1.1h."), StartsWith("[OPT:NH,15,4096"), "ok"));
+    EXPECT_THAT(send("$N\n$N0=\n$N0=G20\n"), ElementsAre("$N0=", "$N1=", "ok", "ok", StartsWith("[MSG:"), "error:3"));
+}
+
+TEST_F(Sender, HasRealTimeBytesTakenOutOfALine) {
+    EXPECT_THAT(send("G2?1\nG2\x85"
+                     "0\n"),
+                ElementsAre(StartsWith("<Idle|"), "ok", "ok"));
+    EXPECT_THAT(send("$G\n")[0], HasSubstr("G20"));
+}
+
+TEST_F(Sender, LearnsWhereTheMachineIs) {
+    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0|WCO:0.000,0.000,0.000>");
+    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0>");
+    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0|Ov:100,100,100>");
+    view.values.systems[0].origin = {1, 2, 3};
+    view.feed_mm_min = 599.7;
+    view.line = 7;
+    change(MachinePhase::Running);
+    EXPECT_EQ(status(), "<Run|MPos:10.000,20.000,30.000|Ln:7|FS:600,0|WCO:1.000,2.000,3.000>");
+    EXPECT_THAT(send("$10=2\n$13=1\n"), ElementsAre("ok", "ok"));
+    EXPECT_THAT(status(), StartsWith("<Run|WPos:0.3543,0.7087,1.0630|Bf:15,4096|Ln:7|FS:24,0"));
+    EXPECT_THAT(send("?????"), testing::SizeIs(1)) << "a flood is one question";
+}
+
+TEST_F(Sender, SeesEachStateByItsName) {
+    for (const auto& [phase, name] : {std::pair{MachinePhase::Homing, "<Home|"},
+                                      {MachinePhase::Running, "<Run|"},
+                                      {MachinePhase::Holding, "<Hold:0|"},
+                                      {MachinePhase::Paused, "<Hold:0|"},
+                                      {MachinePhase::Stopping, "<Hold:1|"},
+                                      {MachinePhase::Jogging, "<Jog|"},
+                                      {MachinePhase::Waiting, "<Alarm|"}}) {
+        change(phase);
+        EXPECT_THAT(status(), StartsWith(name));
+    }
+    view.is_received = false;
+    change(MachinePhase::Idle);
+    EXPECT_THAT(status(), StartsWith("<Alarm|"));
+}
+
+TEST_F(Sender, ReadsTheMachinesSettingsAndMayChangeOnlyItsOwn) {
+    const auto settings = send("$$\n");
+    EXPECT_THAT(settings, testing::IsSupersetOf({"$10=1", "$23=7", "$24=60.000", "$25=300.000", "$27=2.000",
+                                                 "$100=100.000", "$112=3000.000", "$121=500.000", "$130=200.000"}));
+    EXPECT_EQ(settings.back(), "ok");
+    EXPECT_THAT(send("$110=3000\n"), ElementsAre("ok")) << "as it is";
+    EXPECT_THAT(send("$110=9\n"),
+                ElementsAre(AllOf(HasSubstr("axis X: max_velocity_mm_s"), HasSubstr("restart")), "error:3"));
+    EXPECT_THAT(send("$32=1\n"), ElementsAre("[MSG:$32 is always 0 here]", "error:3"));
+    EXPECT_THAT(send("$99=1\n$10=x\n$10=\n$=1\n"),
+                ElementsAre("[MSG:there is no $99]", "error:3", "error:2", "error:2", "error:3"));
+}
+
+TEST_F(Sender, SetsModesAndOffsetsByLinesThatMoveNothing) {
+    EXPECT_THAT(send("G20 G91 G55 F10\n"), ElementsAre("ok"));
+    EXPECT_THAT(send("$G\n")[0], HasSubstr("G55 G17 G20 G91 G94 M5 M9 T0 F10 S0"));
+    EXPECT_THAT(send("G21 G10 L20 P1 X0 Y5\n"), ElementsAre()) << "until the machine has stored it";
+    ASSERT_THAT(asked(), ElementsAre(Kind::SetValues));
+    EXPECT_EQ(requests[0].values.systems[0].origin, (gcode::Point{10, 15, 0}));
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre("ok"));
+    EXPECT_THAT(send("G999\n"), ElementsAre(StartsWith("[MSG:"), "error:20"));
+    EXPECT_THAT(send("M2\n$G\n"), ElementsAre("[MSG:Pgm End]", "ok", HasSubstr("G54 G17 G21 G90"), "ok"));
+}
+
+TEST_F(Sender, HasLinesThatMoveRunOneAfterTheOther) {
+    EXPECT_THAT(send("G1 X12 F100\nG1 X13\n$G\n"), ElementsAre());
+    ASSERT_THAT(asked(), ElementsAre(Kind::RunLine));
+    EXPECT_EQ(requests[0].line, "G1 X12 F100");
+    grbl.answer(requests[0].number, {.why = FaultCode::OutsideTravel, .text = "too far"});
+    EXPECT_THAT(lines(),
+                ElementsAre("[MSG:too far]", "error:15", StartsWith("[MSG:"), "error:20", StartsWith("[GC:"), "ok"))
+        << "the second line has no feed";
+}
+
+TEST_F(Sender, ReadsTheOffsets) {
+    view.values.systems[1].origin = {1, 2, 3};
+    view.values.home = gcode::Point{7, 8, 9};
+    grbl.see(view);
+    const auto found = send("$#\n");
+    EXPECT_THAT(found, ElementsAre("[G54:0.000,0.000,0.000]", "[G55:1.000,2.000,3.000]", "[G56:0.000,0.000,0.000]",
+                                   "[G57:0.000,0.000,0.000]", "[G58:0.000,0.000,0.000]", "[G59:0.000,0.000,0.000]",
+                                   "[G28:7.000,8.000,9.000]", "[G30:5.000,5.000,5.000]", "[G92:0.000,0.000,0.000]",
+                                   "[TLO:0.000]", "[PRB:0.000,0.000,0.000:0]", "ok"));
+    EXPECT_THAT(send("$RST=#\n"), ElementsAre());
+    ASSERT_THAT(asked(), ElementsAre(Kind::SetValues));
+    EXPECT_EQ(requests[0].values, gcode::KeptValues{});
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre("[MSG:Restoring defaults]", "ok"));
+}
+
+TEST_F(Sender, HoldsResumesAndStops) {
+    EXPECT_THAT(send("!~\x18"), ElementsAre("", StartsWith("Grbl 1.1h")));
+    EXPECT_THAT(asked(), ElementsAre()) << "nothing moves";
+    change(MachinePhase::Running);
+    (void)send("!");
+    EXPECT_THAT(asked(), ElementsAre(Kind::Hold));
+    (void)send("\x84");
+    EXPECT_THAT(asked(), ElementsAre(Kind::Hold));
+    change(MachinePhase::Holding);
+    (void)send("~");
+    EXPECT_THAT(asked(), ElementsAre(Kind::Resume));
+    (void)send("\x18");
+    EXPECT_THAT(asked(), ElementsAre(Kind::Stop));
+}
+
+TEST_F(Sender, TurnsTheOverrides) {
+    (void)send("\x91\x91\x93\x96");
+    asked();
+    EXPECT_EQ(requests.back().overrides, (Overrides{121, 50}));
+    (void)send("\x92\x94\x97");
+    asked();
+    EXPECT_EQ(requests.back().overrides, (Overrides{110, 25}));
+    (void)send(std::string(50, '\x91'));
+    asked();
+    EXPECT_EQ(requests.back().overrides.feed_percent, 200);
+    (void)send("\x90\x95\x9e\xa0\xa1\xff");
+    asked();
+    EXPECT_EQ(requests.back().overrides, Overrides{});
+}
+
+TEST_F(Sender, JogsAndCancels) {
+    EXPECT_THAT(send("$J=G91 X3 Y4 F600\n"), ElementsAre());
+    ASSERT_THAT(asked(), ElementsAre(Kind::Jog));
+    ASSERT_EQ(requests[0].jogs.size(), 2u);
+    EXPECT_NEAR(requests[0].jogs[0].speed_mm_s, 6, 1e-9);
+    EXPECT_NEAR(requests[0].jogs[1].speed_mm_s, 8, 1e-9);
+    EXPECT_NEAR(requests[0].jogs[1].distance_mm, 4, 1e-9);
+    grbl.answer(requests[0].number, {.is_done = true});
+    change(MachinePhase::Jogging);
+    EXPECT_THAT(lines(), ElementsAre("ok"));
+    EXPECT_THAT(send("$J=X1 F100\n"), ElementsAre()) << "it waits for the first one";
+    EXPECT_THAT(send("\x85"), ElementsAre("ok"));
+    EXPECT_THAT(asked(), ElementsAre(Kind::CancelJog));
+    EXPECT_THAT(send("G0 X1\n"), ElementsAre("[MSG:a jog is in progress]", "error:9"));
+    grbl.end_jog();
+    change(MachinePhase::Idle);
+    EXPECT_THAT(send("\x85"), ElementsAre());
+    EXPECT_THAT(asked(), ElementsAre());
+}
+
+TEST_F(Sender, HasTheNextJogBeginWhenTheOneBeforeIsOver) {
+    (void)send("$J=G91 X1 F100\n$J=G91 X1 F100\n$G\n");
+    ASSERT_THAT(asked(), ElementsAre(Kind::Jog));
+    grbl.answer(requests[0].number, {.is_done = true});
+    change(MachinePhase::Jogging);
+    EXPECT_THAT(asked(), ElementsAre());
+    change(MachinePhase::Idle);
+    grbl.end_jog();
+    ASSERT_THAT(asked(), ElementsAre(Kind::Jog));
+    grbl.answer(requests[0].number, {.why = FaultCode::Busy, .text = "busy"});
+    EXPECT_THAT(lines(), ElementsAre("ok", "[MSG:busy]", "error:9", StartsWith("[GC:"), "ok"));
+}
+
+TEST_F(Sender, HasWrongJogsRefusedByGrblsNumbers) {
+    EXPECT_THAT(send("$J\n"), testing::Contains("error:16"));
+    EXPECT_THAT(send("$J=X1\n"), testing::Contains("error:22"));
+    EXPECT_THAT(send("$J=F100\n"), testing::Contains("error:26"));
+    EXPECT_THAT(send("$J=X201F100\n"), testing::Contains("error:15"));
+    EXPECT_THAT(send("$J=G91X-11F100\n"), testing::Contains("error:15"));
+    EXPECT_THAT(send("$J=G1X1F100\n"), testing::Contains("error:16"));
+    EXPECT_THAT(send("$J=A1F100\n"), testing::Contains("error:16"));
+    EXPECT_THAT(send("$J=M3X1F100\n"), testing::Contains("error:16"));
+    EXPECT_THAT(send("$J=X1X2F100\n"), testing::Contains("error:25"));
+    EXPECT_THAT(send("$J=XF100\n"), testing::Contains("error:2"));
+    EXPECT_THAT(send("$J=1F100\n"), testing::Contains("error:1"));
+    EXPECT_THAT(send("$J=X10F100\n"), ElementsAre("ok")) << "it stands there";
+    EXPECT_THAT(asked(), ElementsAre());
+    change(MachinePhase::Running);
+    EXPECT_THAT(send("$J=X1F100\n"), ElementsAre("error:8"));
+}
+
+TEST_F(Sender, JogsInWorkCoordinatesInchesAndAtMostAtFullSpeed) {
+    view.values.systems[0].origin = {100, 0, 0};
+    grbl.see(view);
+    (void)send("$J=G20 X1 F10000\n");
+    ASSERT_THAT(asked(), ElementsAre(Kind::Jog));
+    EXPECT_NEAR(requests[0].jogs[0].distance_mm, 115.4, 1e-9);
+    EXPECT_NEAR(requests[0].jogs[0].speed_mm_s, 50, 1e-9);
+    EXPECT_THAT(send("$G\n"), ElementsAre()) << "the jog is not answered yet";
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines()[1], HasSubstr("G21")) << "it changes no mode";
+}
+
+TEST_F(Sender, SeesAJogFromItsAnswerToItsEnd) {
+    (void)send("$J=G91 X1 F100\n");
+    ASSERT_THAT(asked(), ElementsAre(Kind::Jog));
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(status(), StartsWith("<Jog|")) << "though the machine's state does not show it yet";
+    view.axes[0].at_rest = false;
+    grbl.see(view);
+    grbl.end_jog();
+    (void)lines();
+    EXPECT_THAT(status(), StartsWith("<Run|")) << "where an axis stands is not known yet";
+}
+
+TEST_F(Sender, HomesAllAxesOrOne) {
+    EXPECT_THAT(send("$H\n$G\n"), ElementsAre());
+    ASSERT_THAT(asked(), ElementsAre(Kind::Home));
+    EXPECT_EQ(requests[0].axes, 0u);
+    change(MachinePhase::Homing);
+    EXPECT_THAT(status(), StartsWith("<Home|"));
+    change(MachinePhase::Idle);
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre("ok", StartsWith("[GC:"), "ok"));
+    (void)send("$HY\n");
+    ASSERT_THAT(asked(), ElementsAre(Kind::Home));
+    EXPECT_EQ(requests[0].axes, 2u);
+    grbl.answer(requests[0].number, {.why = FaultCode::HomeSwitchNotFound, .text = "no switch"});
+    EXPECT_THAT(lines(), ElementsAre("[MSG:no switch]", "error:9"));
+    EXPECT_THAT(send("$HQ\n"), testing::Contains("error:3"));
+}
+
+TEST_F(Sender, IsToldOfAFaultOnceAndUnlocksIt) {
+    change(MachinePhase::Fault, FaultCode::LimitHit);
+    EXPECT_THAT(lines(), ElementsAre("ALARM:1", HasSubstr("limit-hit")));
+    change(MachinePhase::Fault, FaultCode::LimitHit);
+    EXPECT_THAT(lines(), ElementsAre());
+    EXPECT_THAT(send("G0 X1\n"), ElementsAre("error:9"));
+    EXPECT_THAT(send("$X\n"), ElementsAre());
+    ASSERT_THAT(asked(), ElementsAre(Kind::Reset));
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre("[MSG:Caution: Unlocked]", "ok"));
+    view.axes[0].homed = false;
+    change(MachinePhase::Idle);
+    EXPECT_THAT(status(), StartsWith("<Idle|")) << "unlocked";
+}
+
+TEST_F(Sender, MayCheckAProgramWithoutMotion) {
+    EXPECT_THAT(send("$C\nG1 X5 F100\nG2 X1\n"),
+                ElementsAre("[MSG:Enabled]", "ok", "ok", StartsWith("[MSG:"), "error:20"));
+    EXPECT_THAT(status(), StartsWith("<Check|"));
+    EXPECT_THAT(send("$C\n"), ElementsAre("[MSG:Disabled]", "ok", "", StartsWith("Grbl")));
+    EXPECT_THAT(asked(), ElementsAre());
+}
+
+TEST_F(Sender, SleepsUntilAReset) {
+    EXPECT_THAT(send("$SLP\n"), ElementsAre("[MSG:Sleeping]", "ok"));
+    EXPECT_THAT(status(), StartsWith("<Sleep|"));
+    EXPECT_THAT(send("G0 X1\n"), ElementsAre("error:9"));
+    (void)send("\x18");
+    EXPECT_THAT(status(), StartsWith("<Idle|"));
+}
+
+TEST_F(Sender, LosesItsLinesWithASoftReset) {
+    (void)send("G1 X12 F100\n$G\n$G");
+    asked();
+    const std::uint64_t given_up = requests[0].number;
+    EXPECT_THAT(send("\x18"), ElementsAre("", StartsWith("Grbl")));
+    grbl.answer(given_up, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre()) << "its answer is of no interest any more";
+    EXPECT_THAT(send("\n"), ElementsAre("ok"));
+}
+
+TEST_F(Sender, OfAMegabyteInALineIsRefusedOnce) {
+    EXPECT_THAT(send(std::string(1'000'000, 'G')), ElementsAre());
+    EXPECT_THAT(send("\n$G\n"), ElementsAre("error:11", StartsWith("[GC:"), "ok"));
+}
+
+TEST_F(Sender, OfMoreLinesThanFitGetsNoMoreAnswersThanLines) {
+    EXPECT_THAT(send("G1 X12 F100\n"), ElementsAre());
+    for (int i = 0; i < 10'000; ++i) { grbl.receive("G0\n"); }
+    asked();
+    grbl.answer(requests[0].number, {.is_done = true});
+    const auto found = lines();
+    EXPECT_LE(found.size(), 4097u);
+    EXPECT_THAT(send("$G\n"), ElementsAre(StartsWith("[GC:"), "ok")) << "there is room again";
+}
+
+/// Whatever bytes come, in whatever state: every line ends, memory is bounded, and a plain line is answered afterwards.
+TEST_F(Sender, OfGarbageDoesNoHarm) {
+    std::mt19937 random(1);
+    constexpr std::string_view kUsual = "$#GIXCHJ=NRSTLP0123456789.-+XYZFGM?!~\x18\x85\n\r ()%;*";
+    for (int i = 0; i < 20'000; ++i) {
+        std::string bytes;
+        for (auto n = random() % 40; n > 0; --n) {
+            bytes += random() % 4 == 0 ? static_cast<char>(random()) : kUsual[random() % kUsual.size()];
+        }
+        (void)send(bytes);
+        (void)asked();
+        for (const Request& request : requests) {
+            if (random() % 2 == 0) { grbl.answer(request.number, {.is_done = random() % 2 == 0}); }
+        }
+        if (random() % 5 == 0) { grbl.end_jog(); }
+        if (random() % 9 == 0) { change(static_cast<MachinePhase>(random() % 10), FaultCode::DeviceLost); }
+    }
+    change(MachinePhase::Idle);
+    (void)send("\x18");
+    grbl.end_jog();
+    (void)lines();
+    EXPECT_THAT(send("$I\n"), ElementsAre(StartsWith("[VER:"), StartsWith("[OPT:"), "ok"));
+}
+
+}  // namespace
+}  // namespace lockstep::grbl
