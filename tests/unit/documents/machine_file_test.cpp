@@ -55,6 +55,17 @@ TEST(MachineFile, AnAxisHasASafeHeightOnlyIfItIsGiven) {
     EXPECT_FALSE(parse(kShortest).axes.at(0).safe_height_mm);
 }
 
+TEST(MachineFile, JogsHoldForTwentyMillisecondsAndNotUnhomedUnlessItSaysSo) {
+    const MachineConfig usual = parse(kShortest);
+    EXPECT_EQ(usual.timing.jog_hold_us, 20'000);
+    EXPECT_FALSE(usual.axes.at(0).unhomed_jog_mm_s);
+    const MachineConfig slow = parse(axis_with("unhomed_jog_mm_s: 2.5"));
+    EXPECT_EQ(parse(machine_text(slow)).axes.at(0).unhomed_jog_mm_s, 2.5);
+    const MachineConfig patient = parse(machine_with("timing { jog_hold_ms: 60 }"));
+    EXPECT_EQ(parse(machine_text(patient)).timing.jog_hold_us, 60'000);
+    EXPECT_EQ(config_hash(parse(machine_with("timing { jog_hold_ms: 20 }"))), config_hash(usual));
+}
+
 TEST(MachineFile, WordsForMissingDevicesAreRefusedExceptCoolant) {
     EXPECT_EQ(parse(kShortest).unassigned, UnassignedWords{});
     const MachineConfig machine = parse(machine_with("unassigned { spindle: IGNORE coolant: REFUSE }"));
