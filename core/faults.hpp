@@ -115,7 +115,13 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(NotReady, 141, "not-ready", "not every axis follows the coordinator and rests yet", \
       "", in_order(Remedy::Wait, Remedy::Again)) \
     X(CoordinatorSilent, 142, "coordinator-silent", "the coordinator fell silent while the axis moved by itself; the axis halted", \
-      "see the coordinator's log and the network, and start it where it does not run", in_order(Remedy::Reset, Remedy::Home))
+      "see the coordinator's log and the network, and start it where it does not run", in_order(Remedy::Reset, Remedy::Home)) \
+    X(SenderSilent, 143, "sender-silent", "the sender of the program fell silent before the program's end", \
+      "go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
+    X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
+      "make room on the coordinator's disk; go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
+    X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
+      "see the sender's message; go on from its line: lockstep run FILE --from-line LINE", {})
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

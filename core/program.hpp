@@ -29,16 +29,28 @@ struct Dwell {
 /// Rest until a person says to go on (M0).
 struct Pause {};
 
+/// Come to rest, and go on by itself: a sender that has no more for now ends what it has sent with it.
+struct Settle {};
+
 struct Block {
     std::int32_t line = 0;  // in the G-code file, from 1; 0 where there is none
-    std::variant<LinearMove, Dwell, Pause> action;
+    std::variant<LinearMove, Dwell, Pause, Settle> action;
 };
 
-struct Program {
+struct ProgramHead {
     std::string name;
     std::vector<std::string> axes;
     std::vector<double> start_mm;  // where the machine stood when the program was made; refused from elsewhere
+};
+
+/// A program that is known as a whole.
+struct Program {
+    std::string name;
+    std::vector<std::string> axes;
+    std::vector<double> start_mm;
     std::vector<Block> blocks;
+
+    ProgramHead head() const { return {name, axes, start_mm}; }
 };
 
 /// What is left of a program from the first block of `line` or behind it, for axes that stand at `at_mm`: they first

@@ -1,5 +1,7 @@
 #include "clients/merge/job_program.hpp"
 
+#include <algorithm>
+
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 
@@ -11,7 +13,7 @@ bool JobProgram::takes(const HeldMessage& message) {
     const bool is_its =
         part && part->job == 0 && part->coordinator == program_->coordinator && part->program == program_->program;
     if (!is_its || !sequences_.insert(part->sequence).second) { return false; }
-    parts_ = part->parts;
+    parts_ = std::max<std::int64_t>(parts_, part->parts);
     came_.insert(part->part);
     return true;
 }

@@ -22,7 +22,12 @@ void fill(proto::StatusReport& report, const MachineState& state, const MachineC
     if (state.job > 0) { report.set_job(state.job); }
     report.set_feed_override_percent(state.overrides.feed_percent);
     report.set_rapid_override_percent(state.overrides.rapid_percent);
+    if (state.job_fault != 0) {
+        *report.mutable_ended_early() = fault_report(static_cast<FaultCode>(state.job_fault), "");
+        report.set_line(state.line);
+    }
     if (!is_in_motion(state.phase)) { return; }
+    report.set_waits_for_program(state.lacks_blocks);
     if (state.line > 0) { report.set_line(state.line); }
     report.set_progress(state.progress);
     report.set_remaining_s(state.remaining_s);

@@ -4,7 +4,6 @@
 #include <random>
 #include <ranges>
 
-#include "clients/session/chunked_program.hpp"
 #include "core/protocol/rules.hpp"
 #include "services/documents/placement.hpp"
 #include "services/documents/program_document.hpp"
@@ -26,7 +25,7 @@ constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordina
 constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
 constexpr nanoseconds kDiskPatience = 15s;      // a disk may hang for seconds
 
-static_assert(kChunkBytes == lockstep_wire_MAX_CHUNK_BYTES);
+static_assert(kPartBytes + 4096 <= lockstep_wire_MAX_CHUNK_BYTES);  // the last block, or the values
 
 template <typename Bus>
 std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const MachineConfig& machine,
@@ -115,6 +114,7 @@ void Session::await_healths(nanoseconds patience) {
 }
 
 void Session::receive(nanoseconds at_most) {
+    feed_and_send();
     (void)viewer_bus().arrivals->wait_for(at_most);
     take_messages();
 }
@@ -142,7 +142,10 @@ void Session::take_messages() {
     });
     if (!std::holds_alternative<ClientBus>(bus_)) { return; }
     client_bus().replies.take([&](Reply&& reply) {
-        if (reply.client == client_) { replies_[reply.sequence] = std::move(reply); }
+        if (reply.client != client_) { return; }
+        const bool is_of_program = sender_ && sender_->take_answer(reply);
+        if (is_of_program) { answered_ = now; }
+        if (!is_of_program) { replies_[reply.sequence] = std::move(reply); }
     });
 }
 
@@ -249,22 +252,48 @@ std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
 
 std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop,
                                                     const std::optional<gcode::ProgramValues>& values) {
-    const std::uint64_t id = new_identity() | 1;  // never 0, which means none
-    ChunkedProgram chunks(client_, sequence_ + 1, id, program_bytes(program, values));
-    sequence_ += chunks.count();
-    nanoseconds deadline = monotonic_now() + kPlanPatience;
-    while (!chunks.done()) {
-        if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
-        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
-        for (const ProgramChunk& chunk : chunks.due(monotonic_now())) { (void)client_bus().chunks.write(chunk); }
-        receive(50ms);
-        for (const auto& [sequence, reply] : std::exchange(replies_, {})) {
-            if (reply.status == ReplyStatus::Refused) { return std::unexpected(failed(reply.text)); }
-            chunks.take_answer(sequence);
-            deadline = monotonic_now() + kPlanPatience;
+    std::size_t next = 0;
+    const auto feed = [&](ProgramSender& sender) {
+        for (std::size_t n = sender.free_blocks(); n > 0 && next < program.blocks.size(); --n) {
+            sender.append(program.blocks[next++]);
         }
-    }
+        if (next == program.blocks.size()) { sender.end(); }
+    };
+    auto id = stream(program.head(), values, feed, stop);
+    if (!id) { return id; }
+    const auto taken = await_parts([this] { return sender_->is_done(); }, stop);
+    feed_ = {};
+    if (!taken) { return std::unexpected(taken.error()); }
     return id;
+}
+
+std::expected<std::uint64_t, Failure> Session::stream(const ProgramHead& head,
+                                                      const std::optional<gcode::ProgramValues>& values, Feed feed,
+                                                      const StopSignal* stop) {
+    const std::uint64_t id = new_identity() | 1;  // never 0, which means none
+    sender_.emplace(client_, ++programs_, id, head, values);
+    feed_ = std::move(feed);
+    const auto begun = await_parts([this] { return sender_->parts_taken() > 0; }, stop);
+    if (!begun) { return std::unexpected(begun.error()); }
+    return id;
+}
+
+/// Until `done` holds.
+std::expected<void, Failure> Session::await_parts(const std::function<bool()>& done, const StopSignal* stop) {
+    answered_ = monotonic_now();
+    while (!done()) {
+        if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
+        if (monotonic_now() - *answered_ > kPlanPatience) { return std::unexpected(silent()); }
+        receive(50ms);
+        if (const auto& refusal = sender_->refusal()) { return std::unexpected(failed(refusal->text)); }
+    }
+    return {};
+}
+
+void Session::feed_and_send() {
+    if (!sender_) { return; }
+    if (feed_ && !sender_->is_ended() && sender_->free_blocks() > 0) { feed_(*sender_); }
+    for (const ProgramChunk& chunk : sender_->due(monotonic_now())) { (void)client_bus().chunks.write(chunk); }
 }
 
 std::expected<RevisedValues, Failure> Session::values() {

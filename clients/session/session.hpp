@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <expected>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "clients/session/chosen_machine.hpp"
+#include "clients/session/program_sender.hpp"
 #include "clients/text/failure.hpp"
 #include "core/gcode/kept_values.hpp"
 #include "core/program.hpp"
@@ -83,10 +85,19 @@ public:
     /// Sends an emergency stop to coordinator and axes: axes stop by themselves. Nothing: no coordinator replied in
     /// time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
-    /// Sends a program, with the machine's values that it depends on and leaves; returns its id for a command. Error:
-    /// refused, no reply, or a signal to `stop`.
+    /// Sends a whole program, with the machine's values that it depends on and leaves; returns its id for a command.
+    /// Error: refused, no reply, or a signal to `stop`.
     std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr,
                                                const std::optional<gcode::ProgramValues>& values = {});
+    /// Begins a program that is sent while it is made, and while it runs. Every receive() sends what is due, and first
+    /// calls `feed` where there is room for more blocks. Returns its id for a command, as soon as the coordinator has
+    /// its first blocks. Error: as send().
+    using Feed = std::function<void(ProgramSender& sender)>;
+    std::expected<std::uint64_t, Failure> stream(const ProgramHead& head,
+                                                 const std::optional<gcode::ProgramValues>& values, Feed feed,
+                                                 const StopSignal* stop = nullptr);
+    /// Of the program sent last; null: none was.
+    const ProgramSender* sender() const { return sender_ ? &*sender_ : nullptr; }
 
     /// The machine's offsets and tools. Waits until they are received.
     std::expected<RevisedValues, Failure> values();
@@ -105,6 +116,8 @@ private:
     /// Only of a session with Purpose::Command.
     ClientBus& client_bus() { return std::get<ClientBus>(bus_); }
     bool is_reached();
+    void feed_and_send();
+    std::expected<void, Failure> await_parts(const std::function<bool()>& done, const StopSignal* stop);
 
     void take_messages();
     std::chrono::nanoseconds longest_silence() const;
@@ -122,6 +135,10 @@ private:
     std::vector<std::optional<Received<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at
+    std::uint32_t programs_ = 0;              // sent so far
+    std::optional<ProgramSender> sender_;     // of the last one
+    Feed feed_;
+    std::optional<std::chrono::nanoseconds> answered_;  // when it last was
 };
 
 }  // namespace lockstep

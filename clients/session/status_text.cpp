@@ -20,6 +20,7 @@ int percent(const proto::StatusReport& status) { return static_cast<int>(std::fl
 std::string job_parts(const proto::StatusReport& status, const std::string& separator) {
     std::string text;
     if (status.has_line()) { text += separator + "line " + std::to_string(status.line()); }
+    if (status.waits_for_program()) { text += separator + "waits for more of the program"; }
     if (status.has_remaining_s()) { text += separator + duration_text(status.remaining_s()) + " left"; }
     return text;
 }
@@ -114,6 +115,10 @@ std::string status_text(const proto::StatusReport& status) {
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
     text += clock_line(status) + unproved_lines(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
+    if (status.has_ended_early()) {
+        text += "the last job ended near line " + std::to_string(status.line()) + "\n" +
+                fault_text(status.ended_early()) + "\n";
+    }
     for (const proto::AxisStatus& axis : status.axes()) {
         const bool is_printed = status.has_fault() && status.fault().number() == axis.fault().number() &&
                                 status.fault().axis() == axis.name();

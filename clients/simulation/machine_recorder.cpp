@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "services/documents/program_document.hpp"
+
 namespace lockstep {
 
 MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
@@ -30,10 +32,23 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
                       .published = recorder->published()});
 }
 
-void MachineRecorder::on_coordinator(std::size_t /*process*/, Tick now, const CoordinatorOutputs& out) {
+/// As its sender has made it, by the coordinator whose jobs are recorded.
+void MachineRecorder::on_part(std::size_t process, Tick now, const ProgramPart& part) {
+    if (!jobs_ || process != owning_) { return; }
+    ProgramPartWriter writer(part.head);
+    for (const Block& block : part.blocks) { writer.add(block); }
+    if (!part.cut.empty()) { writer.add_cut(part.cut); }
+    jobs_->record(now, ProgramChunk{.program = part.program,
+                                    .index = part.index,
+                                    .count = part.is_last ? part.index + 1 : 0,
+                                    .bytes = writer.take()});
+}
+
+void MachineRecorder::on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) {
     const bool owns = out.state && out.state->phase != MachinePhase::Standby;
     if (owns && out.state->term.coordinator != owner_) {
         owner_ = out.state->term.coordinator;
+        owning_ = process;
         jobs_ = std::make_unique<JobRecorder>(machine_, owner_, sink_);
     }
     now_ = now;

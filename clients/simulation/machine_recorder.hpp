@@ -17,6 +17,7 @@ public:
 
     void on_step(std::size_t axis, StepEdge step) override;
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_part(std::size_t process, Tick now, const ProgramPart& part) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
@@ -33,6 +34,7 @@ private:
     std::vector<std::unique_ptr<AxisRecorder>> axes_;  // created when the axis's process publishes its identity
     std::vector<std::vector<StepEdge>> found_;         // by a process before it has published it
     Identity owner_ = 0;                               // whose jobs are recorded
+    std::size_t owning_ = 0;                           // its process
     std::unique_ptr<JobRecorder> jobs_;                // likewise
     Tick now_;
     std::int64_t steps_ = 0;

@@ -7,7 +7,7 @@
 namespace lockstep {
 
 Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
-                         BeginSteps begin_steps, std::optional<OnTakeover> standby)
+                         BeginSteps begin_steps, std::optional<OnTakeover> standby, MakeRows make_rows)
     : machine_(machine),
       config_hash_(config_hash),
       stands_by_(standby.has_value()),
@@ -15,6 +15,7 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
       ownership_(identity, machine.timing),
       axes_(machine),
       orders_(machine.axes.size()),
+      programs_(machine, std::move(make_rows)),
       jobs_(machine, config_hash, begin_steps, standby) {}
 
 CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
@@ -39,6 +40,14 @@ void Coordinator::receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop
     for (const AxisState& state : inputs.axes) { receive(state, loop); }
     for (const MachineState& other : inputs.others) { ownership_.receive(other, loop.slot); }
     inbox_.receive(inputs.commands);
+    for (const ProgramPart& part : inputs.parts) { receive(part, loop); }
+}
+
+/// A standby keeps what it receives, and answers nothing.
+void Coordinator::receive(const ProgramPart& part, CoordinatorLoop& loop) {
+    const ProgramStore::Taken taken = programs_.take(part, loop.slot);
+    if (taken.is_new) { loop.out.taken.push_back({part.program, part.index}); }
+    if (ownership_.owns()) { loop.out.replies.push_back(taken.reply); }
 }
 
 /// Another process of an axis knows nothing of what this one has asked of the axis: no job goes on with it.
@@ -108,7 +117,9 @@ void Coordinator::own(CoordinatorLoop& loop) {
     for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
     for (const Command& command : inbox_.take()) { answer(command, loop); }
     jobs_.advance_jogs(loop);
+    const Slot missed = gate_.missed(loop.slot);
     if (!gate_.enter(loop.slot)) { return; }
+    programs_.tend(loop.slot, missed);
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
     jobs_.note_progress(loop);

@@ -17,10 +17,10 @@ public:
     /// the machine; where another owns it, it stands by if it is told what to do on a takeover. `begin_steps`: the
     /// methods of the axes' own moves.
     Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, BeginSteps begin_steps,
-                std::optional<OnTakeover> standby = std::nullopt);
+                std::optional<OnTakeover> standby = std::nullopt, MakeRows make_rows = memory_rows);
 
     /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
-    void accept_program(std::uint64_t id, Program program) { programs_.accept(id, std::move(program)); }
+    void accept_program(std::uint64_t id, const Program& program) { programs_.accept(id, program); }
     /// A command that names it is refused from now on; its job goes on.
     void forget_program(std::uint64_t id) { programs_.forget(id); }
 
@@ -38,6 +38,7 @@ private:
     bool is_late(Tick now);
     void receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop);
     void receive(const AxisState& state, CoordinatorLoop& loop);
+    void receive(const ProgramPart& part, CoordinatorLoop& loop);
     void change_owner(CoordinatorLoop& loop);
     void take_over(CoordinatorLoop& loop);
     void stand_down(CoordinatorLoop& loop);

@@ -17,6 +17,8 @@ std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
         case Kind::StoodDown: return FlightKind::StoodDown;
         case Kind::JobCutShort: return FlightKind::JobCutShort;
         case Kind::JobContinued: return FlightKind::JobContinued;
+        case Kind::ProgramLate:
+        case Kind::ProgramCut: return std::nullopt;
     }
     return std::nullopt;
 }

@@ -4,7 +4,6 @@
 #include "core/gcode/modal_state.hpp"
 #include "core/gcode/program_builder.hpp"
 #include "core/gcode/text_lines.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
@@ -49,16 +48,6 @@ private:
     bool repeated_ = false;
 };
 
-/// An F so small is a mistake in the units.
-std::optional<GcodeError> slow_feed(const gcode::Interpreter& interpreter) {
-    const gcode::Block& block = interpreter.block();
-    if (!block.has('F') || block['F'] <= 0 || block['F'] >= kMinFeedPerMinute) { return std::nullopt; }
-    if (interpreter.state().modal.feed_mode != gcode::FeedMode::PerMinute) { return std::nullopt; }
-    return interpreter.line().error(block.place('F'), gcode::word_text(interpreter.line(), block.place('F')) +
-                                                          " is too slow; F is per minute, from " +
-                                                          number_text(kMinFeedPerMinute));
-}
-
 }  // namespace
 
 std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup) {
@@ -70,7 +59,7 @@ std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view
     });
     reading = &reader;
     reader.read(kNoEnd, [&](int) {
-        if (auto wrong = slow_feed(reader.interpreter())) { reader.report(*wrong); }
+        if (auto wrong = gcode::slow_feed(reader.interpreter())) { reader.report(*wrong); }
     });
     if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
     GcodeReading result = std::move(builder).reading();
@@ -95,12 +84,7 @@ std::expected<void, std::vector<GcodeError>> gcode_actions(std::string_view text
 ModalState modal_state_at(std::string_view text, const GcodeSetup& setup, int line) {
     GcodeReader reader(text, setup, [](const gcode::Action&, int) {});
     reader.read(line, [](int) {});
-    const gcode::State& now = reader.interpreter().state();
-    ModalState state{.inches = now.modal.inches, .relative = now.modal.relative, .feed_mm_min = {}, .offset_mm = {}};
-    if (now.modal.feed_linear > 0) { state.feed_mm_min = now.modal.feed_linear; }
-    const gcode::Point zero = gcode::to_machine(now.offsets, {});
-    for (const auto& place : gcode::axis_places(setup)) { state.offset_mm.push_back(place ? zero[*place] : 0); }
-    return state;
+    return gcode::modal_of(reader.interpreter().state(), setup);
 }
 
 }  // namespace lockstep

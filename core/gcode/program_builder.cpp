@@ -60,6 +60,23 @@ State start_state(const GcodeSetup& setup) {
 
 Point park_place(const GcodeSetup& setup) { return place_in(setup, &GcodeAxis::park_mm); }
 
+std::optional<GcodeError> slow_feed(const Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    if (!block.has('F') || block['F'] <= 0 || block['F'] >= kMinFeedPerMinute) { return std::nullopt; }
+    if (interpreter.state().modal.feed_mode != FeedMode::PerMinute) { return std::nullopt; }
+    return interpreter.line().error(block.place('F'), word_text(interpreter.line(), block.place('F')) +
+                                                          " is too slow; F is per minute, from " +
+                                                          number_text(kMinFeedPerMinute));
+}
+
+ModalState modal_of(const State& now, const GcodeSetup& setup) {
+    ModalState state{.inches = now.modal.inches, .relative = now.modal.relative, .feed_mm_min = {}, .offset_mm = {}};
+    if (now.modal.feed_linear > 0) { state.feed_mm_min = now.modal.feed_linear; }
+    const Point zero = to_machine(now.offsets, {});
+    for (const auto& place : axis_places(setup)) { state.offset_mm.push_back(place ? zero[*place] : 0); }
+    return state;
+}
+
 ProgramBuilder::ProgramBuilder(const GcodeSetup& setup) : setup_(setup), places_(axis_places(setup)) {
     program_.name = setup.program_name;
     for (const GcodeAxis& axis : setup.axes) {

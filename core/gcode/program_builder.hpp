@@ -10,6 +10,7 @@
 
 #include "core/gcode/gcode.hpp"
 #include "core/gcode/interpreter.hpp"
+#include "core/gcode/modal_state.hpp"
 
 namespace lockstep::gcode {
 
@@ -23,6 +24,11 @@ Point park_place(const GcodeSetup& setup);
 /// The axis of a G-code letter's place among kAxisLetters, for each axis of the setup; none for longer names.
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup);
 
+/// An F so small is a mistake in the units. Of the block that the interpreter has just done.
+std::optional<GcodeError> slow_feed(const Interpreter& interpreter);
+
+ModalState modal_of(const State& now, const GcodeSetup& setup);
+
 class ProgramBuilder {
 public:
     explicit ProgramBuilder(const GcodeSetup& setup);
@@ -31,6 +37,11 @@ public:
     void take(const Action& action, int line, const Interpreter& interpreter);
     /// What was wrong with the actions since the last call.
     std::vector<GcodeError> take_errors() { return std::exchange(errors_, {}); }
+
+    ProgramHead head() const { return program_.head(); }
+    /// Those made since the last call.
+    std::vector<lockstep::Block> take_blocks() { return std::exchange(program_.blocks, {}); }
+    std::vector<GcodeNote> take_notes() { return std::exchange(notes_, {}); }
 
     GcodeReading reading() && { return {std::move(program_), std::move(notes_), {}}; }
 

@@ -12,6 +12,7 @@
 #include "core/axis_set.hpp"
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
+#include "core/program.hpp"
 #include "core/protocol/process_counts.hpp"
 #include "core/protocol/record_counts.hpp"
 #include "core/static_vector.hpp"
@@ -186,8 +187,10 @@ struct MachineState {
     std::uint64_t job = 0;              // counts the jobs done or begun since start
     std::optional<JobOutcome> outcome;  // of that job; nothing while it is in progress
     Term job_begun;                     // in which term: another owner may have gone on with it
-    std::int32_t line = 0;              // of the G-code now in motion, or where a takeover has ended the job
-    double progress = 0;                // 0 ... 1 of the job's planned time
+    std::int32_t line = 0;              // of the G-code now in motion, or where a job ended before its end
+    std::uint16_t job_fault = 0;  // FaultCode: why the program of the last job ended before its end; 0: it did not
+    bool lacks_blocks = false;    // the machine waits for more of the program
+    double progress = 0;          // 0 ... 1 of the job's planned time
     double remaining_s = 0;
     Overrides overrides;       // of what is planned from now on
     AxisSet axes_present = 0;  // those that are heard
@@ -241,15 +244,31 @@ struct Command {
     bool operator==(const Command&) const = default;
 };
 
-/// A part of a program's Protobuf bytes. Each part is answered by a Reply; parts may come again or out of order.
+/// A part of a program: Protobuf bytes with whole blocks. The parts' bytes in order are the program's. Each part is
+/// answered by a Reply, also when it comes again.
 struct ProgramChunk {
     Identity client = 0;
     std::uint64_t sequence = 0;
     std::uint64_t program = 0;
     std::uint32_t index = 0;
-    std::uint32_t count = 0;
-    std::vector<std::uint8_t> bytes;
+    std::uint32_t count = 0;          // how many parts there are; 0: more follow
+    double share = 0;                 // of the program that has been sent with this part; 0: not known
+    std::vector<std::uint8_t> bytes;  // none, and more follow: it is no part, but asks how many were taken
     bool operator==(const ProgramChunk&) const = default;
+};
+
+/// A ProgramChunk that was read. Parts are numbered from 0 and are taken in order.
+struct ProgramPart {
+    Identity client = 0;
+    std::uint64_t sequence = 0;
+    std::uint64_t program = 0;
+    std::uint32_t index = 0;
+    bool is_question = false;  // no part: how many parts were taken, and how many blocks are free
+    bool is_last = false;
+    double share = 0;  // of the program that is known with this part, 0 to 1; 0: its sender cannot say
+    ProgramHead head;  // in part 0
+    std::vector<Block> blocks;
+    std::string cut;  // in the last part: why the program ends before its end; empty: this is its end
 };
 
 enum class ReplyStatus : std::uint8_t { Accepted, Refused };
@@ -261,6 +280,9 @@ struct Reply {
     std::uint16_t fault = 0;  // FaultCode of a refusal
     std::uint64_t job = 0;    // the job a command began; to a jog's renewal: 0 when it is over
     std::string text;         // what, where, the limit and the remedy, for a person
+    // To a ProgramChunk:
+    std::uint32_t parts = 0;        // of its program, taken so far: they are not sent again
+    std::uint64_t free_blocks = 0;  // how many blocks more the coordinator takes now
     bool operator==(const Reply&) const = default;
 };
 

@@ -1,8 +1,10 @@
 #include "services/coordinator/coordinator_service.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <charconv>
+#include <deque>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "core/methods/paper_steps.hpp"
 #include "core/protocol/names.hpp"
 #include "services/coordinator/coordinator_network.hpp"
+#include "services/coordinator/file_rows.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/coordinator/values_store.hpp"
 #include "services/documents/machine_file.hpp"
@@ -51,10 +54,11 @@ void report_unwritten_values(const std::string& why) {
 class CoordinatorService {
 public:
     CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorNetwork network,
-                       RevisedValues values, std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby)
+                       RevisedValues values, std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby,
+                       MakeRows make_rows)
         : machine_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
-          coordinator_(machine, identity, config_hash(machine), methods::begin_steps, standby),
+          coordinator_(machine, identity, config_hash(machine), methods::begin_steps, standby, std::move(make_rows)),
           network_(std::move(network)),
           sink_(std::move(sink)),
           flight_log_(open_flight(machine, "", identity)),
@@ -69,8 +73,9 @@ public:
         looped_ = now;
         forget_outdated_programs();
         if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
-        const CoordinatorInputs in{now, received.states, received.others, received.commands};
+        const CoordinatorInputs in{now, received.states, received.others, received.commands, parts_};
         CoordinatorOutputs out = coordinator_.step(in);
+        record_taken(now, out.taken);
         flight_.take(in, out);
         if (out.state) {
             out.state->published = recorder_.published();
@@ -96,12 +101,7 @@ public:
 private:
     const CoordinatorReceived& receive() {
         const CoordinatorReceived& received = network_.receive();
-        for (const ProgramChunk& chunk : received.chunks) {
-            ProgramInbox::Taken taken = inbox_.take(chunk);
-            if (taken.is_new) { recorder_.record(clock_.now(), chunk); }
-            if (taken.program) { coordinator_.accept_program(chunk.program, std::move(*taken.program)); }
-            if (coordinator_.owns_machine()) { network_.publish(taken.reply); }
-        }
+        read_chunks(received.chunks);
         for (const AxisState& state : received.states) {
             if (state.axis >= machine_.axes.size()) { continue; }
             received_axes_ |= axis_bit(state.axis);
@@ -112,6 +112,31 @@ private:
             if (!coordinator_.owns_machine()) { values_.follow(values); }
         }
         return received;
+    }
+
+    /// A few in each loop: the others wait, and their sender with them.
+    void read_chunks(const std::vector<ProgramChunk>& received) {
+        waiting_.insert(waiting_.end(), received.begin(), received.end());
+        if (waiting_.size() > kMostWaiting) { waiting_.resize(kMostWaiting); }
+        parts_.clear();
+        in_step_.clear();
+        for (; !waiting_.empty() && parts_.size() < kPartsAtOnce; waiting_.pop_front()) {
+            auto part = inbox_.read(waiting_.front());
+            if (!part && coordinator_.owns_machine()) { network_.publish(part.error()); }
+            if (!part) { continue; }
+            parts_.push_back(*std::move(part));
+            in_step_.push_back(std::move(waiting_.front()));
+        }
+    }
+
+    void record_taken(Tick now, const std::vector<TakenPart>& taken) {
+        for (const TakenPart& part : taken) {
+            const auto chunk = std::ranges::find_if(in_step_, [&](const ProgramChunk& received) {
+                return received.program == part.program && received.index == part.index &&
+                       !(received.bytes.empty() && received.count == 0);
+            });
+            if (chunk != in_step_.end()) { recorder_.record(now, *chunk); }
+        }
     }
 
     /// The program of a job that was taken over is needed until its end.
@@ -168,6 +193,15 @@ private:
                                    std::to_string(notice.number));
             case Kind::JobContinued:
                 return log_info("continues the previous coordinator's job near line " + std::to_string(notice.number));
+            case Kind::ProgramLate:
+                return log_warning("the axes rest on the path after frame " + std::to_string(notice.number) +
+                                   ": no more of the program has arrived; goes on when it does");
+            case Kind::ProgramCut:
+                return log_event(spdlog::level::warn, notice.fault,
+                                 "the job ended near line " + std::to_string(notice.number) +
+                                     ", with all that is known of its program; the axes rest; go on: lockstep run FILE "
+                                     "--from-line " +
+                                     std::to_string(notice.number));
             case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -211,6 +245,9 @@ private:
         }
     }
 
+    static constexpr std::size_t kPartsAtOnce = 4;   // some 3000 blocks, a millisecond
+    static constexpr std::size_t kMostWaiting = 64;  // as many as the topic keeps
+
     MachineConfig machine_;
     MachineClock clock_;
     Coordinator coordinator_;
@@ -222,10 +259,13 @@ private:
     UserSignal user_signal_;  // a person requests the notes of the last seconds
     JobRecorder recorder_;
     ValuesStore values_;
-    ProgramInbox inbox_{[this](std::uint64_t id, const ProgramDocument& program) {
-        return values_.accept(id, program, {coordinator_.owns_machine(), coordinator_.has_job()});
+    ProgramInbox inbox_{[this](const ProgramChunk& chunk, const ProgramDocument& part) {
+        return values_.accept(chunk, part, {coordinator_.owns_machine(), coordinator_.has_job()});
     }};
-    std::atomic<Tick> looped_;  // when the loop last ran
+    std::deque<ProgramChunk> waiting_;
+    std::vector<ProgramPart> parts_;     // for the next step
+    std::vector<ProgramChunk> in_step_;  // that they were read from
+    std::atomic<Tick> looped_;           // when the loop last ran
     Tick reported_ = clock_.now();
     AxisSet received_axes_ = 0;
     std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes received
@@ -237,6 +277,19 @@ private:
 int fail(const std::string& why) {
     log_error(why);
     return kServiceFailed;
+}
+
+/// Where programs are kept. By the LAI method they are planned as a whole, in memory.
+MakeRows rows_of(const MachineConfig& machine, std::int64_t limit_mb) {
+    constexpr std::uint64_t kBytesPerMB = 1'000'000;
+    if (machine.coordination == StepMethod::Lai) {
+        return [](std::size_t width) { return std::make_unique<MemoryRows>(width, kMaxProgramBlocks); };
+    }
+    const std::filesystem::path directory = values_file(machine.name).parent_path();
+    const std::uint64_t limit_bytes = static_cast<std::uint64_t>(limit_mb) * kBytesPerMB;
+    return [directory, limit_bytes](std::size_t width) {
+        return std::make_unique<FileRows>(width, directory, limit_bytes);
+    };
 }
 
 int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, RevisedValues values) {
@@ -252,7 +305,8 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, 
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
     CoordinatorService service(machine, identity, std::move(*network), std::move(values),
                                open_record(machine, "", options.record),
-                               options.standby ? std::optional(options.on_takeover) : std::nullopt);
+                               options.standby ? std::optional(options.on_takeover) : std::nullopt,
+                               rows_of(machine, options.program_limit_mb));
     log_info("coordinator of machine " + machine.name + " is up");
 
     ServiceManager manager;

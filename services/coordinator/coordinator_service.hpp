@@ -10,6 +10,7 @@ struct CoordinatorServiceOptions : ServiceOptions {
     bool second = false;   // where security is on: joins by the keys of "standby", not of "coordinator"
     bool standby = false;  // stands by while another coordinator owns the machine; false: ends then
     OnTakeover on_takeover = OnTakeover::Stop;
+    std::int64_t program_limit_mb = 1024;  // of each program's file
 };
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause

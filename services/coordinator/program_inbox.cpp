@@ -1,80 +1,70 @@
 #include "services/coordinator/program_inbox.hpp"
 
 #include <algorithm>
-#include <string>
+#include <utility>
 
 #include "core/faults.hpp"
 
 namespace lockstep {
 namespace {
 
-Reply refuse(Reply reply, std::string why) {
+Reply reply_to(const ProgramChunk& chunk, const std::expected<void, std::string>& accepted) {
+    Reply reply{.client = chunk.client, .sequence = chunk.sequence};
+    if (accepted) {
+        reply.parts = 1;  // an edit
+        return reply;
+    }
     reply.status = ReplyStatus::Refused;
     reply.fault = static_cast<std::uint16_t>(FaultCode::BadProgram);
-    reply.text = std::move(why);
+    reply.text = accepted.error();
     return reply;
+}
+
+std::unexpected<Reply> refuse(const ProgramChunk& chunk, std::string why) {
+    return std::unexpected(reply_to(chunk, std::unexpected(std::move(why))));
 }
 
 }  // namespace
 
-ProgramInbox::Taken ProgramInbox::take(const ProgramChunk& chunk) {
-    Reply reply{.client = chunk.client, .sequence = chunk.sequence};
-    if (chunk.count == 0 || chunk.count > kMaxChunks || chunk.index >= chunk.count) {
-        return {refuse(reply, "chunk " + std::to_string(chunk.index) + " of " + std::to_string(chunk.count) +
-                                  ": a program has 1 to " + std::to_string(kMaxChunks) + " chunks"),
-                {}};
-    }
-    Parcel& parcel = parcel_of(chunk);
-    if (chunk.count != parcel.chunks.size()) {
-        return {refuse(reply, "the program's chunks do not agree on how many there are"), {}};
-    }
-    if (parcel.missing == 0) {
-        parcel.outcome.sequence = chunk.sequence;
-        return {parcel.outcome, {}};
-    }
-    auto& place = parcel.chunks[chunk.index];
-    if (place) { return {reply, {}}; }
-    parcel.bytes += chunk.bytes.size();
-    if (parcel.bytes > kMaxProgramBytes) {
-        return {
-            refuse(reply, "the program is larger than " + std::to_string(kMaxProgramBytes) + " bytes; cut it in two"),
-            {}};
-    }
-    place = chunk.bytes;
-    Taken taken = --parcel.missing == 0 ? complete(chunk.program, parcel, reply) : Taken{reply, {}};
-    taken.is_new = true;
-    return taken;
+const ProgramInbox::Known* ProgramInbox::find(const ProgramChunk& chunk) const {
+    const auto found = std::ranges::find_if(
+        known_, [&](const Known& known) { return known.client == chunk.client && known.program == chunk.program; });
+    return found == known_.end() ? nullptr : &*found;
 }
 
-ProgramInbox::Parcel& ProgramInbox::parcel_of(const ProgramChunk& chunk) {
-    const auto [found, made] = parcels_.try_emplace({chunk.client, chunk.program});
-    if (!made) { return found->second; }
-    found->second.order = ++begun_;
-    found->second.missing = chunk.count;
-    found->second.chunks.resize(chunk.count);
-    if (parcels_.size() > kMaxParcels) {
-        parcels_.erase(std::min_element(parcels_.begin(), parcels_.end(),
-                                        [](const auto& a, const auto& b) { return a.second.order < b.second.order; }));
+std::expected<ProgramPart, Reply> ProgramInbox::read(const ProgramChunk& chunk) {
+    if (chunk.count != 0 && chunk.index >= chunk.count) {
+        return refuse(chunk, "chunk " + std::to_string(chunk.index) + " of " + std::to_string(chunk.count) +
+                                 ": chunks are numbered from 0");
     }
-    return parcels_.at({chunk.client, chunk.program});
-}
-
-ProgramInbox::Taken ProgramInbox::complete(std::uint64_t id, Parcel& parcel, Reply reply) const {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(parcel.bytes);
-    for (auto& chunk : parcel.chunks) {
-        bytes.insert(bytes.end(), chunk->begin(), chunk->end());
-        chunk.emplace();
+    const Known* known = find(chunk);
+    if (known != nullptr && (known->is_edit || !known->accepted)) {
+        return std::unexpected(reply_to(chunk, known->accepted));
     }
-    auto document = program_document_from_bytes(bytes);
+    ProgramPart part{.client = chunk.client,
+                     .sequence = chunk.sequence,
+                     .program = chunk.program,
+                     .index = chunk.index,
+                     .is_question = chunk.bytes.empty() && chunk.count == 0,
+                     .is_last = chunk.count != 0 && chunk.index + 1 == chunk.count,
+                     .share = chunk.share};
+    const bool is_unknown = known == nullptr && chunk.index > 0;  // its first chunk was not received
+    if (part.is_question || is_unknown) { return part; }
+    const auto axes = chunk.index == 0 ? std::nullopt : std::optional(known->axes);
+    auto document = program_document_from_bytes(chunk.bytes, axes);
+    if (!document) { return refuse(chunk, document.error()); }
     std::expected<void, std::string> accepted;
-    if (!document) { accepted = std::unexpected(document.error()); }
-    if (document && check_) { accepted = check_(id, *document); }
-    parcel.outcome = accepted ? reply : refuse(reply, accepted.error());
-    Taken taken{parcel.outcome, {}};
-    const bool is_edit = document && document->values && document->values->at_once;
-    if (accepted && !is_edit) { taken.program = std::move(document->program); }
-    return taken;
+    if (check_ && (known == nullptr || chunk.index > 0)) { accepted = check_(chunk, *document); }
+    const bool is_edit = document->values && document->values->at_once;
+    if (known == nullptr) {
+        known_.push_back({chunk.client, chunk.program, document->program.axes.size(), is_edit, accepted});
+        if (known_.size() > kProgramsKept) { known_.pop_front(); }
+    }
+    if (!accepted || is_edit) { return std::unexpected(reply_to(chunk, accepted)); }
+    part.head = document->program.head();
+    part.blocks = std::move(document->program.blocks);
+    part.cut = std::move(document->cut);
+    return part;
 }
 
 }  // namespace lockstep

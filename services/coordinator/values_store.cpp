@@ -4,10 +4,12 @@
 
 namespace lockstep {
 
-std::expected<void, std::string> ValuesStore::accept(std::uint64_t id, const ProgramDocument& document,
+std::expected<void, std::string> ValuesStore::accept(const ProgramChunk& chunk, const ProgramDocument& part,
                                                      ValueKeeper::Circumstances now) {
-    if (!document.values) { return {}; }
-    return keeper_.accept(id, *document.values, now);
+    if (!part.values) { return {}; }
+    if (chunk.index == 0) { return keeper_.accept(chunk.program, *part.values, now); }
+    if (part.values->after) { keeper_.note_left(chunk.program, *part.values->after); }
+    return {};
 }
 
 void ValuesStore::follow(const MachineValues& values) {

@@ -25,8 +25,8 @@ public:
         : keeper_(loaded.revision, std::move(loaded.values)), file_(file, on_failure) {}
 
     ValueKeeper& keeper() { return keeper_; }
-    /// A program that has arrived, as ValueKeeper::accept.
-    std::expected<void, std::string> accept(std::uint64_t id, const ProgramDocument& document,
+    /// A program's first part, as ValueKeeper::accept, or another one with the values that it leaves.
+    std::expected<void, std::string> accept(const ProgramChunk& chunk, const ProgramDocument& part,
                                             ValueKeeper::Circumstances now);
     /// The owner's values, in a coordinator that does not own the machine.
     void follow(const MachineValues& values);

@@ -71,6 +71,16 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     return setup;
 }
 
+GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig& machine,
+                         const std::vector<double>& start_mm, GcodeSwitches switches, const gcode::KeptValues& values) {
+    GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
+    setup.values = values;
+    std::vector<std::filesystem::path> directories{path.parent_path()};
+    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
+    setup.find_subroutine = [directories](std::string_view name) { return read_subroutine(directories, name); };
+    return setup;
+}
+
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
                                                           const MachineConfig& machine,
                                                           const std::vector<double>& start_mm, GcodeSwitches switches,
@@ -81,11 +91,7 @@ std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem:
     }
     auto text = read_text_file(path);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
-    GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
-    setup.values = values;
-    std::vector<std::filesystem::path> directories{path.parent_path()};
-    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
-    setup.find_subroutine = [directories](std::string_view name) { return read_subroutine(directories, name); };
+    GcodeSetup setup = program_setup(path, machine, start_mm, switches, values);
     auto reading = read_gcode(*text, setup);
     if (!reading) { return std::unexpected(to_diagnostics(reading.error())); }
     return ProgramFile{*std::move(text), std::move(setup), *std::move(reading)};

@@ -24,6 +24,12 @@ struct ProgramFile {
     GcodeReading reading;
 };
 
+/// What a program's file is read with: subroutines that it calls are read from files name.ngc of its directory, or of
+/// the machine's subroutine_directory.
+GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig& machine,
+                         const std::vector<double>& start_mm, GcodeSwitches switches = {},
+                         const gcode::KeptValues& values = {});
+
 /// As load_gcode_file, with the machine's values that outlive programs, the words that were passed over and the
 /// program's messages. Subroutines that the text calls but does not contain are read from files name.ngc of its
 /// directory, or of the machine's subroutine_directory.

@@ -31,14 +31,15 @@ Refusal check_axes(const proto::Program& message) {
     return {};
 }
 
-Refusal check_places(const Numbers& places, const proto::Program& message) {
-    if (places.size() != message.axes_size()) {
-        return "has " + std::to_string(places.size()) + " places for " + std::to_string(message.axes_size()) + " axes";
+Refusal check_places(const Numbers& places, const proto::Program& message, std::size_t axes) {
+    if (static_cast<std::size_t>(places.size()) != axes) {
+        return "has " + std::to_string(places.size()) + " places for " + std::to_string(axes) + " axes";
     }
     for (int i = 0; i < places.size(); ++i) {
         if (!(std::abs(places[i]) <= kMaxPlace_mm)) {
-            return "puts " + message.axes(i) + " at " + number_text(places[i]) + " mm; places go to " +
-                   number_text(kMaxPlace_mm) + " mm either way";
+            const std::string axis = i < message.axes_size() ? message.axes(i) : "axis " + std::to_string(i + 1);
+            return "puts " + axis + " at " + number_text(places[i]) + " mm; places go to " + number_text(kMaxPlace_mm) +
+                   " mm either way";
         }
     }
     return {};
@@ -48,17 +49,14 @@ Refusal check_head(const proto::Program& message) {
     if (message.name().size() > kMaxProgramName) {
         return "the length of the program's name is " + at_most(message.name().size(), kMaxProgramName);
     }
-    const auto blocks = static_cast<std::size_t>(message.blocks_size());
-    if (blocks > kMaxProgramBlocks) {
-        return "the program's number of blocks is " + at_most(blocks, kMaxProgramBlocks);
-    }
     if (Refusal refusal = check_axes(message)) { return refusal; }
-    if (Refusal refusal = check_places(message.start_mm(), message)) { return "the start " + *refusal; }
+    const auto axes = static_cast<std::size_t>(message.axes_size());
+    if (Refusal refusal = check_places(message.start_mm(), message, axes)) { return "the start " + *refusal; }
     return {};
 }
 
-Refusal check_move(const proto::LinearMove& move, const proto::Program& message) {
-    if (Refusal refusal = check_places(move.target_mm(), message)) { return "the target " + *refusal; }
+Refusal check_move(const proto::LinearMove& move, const proto::Program& message, std::size_t axes) {
+    if (Refusal refusal = check_places(move.target_mm(), message, axes)) { return "the target " + *refusal; }
     if (!move.rapid() && !(move.feed_mm_s() > 0 && move.feed_mm_s() <= kMaxFeed_mm_s)) {
         return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it is above 0, to " +
                number_text(kMaxFeed_mm_s);
@@ -66,9 +64,9 @@ Refusal check_move(const proto::LinearMove& move, const proto::Program& message)
     return {};
 }
 
-Refusal check_block(const proto::Block& block, const proto::Program& message) {
+Refusal check_block(const proto::Block& block, const proto::Program& message, std::size_t axes) {
     if (block.line() < 0) { return "the line is " + std::to_string(block.line()) + "; lines count from 1"; }
-    if (block.has_move()) { return check_move(block.move(), message); }
+    if (block.has_move()) { return check_move(block.move(), message, axes); }
     if (block.has_dwell() && !(block.dwell().seconds() >= 0 && block.dwell().seconds() <= kMaxDwell_s)) {
         return "the dwell is " + number_text(block.dwell().seconds()) + " s; it goes from 0 to " +
                number_text(kMaxDwell_s);
@@ -86,21 +84,29 @@ Block read_block(const proto::Block& message) {
                                   .rapid = move.rapid()};
     } else if (message.has_dwell()) {
         block.action = Dwell{message.dwell().seconds()};
+    } else if (message.has_settle()) {
+        block.action = Settle{};
     }
     return block;
 }
 
 }  // namespace
 
-std::expected<Program, std::string> program_from_proto(const proto::Program& message) {
-    if (Refusal refusal = check_head(message)) { return std::unexpected(*refusal); }
+std::expected<Program, std::string> program_from_proto(const proto::Program& message, std::optional<std::size_t> axes) {
+    if (const auto blocks = static_cast<std::size_t>(message.blocks_size()); blocks > kMaxProgramBlocks) {
+        return std::unexpected("the program's number of blocks is " + at_most(blocks, kMaxProgramBlocks));
+    }
+    if (axes && message.axes_size() > 0) { return std::unexpected("a later part of a program names axes"); }
+    Refusal refused = axes ? Refusal{} : check_head(message);
+    if (refused) { return std::unexpected(*refused); }
+    const std::size_t places = axes.value_or(static_cast<std::size_t>(message.axes_size()));
     Program program{.name = message.name(),
                     .axes = {message.axes().begin(), message.axes().end()},
                     .start_mm = {message.start_mm().begin(), message.start_mm().end()},
                     .blocks = {}};
     program.blocks.reserve(static_cast<std::size_t>(message.blocks_size()));
     for (const proto::Block& block : message.blocks()) {
-        if (Refusal refusal = check_block(block, message)) {
+        if (Refusal refusal = check_block(block, message, places)) {
             return std::unexpected("block " + std::to_string(program.blocks.size() + 1) + ": " + *refusal);
         }
         program.blocks.push_back(read_block(block));

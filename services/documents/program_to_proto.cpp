@@ -14,6 +14,7 @@ struct ActionWriter {
     }
     void operator()(const Dwell& dwell) const { block.mutable_dwell()->set_seconds(dwell.seconds); }
     void operator()(const Pause&) const { block.mutable_pause(); }
+    void operator()(const Settle&) const { block.mutable_settle(); }
 };
 
 }  // namespace
@@ -23,12 +24,13 @@ proto::Program program_to_proto(const Program& program) {
     message.set_name(program.name);
     for (const std::string& axis : program.axes) { message.add_axes(axis); }
     message.mutable_start_mm()->Assign(program.start_mm.begin(), program.start_mm.end());
-    for (const Block& block : program.blocks) {
-        proto::Block& written = *message.add_blocks();
-        if (block.line > 0) { written.set_line(block.line); }
-        std::visit(ActionWriter{written}, block.action);
-    }
+    for (const Block& block : program.blocks) { block_to_proto(block, *message.add_blocks()); }
     return message;
+}
+
+void block_to_proto(const Block& block, proto::Block& message) {
+    if (block.line > 0) { message.set_line(block.line); }
+    std::visit(ActionWriter{message}, block.action);
 }
 
 }  // namespace lockstep

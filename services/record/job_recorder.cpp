@@ -73,12 +73,13 @@ void JobRecorder::record(Tick now, const ProgramChunk& chunk) {
 /// Into the job's message if it is short; otherwise its parts were recorded already, or are recorded now.
 void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& record) {
     bool is_in_parts = std::ranges::find(in_parts_, event.program_id) != in_parts_.end();
-    if (!is_in_parts && event.program->blocks.size() > kBlocksInJob) {
-        record_parts(now, event);
+    const auto program = is_in_parts ? std::nullopt : event.program->whole();
+    if (program && program->blocks.size() > kBlocksInJob) {
+        record_parts(now, event.program_id, *program);
         is_in_parts = true;
     }
     if (!is_in_parts) {
-        record.program = program_text(*event.program);
+        if (program) { record.program = program_text(*program); }
         return;
     }
     program_part_t part{};
@@ -87,9 +88,9 @@ void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& rec
     publish(now, std::move(part));
 }
 
-void JobRecorder::record_parts(Tick now, const JobEvent& event) {
-    const std::vector<std::uint8_t> bytes = program_bytes(*event.program);
-    ProgramChunk chunk{.program = event.program_id,
+void JobRecorder::record_parts(Tick now, std::uint64_t id, const Program& program) {
+    const std::vector<std::uint8_t> bytes = program_bytes(program);
+    ProgramChunk chunk{.program = id,
                        .count = static_cast<std::uint32_t>((bytes.size() + kPartBytes - 1) / kPartBytes)};
     for (; chunk.index < chunk.count; ++chunk.index) {
         const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(chunk.index * kPartBytes);

@@ -22,8 +22,8 @@ public:
     /// The published counts of an axis.
     void note_axis(const AxisHealth& health);
     void record(Tick now, const JobEvent& event);
-    /// A part of a program, as received. A long program is recorded in these parts: as one message it would not fit
-    /// into the queue to the disk, and would delay the loop that writes it.
+    /// A part of a program, when it was taken. A program of more than one part is recorded in these parts: as one
+    /// message it would not fit into the queue to the disk, and would delay the loop that writes it.
     void record(Tick now, const ProgramChunk& chunk);
     RecordCounts published() const { return published_; }
     /// At the end.
@@ -35,7 +35,7 @@ private:
     static constexpr std::size_t kProgramsKept = 16;  // more than the coordinator keeps
 
     void record_program(Tick now, const JobEvent& event, JobRecord& record);
-    void record_parts(Tick now, const JobEvent& event);
+    void record_parts(Tick now, std::uint64_t id, const Program& program);
     void publish(Tick now, program_part_t&& part);
 
     MachineConfig machine_;

@@ -61,6 +61,7 @@ public:
     }
 
     Alteration operator()(Command&) { return Alteration::None; }
+    Alteration operator()(ProgramPart&) { return Alteration::None; }
     Alteration operator()(Reply&) { return Alteration::None; }
     Alteration operator()(ClockRequest&) { return Alteration::None; }
     Alteration operator()(ClockReply&) { return Alteration::None; }

@@ -15,7 +15,7 @@
 namespace lockstep {
 
 using VirtualMessage =
-    std::variant<Frame, AxisState, MachineState, AxisCommand, Command, Reply, ClockRequest, ClockReply>;
+    std::variant<Frame, AxisState, MachineState, AxisCommand, Command, ProgramPart, Reply, ClockRequest, ClockReply>;
 
 enum class Alteration : std::uint8_t {
     None,           // the message has nothing that could be altered so

@@ -21,6 +21,7 @@ public:
     std::vector<MachineState> machine;
     std::vector<AxisCommand> axis_commands;
     std::vector<Command> commands;
+    std::vector<ProgramPart> parts;
     std::vector<Reply> replies;
     std::vector<ClockRequest> clock_requests;
     std::vector<ClockReply> clock_replies;
@@ -30,6 +31,7 @@ public:
     void operator()(const MachineState& m) { machine.push_back(m); }
     void operator()(const AxisCommand& m) { axis_commands.push_back(m); }
     void operator()(const Command& m) { commands.push_back(m); }
+    void operator()(const ProgramPart& m) { parts.push_back(m); }
     void operator()(const Reply& m) { replies.push_back(m); }
     void operator()(const ClockRequest& m) { clock_requests.push_back(m); }
     void operator()(const ClockReply& m) { clock_replies.push_back(m); }
@@ -41,6 +43,7 @@ private:
         machine.clear();
         axis_commands.clear();
         commands.clear();
+        parts.clear();
         replies.clear();
         clock_requests.clear();
         clock_replies.clear();

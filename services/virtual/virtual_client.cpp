@@ -12,9 +12,15 @@ VirtualClient::VirtualClient(const MachineConfig& machine)
 
 const Command& VirtualClient::ask(Command command) {
     command.client = kIdentity;
-    command.sequence = command_.sequence + 1;
+    command.sequence = ++sequence_;
     command_ = command;
     return command_;
+}
+
+ProgramPart VirtualClient::address(ProgramPart part) {
+    part.client = kIdentity;
+    part.sequence = ++sequence_;
+    return part;
 }
 
 void VirtualClient::receive(Mail& mail, Tick now) {

@@ -15,6 +15,8 @@ public:
 
     /// The next command, with a sequence number of its own.
     const Command& ask(Command command);
+    /// From this client, with a sequence number of its own.
+    ProgramPart address(ProgramPart part);
     const Command& last_command() const { return command_; }
 
     void receive(Mail& mail, Tick now);
@@ -33,6 +35,7 @@ private:
     static constexpr Identity kIdentity = 1;
 
     Ticks silence_;  // after which an owner of a lower term counts
+    std::uint64_t sequence_ = 0;
     Command command_{.client = kIdentity};
     std::vector<Reply> replies_;
     std::optional<MachineState> machine_;

@@ -210,12 +210,20 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
 
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t process) {
     const Mail& mail = post_.collect(now_, process);
-    const CoordinatorInputs in{clocks_.machine(now_), mail.axes, mail.machine, mail.commands};
+    const CoordinatorInputs in{clocks_.machine(now_), mail.axes, mail.machine, mail.commands, mail.parts};
     CoordinatorProcess& it = coordinator(process);
     CoordinatorOutputs out = it.coordinator->step(in);
     if (it.flight) { it.flight->take(in, out); }
+    for (const TakenPart& taken : out.taken) { note_part(process, taken, mail.parts); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(process, now_, out); }
     return out;
+}
+
+void VirtualMachine::note_part(std::size_t process, const TakenPart& taken, const std::vector<ProgramPart>& parts) {
+    const auto part = std::ranges::find_if(parts, [&](const ProgramPart& received) {
+        return received.program == taken.program && received.index == taken.index && !received.is_question;
+    });
+    for (VirtualObserver* observer : observers_) { observer->on_part(process, now_, *part); }
 }
 
 void VirtualMachine::carry_out(std::size_t process, const CoordinatorOutputs& out) {
@@ -253,6 +261,12 @@ std::optional<std::size_t> VirtualMachine::owner() const {
         process = axes_.size() + i;
     }
     return owner == nullptr ? std::nullopt : std::optional(process);
+}
+
+std::uint64_t VirtualMachine::send(ProgramPart part) {
+    part = client_.address(std::move(part));
+    post_.multicast(now_, post_.client(), part);
+    return part.sequence;
 }
 
 void VirtualMachine::give_program(std::uint64_t id, const Program& program) {

@@ -29,6 +29,8 @@ public:
     virtual void on_step(std::size_t /*axis*/, StepEdge /*step*/) {}
     /// After an axis's loop; `node` is as it is then.
     virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
+    /// A coordinator has taken a part of a program.
+    virtual void on_part(std::size_t /*process*/, Tick /*now*/, const ProgramPart& /*part*/) {}
     /// After a coordinator's loop.
     virtual void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& /*out*/) {}
     /// When a fault begins, and when it has ended.
@@ -79,6 +81,8 @@ public:
     void send(const Command& command) { post_.multicast(now_, post_.client(), command); }
     /// The last command once more, with its sequence number: for a client whose reply does not come.
     void repeat_command();
+    /// A part of a program, over the network. Returns its sequence number.
+    std::uint64_t send(ProgramPart part);
     /// A program that has arrived whole at every coordinator.
     void give_program(std::uint64_t id, const Program& program);
     const std::vector<Reply>& replies() const { return client_.replies(); }
@@ -146,6 +150,7 @@ private:
     CoordinatorOutputs decide_coordinator(std::size_t process);
     void carry_out(std::size_t axis, const AxisOutputs& out);
     void carry_out(std::size_t process, const CoordinatorOutputs& out);
+    void note_part(std::size_t process, const TakenPart& taken, const std::vector<ProgramPart>& parts);
     void carry_out(std::size_t /*process*/, std::monostate /*nothing*/) {}
     std::uint64_t ask(const Command& command);
 

@@ -30,21 +30,34 @@ void deliver_part(const LogEvent& event, LogListener& listener, ProgramParts& pr
     listener.on_program_part(*part, place);
 }
 
-void deliver_job(const LogEvent& event, LogListener& listener, const ProgramParts& programs) {
+/// The parts of a job's program that were received while it ran.
+void look_ahead(const std::filesystem::path& path, const job_t& job, ProgramParts& programs) {
+    auto reader = LogReader::open(path);
+    while (reader) {
+        const auto event = reader->next();
+        if (!event || !*event) { return; }
+        if (kind_of((*event)->channel) != RecordKind::ProgramPart) { continue; }
+        if (const auto part = decode_lcm<program_part_t>((*event)->data)) { programs.take_later(*part, job); }
+    }
+}
+
+void deliver_job(const LogEvent& event, LogListener& listener, ProgramParts& programs,
+                 const std::filesystem::path& path) {
     const LogPlace place{event.offset, event.bytes};
     auto job = decode_lcm<job_t>(event.data);
     if (!job) { return listener.on_damage(place, job.error() + " on " + std::string(event.channel)); }
+    if (programs.is_open(*job)) { look_ahead(path, *job, programs); }
     programs.complete(*job);
     listener.on_job(*job, place);
 }
 
-void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
+void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs, const std::filesystem::path& path) {
     switch (kind_of(event.channel)) {
         case RecordKind::Steps: return deliver<step_batch_t>(event, listener, &LogListener::on_steps);
         case RecordKind::Position: return deliver<axis_position_t>(event, listener, &LogListener::on_position);
         case RecordKind::Health: return deliver<axis_health_t>(event, listener, &LogListener::on_health);
         case RecordKind::Run: return deliver<run_t>(event, listener, &LogListener::on_run);
-        case RecordKind::Job: return deliver_job(event, listener, programs);
+        case RecordKind::Job: return deliver_job(event, listener, programs, path);
         case RecordKind::ProgramPart: return deliver_part(event, listener, programs);
         case RecordKind::Mark: return deliver<record_mark_t>(event, listener, &LogListener::on_mark);
         case RecordKind::Loss: return;  // of one log; sequence numbers show what the record lacks
@@ -53,14 +66,15 @@ void deliver(const LogEvent& event, LogListener& listener, ProgramParts& program
 }
 
 /// Events read. Progress is the share of the file that was read.
-std::expected<std::uint64_t, std::string> read_events(LogReader& reader, LogListener& listener, double file_bytes,
+std::expected<std::uint64_t, std::string> read_events(LogReader& reader, const std::filesystem::path& path,
+                                                      LogListener& listener, double file_bytes,
                                                       const std::function<void(double)>& progress) {
     ProgramParts programs;
     for (std::uint64_t events = 0;; ++events) {
         const auto event = reader.next();
         if (!event) { return std::unexpected(event.error()); }
         if (!*event) { return events; }
-        deliver(**event, listener, programs);
+        deliver(**event, listener, programs, path);
         if (progress && events % kEventsPerProgress == 0) {
             progress(static_cast<double>((*event)->offset) / file_bytes);
         }
@@ -75,7 +89,7 @@ std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& 
     if (!reader) { return std::unexpected(reader.error()); }
     std::error_code ignored;
     const auto bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
-    const auto events = read_events(*reader, listener, bytes, progress);
+    const auto events = read_events(*reader, path, listener, bytes, progress);
     if (!events) { return events; }
     report_damages(*reader, [&](LogPlace place, std::string what) { listener.on_damage(place, std::move(what)); });
     if (bytes == 0) { return std::unexpected(path.string() + ": the file is empty"); }

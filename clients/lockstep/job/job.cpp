@@ -77,8 +77,27 @@ proto::RunReport new_report(const Job& job) {
     return report;
 }
 
+/// Until the coordinator has all of the program: then it needs this process no more.
+std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop) {
+    while (!session.sender()->is_done() && !session.sender()->refusal()) {
+        if (stop.requested()) { return std::unexpected(failed("interrupted; the machine runs what was sent of it")); }
+        if (session.is_silent()) { return std::unexpected(session.silent()); }
+        session.receive(100ms);
+    }
+    return {};
+}
+
 std::expected<Reply, Failure> begin(Session& session, const Job& job, const StopSignal& stop) {
     std::uint64_t program = 0;
+    if (job.stream != nullptr) {
+        const auto feed = [&stream = *job.stream](ProgramSender& sender) { stream.feed(sender, monotonic_now()); };
+        const auto begun = session.stream(job.stream->head(), job.stream->values(), feed, &stop);
+        if (!begun) { return std::unexpected(begun.error()); }
+        program = *begun;
+        const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
+        const auto sent = is_planned_whole ? send_rest(session, stop) : std::expected<void, Failure>{};
+        if (!sent) { return std::unexpected(sent.error()); }
+    }
     if (job.program) {
         const auto sent = session.send(*job.program, &stop, job.values);
         if (!sent) { return std::unexpected(sent.error()); }
@@ -100,6 +119,20 @@ void await_values(Session& session, const Job& job, Output& output) {
     if (!kept) { output.warn(kept.error().errors.front().message); }
 }
 
+/// Why the machine did not run all of a program that was read while it ran.
+void report_stream(const Session& session, const Job& job, Output& output) {
+    for (const GcodeNote& note : job.stream->take_notes()) {
+        output.warn("line " + std::to_string(note.line) + ": " + note.text);
+    }
+    if (const auto& trouble = job.stream->trouble()) {
+        output.warn(job.name + ":" + std::to_string(trouble->line) + ":" + std::to_string(trouble->column) + ": " +
+                    trouble->message + "\nthe lines before it were run; correct it and go on: lockstep run FILE " +
+                    "--from-line " + std::to_string(trouble->line));
+    } else if (const auto& refusal = session.sender()->refusal()) {
+        output.warn(job.name + ": the coordinator takes no more of it: " + refusal->text);
+    }
+}
+
 ExitCode end(Session& session, const Job& job, JobResult result, proto::RunReport& report, Output& output) {
     report.set_outcome(outcome_name(result));
     if (result == JobResult::Failed) {
@@ -107,7 +140,12 @@ ExitCode end(Session& session, const Job& job, JobResult result, proto::RunRepor
             *report.mutable_fault() = *std::move(fault);
         }
     }
-    const std::int32_t line = session.state()->state.line;
+    const MachineState& state = session.state()->state;
+    if (result == JobResult::Stopped && state.job_fault != 0) {
+        *report.mutable_fault() = fault_report(static_cast<FaultCode>(state.job_fault), "");
+        report.set_line(state.line);
+    }
+    const std::int32_t line = state.line;
     if (result == JobResult::CutShort && line > 0) { report.set_line(line); }
     if (result != JobResult::InProgress) { add_final_positions(session, report); }
     if (result == JobResult::Done) { await_values(session, job, output); }
@@ -132,12 +170,16 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     if (!reply) { return output.fail(reply.error()); }
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }
     report.set_job(reply->job);
+    if (job.detach && job.stream != nullptr) {
+        if (const auto sent = send_rest(session, stop); !sent) { return output.fail(sent.error()); }
+    }
     if (job.detach) { return end(session, job, JobResult::InProgress, report, output); }
     output.print(title(job) + ": job " + std::to_string(reply->job) +
                  (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
     const auto result = JobWatch(session, reply->job, job.command, output, stop, hang_up).wait();
     if (!result) { return output.fail(result.error()); }
+    if (job.stream != nullptr) { report_stream(session, job, output); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
     if (report.lost_records() > 0) { output.warn(record_loss_text(status_report(session))); }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "clients/session/program_stream.hpp"
 #include "clients/session/session.hpp"
 #include "clients/text/output.hpp"
 #include "core/program.hpp"
@@ -17,6 +18,7 @@ struct Job {
     AxisSet axes = 0;                                 // home: which; none: all
     std::optional<Program> program = {};              // move, run, own move
     std::optional<gcode::ProgramValues> values = {};  // run: the machine's, that it depends on and leaves
+    ProgramStream* stream = nullptr;                  // run: a program that is read while it runs, instead of `program`
     Ticks ticks = {};                                 // own move: how long it lasts; 0: as fast as allowed
     std::optional<double> planned_s = {};
     bool detach = false;  // ends when the job has begun

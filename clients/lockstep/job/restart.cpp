@@ -22,6 +22,11 @@ std::expected<std::vector<ApproachMove>, std::string> find_approach(const Restar
 std::expected<Rest, std::string> rest_of(const Program& program, std::string_view text, const GcodeSetup& setup,
                                          const RestartOptions& options, const MachineConfig& machine,
                                          const std::vector<double>& stands_mm) {
+    return rest_of(program, modal_state_at(text, setup, options.from_line), options, machine, stands_mm);
+}
+
+std::expected<Rest, std::string> rest_of(const Program& program, ModalState modal, const RestartOptions& options,
+                                         const MachineConfig& machine, const std::vector<double>& stands_mm) {
     const std::vector<double> begins_mm = place_before(program, options.from_line);
     auto left = program_from(program, options.from_line, begins_mm);
     if (!left) { return std::unexpected(left.error()); }
@@ -31,7 +36,7 @@ std::expected<Rest, std::string> rest_of(const Program& program, std::string_vie
     std::vector<Block> blocks;
     for (const ApproachMove& step : *moves) { blocks.push_back({left->blocks.front().line, step.move}); }
     left->blocks.insert(left->blocks.begin(), blocks.begin(), blocks.end());
-    return Rest{*std::move(left), *std::move(moves), modal_state_at(text, setup, options.from_line)};
+    return Rest{*std::move(left), *std::move(moves), std::move(modal)};
 }
 
 }  // namespace lockstep

@@ -24,6 +24,9 @@ struct Rest {
     ModalState modal;
 };
 
+/// `modal`: before that line.
+std::expected<Rest, std::string> rest_of(const Program& program, ModalState modal, const RestartOptions& options,
+                                         const MachineConfig& machine, const std::vector<double>& stands_mm);
 /// `program` is `text` read with `setup`. Error: nothing is left, or the approach is unknown.
 std::expected<Rest, std::string> rest_of(const Program& program, std::string_view text, const GcodeSetup& setup,
                                          const RestartOptions& options, const MachineConfig& machine,

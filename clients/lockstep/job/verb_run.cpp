@@ -1,7 +1,9 @@
 // lockstep run
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -95,7 +97,75 @@ std::expected<void, Failure> confirm(const RunOptions& options, const Output& ou
     return std::unexpected(failed("nothing was begun; to begin, answer y, or add --yes"));
 }
 
+/// A short file is read and checked as a whole before anything moves.
+bool is_streamed(const RunOptions& options) {
+    constexpr std::uintmax_t kShortFile_bytes = 2'000'000;  // some 100,000 lines
+    if (options.file == "-") { return true; }
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(options.file, ignored);
+    return bytes != static_cast<std::uintmax_t>(-1) && bytes > kShortFile_bytes && !options.dry_run &&
+           (!options.dry_run || options.is_restart());
+}
+
+/// Reads what must be known before anything moves: the first lines, or those up to the one to begin with.
+std::expected<void, Failure> read_first(const RunOptions& options, const MachineConfig& machine,
+                                        const std::vector<double>& stands_mm, ProgramStream& stream, Output& output) {
+    if (!options.is_restart()) {
+        const auto read = stream.read_first();
+        return read ? std::expected<void, Failure>{} : std::unexpected(bad_file(options.file, read.error()));
+    }
+    const auto beginning = stream.skip_before(options.restart.from_line);
+    if (!beginning) { return std::unexpected(bad_file(options.file, beginning.error())); }
+    const auto rest = rest_of(*beginning, stream.modal(), options.restart, machine, stands_mm);
+    if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
+    output.print("from line " + std::to_string(options.restart.from_line) + ":\n" +
+                 approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
+    stream.replace_first(rest->program);
+    return {};
+}
+
+ExitCode run_stream(const RunOptions& options) {
+    Output output(options.json);
+    if (options.file == "-" && options.dry_run) {
+        return output.fail(bad_input("standard input is read once, so --dry-run needs a file"));
+    }
+    auto lines = LineReader::open(options.file);
+    if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return output.fail(session.error()); }
+    const auto start_mm = start_places(*session);
+    if (!start_mm) { return output.fail(start_mm.error()); }
+    const auto values = session->values();
+    if (!values) { return output.fail(values.error()); }
+    const auto started_mm = options.is_restart() ? places_at_start(machine->config, options.started_at) : *start_mm;
+    if (!started_mm) { return output.fail(bad_input("--started-at: " + started_mm.error())); }
+    const std::string name = options.file == "-" ? "standard input" : options.file;
+    ProgramStream stream(*std::move(lines),
+                         program_setup(name, machine->config, *started_mm, options.switches, values->values),
+                         values->revision);
+    if (auto read = read_first(options, machine->config, *start_mm, stream, output); !read) {
+        return output.fail(read.error());
+    }
+    if (options.dry_run) {
+        output.print("nothing was sent");
+        return kExitDone;
+    }
+    if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
+    for (const GcodeNote& note : stream.take_notes()) {
+        output.warn("line " + std::to_string(note.line) + ": " + note.text);
+    }
+    const Job job{.command = CommandKind::Run,
+                  .kind = "run",
+                  .name = stream.head().name,
+                  .stream = &stream,
+                  .detach = options.detach};
+    return run_job(*session, job, output);
+}
+
 ExitCode run(const RunOptions& options) {
+    if (is_streamed(options)) { return run_stream(options); }
     Output output(options.json);
     const auto text = read_text_file(options.file);
     if (!text) { return output.fail(bad_file(options.file, {text.error()})); }
@@ -148,7 +218,10 @@ void add_restart_options(CLI::App& verb, RunOptions& options) {
 void add_run(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("run", "run a G-code file from where the machine stands, and wait for its end");
     const auto options = std::make_shared<RunOptions>();
-    verb->add_option("file", options->file, "the G-code file")->required();
+    verb->add_option("file", options->file,
+                     "the G-code file; - for standard input. Of a long one the first lines are checked before anything "
+                     "moves, and the others while it runs")
+        ->required();
     verb->add_flag("--dry-run", options->dry_run, "read, check and plan it for where the machine stands; move nothing");
     add_restart_options(*verb, *options);
     add_detach(*verb, options->detach);
@@ -156,11 +229,11 @@ void add_run(CLI::App& app, Action& action) {
     verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
                    "pass over words for devices that the machine does not have, instead of refusing them");
     add_live_options(*verb, *options);
-    verb->footer(kInterrupted +
-                 footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
-                        "  lockstep run plate.gcode --from-line 120 --dry-run\n"
-                        "  lockstep run plate.gcode --from-line 120 --lift Z=40 --yes\n"
-                        "  lockstep run plate.gcode --detach\n  lockstep run plate.gcode --json > report.json\n"));
+    verb->footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
+                                       "  lockstep run plate.gcode --from-line 120 --dry-run\n"
+                                       "  lockstep run plate.gcode --from-line 120 --lift Z=40 --yes\n"
+                                       "  lockstep run plate.gcode --detach\n  generate-moves | lockstep run -\n  "
+                                       "lockstep run plate.gcode --json > report.json\n"));
     verb->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 

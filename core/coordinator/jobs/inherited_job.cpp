@@ -12,7 +12,8 @@ std::optional<TakeoverDoubt> InheritedJob::doubt(const CoordinatorLoop& loop) co
     return loop.axes.missing(loop.slot) ? std::optional(TakeoverDoubt::AxisInDoubt) : std::nullopt;
 }
 
-std::expected<JobRest, TakeoverDoubt> InheritedJob::rest(const Program& program, const CoordinatorLoop& loop) const {
+std::expected<JobRest, TakeoverDoubt> InheritedJob::rest(const KnownProgram& program,
+                                                         const CoordinatorLoop& loop) const {
     return rest_of_job(*last_, program, loop.machine, loop.axes.views());
 }
 

@@ -30,7 +30,7 @@ public:
     /// Before the axes have been asked: why it cannot be gone on with.
     std::optional<TakeoverDoubt> doubt(const CoordinatorLoop& loop) const;
     /// When every axis follows this coordinator and rests. The program is known.
-    std::expected<JobRest, TakeoverDoubt> rest(const Program& program, const CoordinatorLoop& loop) const;
+    std::expected<JobRest, TakeoverDoubt> rest(const KnownProgram& program, const CoordinatorLoop& loop) const;
 
 private:
     std::optional<OnTakeover> on_takeover_;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/program.hpp"
+#include "core/coordinator/program/known_program.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
@@ -14,7 +14,7 @@ struct MachineJob {
     std::uint64_t number = 0;
     JobKind kind = JobKind::Run;
     std::uint64_t program_id = 0;  // Command::program; 0 as well where no other coordinator can go on with the job
-    std::shared_ptr<const Program> program;  // null for homing
+    std::shared_ptr<const KnownProgram> program;  // null for homing
 
     /// Its axes move each by itself, and the coordinator sends no frames.
     bool is_alone() const { return kind == JobKind::Home || kind == JobKind::MoveOwn || kind == JobKind::Jog; }
@@ -26,13 +26,15 @@ public:
     /// The number of a new job.
     std::uint64_t begin(const Term& term) {
         begun_in_ = term;
+        fault_ = FaultCode::None;
         return ++number_;
     }
     void end(JobOutcome outcome) { outcome_ = outcome; }
-    /// A takeover has ended the job, which was at this line.
-    void cut(std::int32_t line) {
+    /// The job ended before its end, at this line: by a takeover, or because its program did.
+    void cut(std::int32_t line, FaultCode why = FaultCode::None) {
         cut_job_ = number_;
         cut_line_ = line;
+        fault_ = why;
         outcome_ = JobOutcome::Stopped;
     }
     /// From the owner before.
@@ -47,6 +49,7 @@ public:
     const Term& begun_in() const { return begun_in_; }
     const std::optional<JobOutcome>& outcome() const { return outcome_; }
     std::int32_t line() const { return number_ == cut_job_ ? cut_line_ : 0; }
+    FaultCode fault() const { return fault_; }
 
 private:
     std::uint64_t number_ = 0;
@@ -54,6 +57,7 @@ private:
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t cut_job_ = 0;
     std::int32_t cut_line_ = 0;
+    FaultCode fault_ = FaultCode::None;  // why the program of the last job ended before its end
 };
 
 }  // namespace lockstep

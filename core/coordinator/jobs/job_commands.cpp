@@ -6,10 +6,41 @@
 namespace lockstep {
 namespace {
 
-std::expected<std::shared_ptr<const Program>, Refusal> program_of(const Command& command, const CoordinatorLoop& loop) {
+/// `whole`: more of it must not be to come.
+std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Command& command,
+                                                                       const CoordinatorLoop& loop, bool whole) {
     auto program = loop.programs.find(command.program);
-    if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived whole"); }
+    if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived"); }
+    if (whole && program->is_open()) {
+        return refuse(FaultCode::UnknownProgram, "the program has not arrived whole, and this is planned as a whole");
+    }
     return program;
+}
+
+/// It begins where the axes stand, and is not known to end before its end.
+CommandResult check_program(const KnownProgram& program, const CoordinatorLoop& loop) {
+    if (const auto& cut = program.cut()) {
+        return refuse(cut->why, (cut->line > 0 ? "line " + std::to_string(cut->line) + ": " : "") + cut->text);
+    }
+    const auto fits = ProgramPlanner(loop.machine).check_start(program.head(), loop.axes.counts());
+    return fits ? CommandResult{} : refuse(fits.error().fault, fits.error().text);
+}
+
+/// By the LAI method moves may be too slow.
+CommandResult check_lai_moves(const KnownProgram& program, const CoordinatorLoop& loop) {
+    if (loop.machine.coordination != StepMethod::Lai) { return {}; }
+    const ProgramPlanner planner(loop.machine);
+    AxisCounts at = loop.axes.counts();
+    for (std::uint32_t number = 0; !program.ends_before(number); ++number) {
+        const Block block = program.block(number).value();
+        const AxisCounts from = at;
+        if (!std::holds_alternative<LinearMove>(block.action)) { continue; }
+        (void)planner.moves(block, program, at);
+        if (const auto fits = planner.check_lai(block, from, at); !fits) {
+            return refuse(fits.error().fault, "line " + std::to_string(block.line) + ": " + fits.error().text);
+        }
+    }
+    return {};
 }
 
 }  // namespace
@@ -43,30 +74,26 @@ CommandResult JobRunner::home(const Command& command, CoordinatorLoop& loop) {
 
 CommandResult JobRunner::run(const Command& command, CoordinatorLoop& loop) {
     if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
-    const auto program = program_of(command, loop);
+    const auto program = program_of(command, loop, loop.machine.coordination == StepMethod::Lai);
     if (!program) { return std::unexpected(program.error()); }
     if (auto homed = check_homed(loop); !homed) { return homed; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
+    if (auto fits = check_program(**program, loop); !fits) { return fits; }
+    if (auto slow = check_lai_moves(**program, loop); !slow) { return slow; }
     const AxisCounts start = loop.axes.counts();
-    auto plan = path_.planner().plan(**program, start);
-    if (!plan) {
-        const std::string line = plan.error().line > 0 ? "line " + std::to_string(plan.error().line) + ": " : "";
-        return refuse(plan.error().fault, line + plan.error().text);
-    }
     begin(command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run, command, {start.begin(), start.end()},
           loop);
-    path_.load(*job_, std::move(*plan));
+    path_.load(*job_, start);
     follow(path_.begin_leg(loop), loop);
     return {};
 }
 
 CommandResult JobRunner::move_own(const Command& command, CoordinatorLoop& loop) {
     if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
-    const auto program = program_of(command, loop);
+    const auto program = program_of(command, loop, true);
     if (!program) { return std::unexpected(program.error()); }
-    const auto plan = path_.planner().plan(**program, loop.axes.counts());
-    if (!plan) { return refuse(plan.error().fault, plan.error().text); }
-    auto targets = OwnTargets::plan(*plan, command.ticks, loop, begin_steps_);
+    if (auto fits = check_program(**program, loop); !fits) { return fits; }
+    auto targets = OwnTargets::plan(**program, command.ticks, loop, begin_steps_);
     if (!targets) { return std::unexpected(targets.error()); }
     own_ = std::move(*targets);
     intent_ = Intent::GoOn;

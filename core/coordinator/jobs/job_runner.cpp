@@ -94,7 +94,9 @@ void JobRunner::interrupted(const EpochEnd& end_of_epoch, CoordinatorLoop& loop)
     const bool may_go_on = path_.interrupt(end_of_epoch);
     if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
     if (intent_ == Intent::Hold) { return loop.enter(MachinePhase::Holding); }
-    loop.notice({CoordinatorNotice::Kind::Interrupted, FaultCode::FrameLate, end_of_epoch.ran});
+    const bool lacks_blocks = path_.waits_for_blocks();
+    loop.notice({lacks_blocks ? CoordinatorNotice::Kind::ProgramLate : CoordinatorNotice::Kind::Interrupted,
+                 lacks_blocks ? FaultCode::None : FaultCode::FrameLate, end_of_epoch.ran});
     if (path_.is_stuck()) { return fail(FaultCode::FrameBeyondLimits, 0, loop); }
     if (!may_go_on) { return fail(FaultCode::FrameLate, 0, loop); }
     follow(path_.go_on(loop), loop);
@@ -111,8 +113,18 @@ void JobRunner::follow(PathJob::Next next, CoordinatorLoop& loop) {
     switch (next) {
         case PathJob::Next::Moves: intent_ = Intent::GoOn; return;
         case PathJob::Next::Pauses: return loop.enter(MachinePhase::Paused);
-        case PathJob::Next::IsDone: return end(JobOutcome::Done, loop);
+        case PathJob::Next::IsDone: return end_program(loop);
     }
+}
+
+/// Its program may have ended before its end.
+void JobRunner::end_program(CoordinatorLoop& loop) {
+    const auto& cut = job_->program->cut();
+    if (!cut) { return end(JobOutcome::Done, loop); }
+    const std::int32_t line = job_->program->last_line();
+    end(JobOutcome::Stopped, loop);
+    count_.cut(line, cut->why);
+    loop.notice({CoordinatorNotice::Kind::ProgramCut, cut->why, static_cast<std::uint64_t>(line)});
 }
 
 void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
@@ -157,6 +169,7 @@ void JobRunner::go_on_with_inherited(CoordinatorLoop& loop) {
     const MachineState& last = inherited_.last();
     const auto program = loop.programs.find(last.program);
     check(program != nullptr, "the program of an inherited job is known");
+    if (!is_at_hand(last, *program)) { return; }
     auto rest = inherited_.rest(*program, loop);
     if (!rest) { return cut_inherited(rest.error(), loop); }
     loop.notice({CoordinatorNotice::Kind::JobContinued, FaultCode::None, static_cast<std::uint64_t>(last.line)});
@@ -193,6 +206,7 @@ void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
     state.outcome = has_any() ? std::nullopt : count_.outcome();
     state.job_begun = count_.begun_in();
     state.line = count_.line();
+    state.job_fault = static_cast<std::uint16_t>(count_.fault());
     path_.report_epoch(state);
     if (job_ && job_->kind == JobKind::MoveOwn) {
         state.progress = own_.progress(loop.axes);

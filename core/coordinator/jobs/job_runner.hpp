@@ -79,6 +79,7 @@ private:
     void give_up_epoch(CoordinatorLoop& loop);
     void follow(PathJob::Next next, CoordinatorLoop& loop);
     void end(JobOutcome outcome, CoordinatorLoop& loop);
+    void end_program(CoordinatorLoop& loop);
     void end_failed(CoordinatorLoop& loop);
     void cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop);
 

@@ -25,14 +25,18 @@ double planned_seconds(const AxisConfig& axis, const OwnMoveRequest& move, const
 
 }  // namespace
 
-std::expected<OwnTargets, Refusal> OwnTargets::plan(const std::vector<Leg>& legs, Ticks ticks,
+std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program, Ticks ticks,
                                                     const CoordinatorLoop& loop, BeginSteps begin_steps) {
+    AxisCounts end = loop.axes.counts();
+    const auto axes = ProgramPlanner(loop.machine).axes_of(program.axes()).value();
+    const std::vector<double> end_mm = program.place_before(program.known()).value();
+    for (std::size_t k = 0; k < axes.size(); ++k) { end[axes[k]] = to_steps(loop.machine.axes[axes[k]], end_mm[k]); }
     OwnTargets targets;
     targets.ticks_ = ticks;
     targets.begun_ = loop.now;
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         const std::int64_t from = loop.axes.state(i)->position.count();
-        const std::int64_t to = legs.back().to[i];
+        const std::int64_t to = end[i];
         targets.from_.push_back(from);
         targets.to_.push_back(to);
         if (from == to) { continue; }

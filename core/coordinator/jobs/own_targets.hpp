@@ -15,9 +15,10 @@ namespace lockstep {
 class OwnTargets {
 public:
     OwnTargets() = default;
-    /// Where a plan ends, whatever line it takes there. `ticks`: how long each move lasts; 0: as fast as the axis can.
-    /// Error: a move that its axis cannot make. Each axis's move is planned here too, so that a person is told.
-    static std::expected<OwnTargets, Refusal> plan(const std::vector<Leg>& legs, Ticks ticks,
+    /// Where a whole program ends, whatever line it takes there. `ticks`: how long each move lasts; 0: as fast as the
+    /// axis can. Error: a move that its axis cannot make. Each axis's move is planned here too, so that a person is
+    /// told.
+    static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, Ticks ticks,
                                                    const CoordinatorLoop& loop, BeginSteps begin_steps);
 
     /// Those that move.

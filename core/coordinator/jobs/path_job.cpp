@@ -4,51 +4,73 @@
 #include <cmath>
 #include <utility>
 
+#include "core/coordinator/path/program_frames.hpp"
+
 namespace lockstep {
 
-void PathJob::load(const MachineJob& job, std::vector<Leg> legs) {
+void PathJob::load(const MachineJob& job, const AxisCounts& start) {
     job_ = job;
-    legs_ = std::move(legs);
-    leg_ = 0;
+    next_ = 0;
+    from_ = start;
     progress_ = {};
     positions_.clear();
+    leg_done_.reset();
     fruitless_ = 0;
 }
 
 void PathJob::load(const MachineJob& job, JobRest rest, double progress) {
-    load(job, std::move(rest.legs));
-    leg_ = rest.leg;
+    load(job, rest.from);
+    next_ = rest.first;
     progress_ = PathProgress(progress);
     resume_ = rest.place;
     positions_ = std::move(rest.positions);
-    if (!rest.leg_done) { runner_.load(planner_.frames(job_.program, legs_[leg_])); }
-    is_leg_done_ = rest.leg_done;
+    leg_done_ = rest.done;
+    if (!leg_done_) { runner_.load(planner_.frames(job_.program, next_, from_)); }
+}
+
+/// Nothing: something moves in the leg that begins with the next block, or a bounded look does not find its end.
+std::optional<LegEnd> PathJob::end_of_empty_leg() const {
+    LegEnd end{.block = next_, .to = from_};
+    for (; end.block < next_ + ProgramFrames::kBlocksAtOnce; ++end.block) {
+        if (job_.program->ends_before(end.block)) { return end; }
+        const auto block = job_.program->block(end.block);
+        if (!block) { return std::nullopt; }
+        end.kind = end_by(*block);
+        if (ends_leg(*block)) { return end; }
+        if (planner_.moves(*block, *job_.program, end.to)) { return std::nullopt; }
+    }
+    return std::nullopt;
+}
+
+/// True: the machine pauses behind the leg.
+bool PathJob::pass_leg(const LegEnd& end) {
+    next_ = end.kind == LegEnd::Kind::Program ? end.block : end.block + 1;
+    from_ = end.to;
+    return end.kind == LegEnd::Kind::Pause;
 }
 
 PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
-    while (leg_ < legs_.size() && !legs_[leg_].moves && !legs_[leg_].then_pause) { ++leg_; }
-    if (leg_ == legs_.size()) { return Next::IsDone; }
-    const Leg& leg = legs_[leg_];
-    if (!leg.moves) {
-        ++leg_;
-        return Next::Pauses;
+    while (!job_.program->ends_before(next_)) {
+        const auto empty = end_of_empty_leg();
+        if (!empty) { break; }
+        if (pass_leg(*empty)) { return Next::Pauses; }
     }
-    runner_.load(planner_.frames(job_.program, leg));
-    resume_ = {leg.first, {}};
+    if (job_.program->ends_before(next_)) { return Next::IsDone; }
+    runner_.load(planner_.frames(job_.program, next_, from_));
+    resume_ = {next_, {}};
     std::vector<Position> at;
-    for (const std::int64_t count : leg.from) { at.push_back(Position::steps(count)); }
+    for (const std::int64_t count : from_) { at.push_back(Position::steps(count)); }
     begin_epoch(std::move(at), loop);
     return Next::Moves;
 }
 
 PathJob::Next PathJob::end_leg(CoordinatorLoop& loop) {
-    const bool pauses = legs_[leg_].then_pause;
-    ++leg_;
-    return pauses ? Next::Pauses : begin_leg(loop);
+    const LegEnd end = leg_done_ ? *std::exchange(leg_done_, std::nullopt) : runner_.source()->end();
+    return pass_leg(end) ? Next::Pauses : begin_leg(loop);
 }
 
 PathJob::Next PathJob::go_on(CoordinatorLoop& loop) {
-    if (is_leg_done_) { return end_leg(loop); }
+    if (leg_done_) { return end_leg(loop); }
     begin_epoch(std::move(positions_), loop);
     return Next::Moves;
 }
@@ -64,7 +86,7 @@ Epoch PathJob::next_epoch(const CoordinatorLoop& loop) {
 
 /// `at` empty: from rest on whole steps, where the axes stand.
 void PathJob::begin_epoch(std::vector<Position> at, CoordinatorLoop& loop) {
-    is_leg_done_ = false;
+    leg_done_.reset();
     for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
         at.push_back(Position::steps(loop.axes.state(i)->position.count()));
     }
@@ -128,14 +150,13 @@ Subticks PathJob::into_path(Tick now) const {
 
 /// As the feed override makes it. What the axes' limits make of a feed above them is not counted.
 double PathJob::seconds_left(Tick now) const {
-    double seconds = runner_.source()->seconds_from(runner_.place_at(now));
-    for (std::size_t i = leg_ + 1; i < legs_.size(); ++i) { seconds += legs_[i].times->seconds(); }
-    return seconds / overrides_.feed();
+    return runner_.source()->seconds_from(runner_.place_at(now)) / overrides_.feed();
 }
 
 void PathJob::note_progress(const CoordinatorLoop& loop) {
     const double ticks = seconds_left(loop.now) * loop.machine.ticks_per_second();
     progress_.note(into_path(loop.now), subticks(Ticks{std::llround(ticks)}));
+    job_.program->release_before(runner_.place_at(loop.now).block);
 }
 
 void PathJob::report_epoch(MachineState& state) const {
@@ -146,9 +167,10 @@ void PathJob::report_epoch(MachineState& state) const {
 }
 
 void PathJob::report_progress(MachineState& state) const {
-    state.line = job_.program->blocks[runner_.place_at(state.tick).block].line;
+    state.line = line(state.tick);
     state.remaining_s = seconds_left(state.tick);
     state.progress = progress_.share();
+    state.lacks_blocks = runner_.source()->lacks_blocks();
 }
 
 /// By the LAI method a block is planned in parts, which no place on the program tells apart.

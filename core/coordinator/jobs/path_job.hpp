@@ -28,14 +28,14 @@ public:
     enum class Next : std::uint8_t { Moves, Pauses, IsDone };
 
     /// Replaces the job before.
-    void load(const MachineJob& job, std::vector<Leg> legs);
+    void load(const MachineJob& job, const AxisCounts& start);
     void load(const MachineJob& job, JobRest rest, double progress);
     Next begin_leg(CoordinatorLoop& loop);
     /// What is left of the leg in progress; begins the next leg where nothing is left.
     Next go_on(CoordinatorLoop& loop);
     Next end_leg(CoordinatorLoop& loop);
     /// The leg has ended, and the next is not to begin yet.
-    void hold_behind_leg() { ++leg_; }
+    void hold_behind_leg() { (void)pass_leg(runner_.source()->end()); }
 
     /// Each slot of an epoch: sends frames. Returns how the epoch ended, when it has.
     std::optional<EpochEnd> advance(CoordinatorLoop& loop);
@@ -50,6 +50,8 @@ public:
     bool interrupt(const EpochEnd& end);
     /// The epoch ended early because no frame keeps the limits.
     bool is_stuck() const { return runner_.is_stuck(); }
+    /// The machine rests because no more of the program is known.
+    bool waits_for_blocks() const { return runner_.source()->lacks_blocks(); }
 
     /// From the next frame that is not made yet, and in jobs to come.
     void turn(const Overrides& overrides);
@@ -61,8 +63,12 @@ public:
     void report_progress(MachineState& state) const;
     /// For another coordinator that may go on with the job.
     void report_rests(MachineState& state, const AxisRoster& axes) const;
+    /// Of the program, where the job is.
+    std::int32_t line(Tick now) const { return runner_.source()->line_of(runner_.place_at(now).block); }
 
 private:
+    bool pass_leg(const LegEnd& end);
+    std::optional<LegEnd> end_of_empty_leg() const;
     void begin_epoch(std::vector<Position> at, CoordinatorLoop& loop);
     void note_start(CoordinatorLoop& loop);
     Epoch next_epoch(const CoordinatorLoop& loop);
@@ -82,12 +88,12 @@ private:
 
     // Of the job:
     MachineJob job_;
-    std::vector<Leg> legs_;
-    std::size_t leg_ = 0;
+    std::uint32_t next_ = 0;  // the first block of the next leg, or of the one in progress
+    AxisCounts from_;         // and where it begins
     PathProgress progress_;
     PathPlace resume_;                 // where the epoch begins; held or interrupted: where the next one will,
     std::vector<Position> positions_;  // and where the axes rest, exactly; empty: on whole steps
-    bool is_leg_done_ = false;         // by the owner before
+    std::optional<LegEnd> leg_done_;   // by the owner before
     int fruitless_ = 0;                // epochs in a row that ran no frame
 };
 

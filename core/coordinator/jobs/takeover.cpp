@@ -30,64 +30,56 @@ std::expected<FrameNumber, TakeoverDoubt> last_frame(const MachineState& last, s
     return ran.value_or(0);
 }
 
-/// Axes that the program does not name stand where they always did.
-AxisCounts start_of_job(const Program& program, const MachineConfig& machine, std::span<const AxisView> axes) {
-    AxisCounts start;
+using Places = std::vector<double>;  // mm, of each axis of the machine
+
+/// Where the axes are before a block of the program: those that it does not name stand where they always did.
+Places places_before(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
+                     std::span<const AxisView> axes) {
+    const std::vector<double> named = program.place_before(block).value();
+    Places places;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const auto named = std::ranges::find(program.axes, machine.axes[i].name);
-        const auto place = static_cast<std::size_t>(named - program.axes.begin());
-        const bool is_named = named != program.axes.end() && place < program.start_mm.size();
-        start.append(is_named ? to_steps(machine.axes[i], program.start_mm[place]) : axes[i].state->position.count());
+        const auto found = std::ranges::find(program.axes(), machine.axes[i].name);
+        const auto place = static_cast<std::size_t>(found - program.axes().begin());
+        const bool is_named = found != program.axes().end();
+        const auto count = static_cast<double>(axes[i].state->position.count());
+        places.push_back(is_named ? named[place] : to_mm(machine.axes[i], count));
     }
-    return start;
+    return places;
 }
 
-/// The leg with the place.
-std::expected<JobRest, TakeoverDoubt> locate(std::vector<Leg> legs, const FrameRest& rest) {
-    for (std::size_t leg = 0; leg < legs.size(); ++leg) {
-        if (rest.place.block < legs[leg].first || rest.place.block >= legs[leg].end) { continue; }
-        return JobRest{
-            .legs = std::move(legs), .leg = leg, .leg_done = rest.last, .place = rest.place, .positions = {}};
-    }
-    return Doubt(TakeoverDoubt::OtherPlan);
+AxisCounts counts_of(const Places& places, const MachineConfig& machine) {
+    AxisCounts counts;
+    for (std::size_t i = 0; i < places.size(); ++i) { counts.append(to_steps(machine.axes[i], places[i])); }
+    return counts;
 }
 
-using Places = std::vector<double>;  // mm, of each axis
-
-/// Where the program's block leads, from there.
-Places end_of(const Block& block, const Program& program, const MachineConfig& machine, Places from) {
-    const auto* move = std::get_if<LinearMove>(&block.action);
-    for (std::size_t i = 0; move != nullptr && i < program.axes.size(); ++i) {
-        const auto named = std::ranges::find(machine.axes, program.axes[i], &AxisConfig::name);
-        from[static_cast<std::size_t>(named - machine.axes.begin())] = move->target_mm[i];
+/// Behind the block of the leg's last frame: what is left of the leg moves nothing.
+std::expected<LegEnd, TakeoverDoubt> end_behind(const KnownProgram& program, const MachineConfig& machine,
+                                                std::uint32_t block, AxisCounts at) {
+    const ProgramPlanner planner(machine);
+    for (LegEnd end{.block = block + 1, .to = at};; ++end.block) {
+        if (program.ends_before(end.block)) { return end; }
+        const auto next = program.block(end.block);
+        if (!next) { return Doubt(TakeoverDoubt::UnknownProgram); }
+        end.kind = end_by(*next);
+        if (ends_leg(*next)) { return end; }
+        if (planner.moves(*next, program, at)) { return Doubt(TakeoverDoubt::OtherPlan); }
     }
-    return from;
 }
 
 /// Whether the axes are near the place by the program alone: the frames join moves within a step of it.
-std::expected<void, TakeoverDoubt> check_place(const JobRest& rest, const Program& program,
+std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const Places& from, const Places& to,
                                                const MachineConfig& machine, std::span<const Position> at) {
-    const Leg& leg = rest.legs[rest.leg];
-    Places from;
     double near_mm = 0;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        from.push_back(to_mm(machine.axes[i], static_cast<double>(leg.from[i])));
-        near_mm = std::max(near_mm, kNear_steps / machine.axes[i].steps_per_mm);
-    }
-    for (std::uint32_t b = leg.first; b < rest.place.block; ++b) {
-        from = end_of(program.blocks[b], program, machine, std::move(from));
-    }
-    const Places to = end_of(program.blocks[rest.place.block], program, machine, from);
     double square = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) { square += (to[i] - from[i]) * (to[i] - from[i]); }
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        near_mm = std::max(near_mm, kNear_steps / machine.axes[i].steps_per_mm);
+        square += (to[i] - from[i]) * (to[i] - from[i]);
+    }
     const double length = std::sqrt(square);
     const double along = rest.place.along.as_steps();  // mm
     if (along < 0 || along > length + near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
-    for (std::size_t i = 0; rest.leg_done && i < from.size(); ++i) {
-        const double end = to_mm(machine.axes[i], static_cast<double>(leg.to[i]));
-        if (std::abs(to[i] - end) > near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
-    }
-    const double share = rest.leg_done ? 1 : length > 0 ? along / length : 0;
+    const double share = rest.last ? 1 : length > 0 ? along / length : 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const double off = to_mm(machine.axes[i], at[i].as_steps()) - from[i] - share * (to[i] - from[i]);
         if (std::abs(off) > near_mm) { return Doubt(TakeoverDoubt::Misplaced); }
@@ -111,24 +103,49 @@ std::string_view text_of(TakeoverDoubt doubt) {
     return kTexts[static_cast<std::size_t>(doubt)];
 }
 
-std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, const Program& program,
+bool is_at_hand(const MachineState& last, const KnownProgram& program) {
+    bool are_all = true;
+    for (const FrameRest& rest : last.rests) {
+        const std::uint32_t block = rest.place.block;
+        if (block >= program.known() || block < program.first_kept()) { continue; }
+        const auto leg = program.leg_of(block);
+        are_all = program.place_before(block) && program.block(block) && are_all;
+        are_all = (!leg || program.place_before(*leg)) && are_all;
+        are_all = (!rest.last || block + 1 >= program.known() || program.block(block + 1)) && are_all;
+    }
+    return are_all;
+}
+
+std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, const KnownProgram& program,
                                                   const MachineConfig& machine, std::span<const AxisView> axes) {
     const auto ran = last_frame(last, axes);
     if (!ran) { return Doubt(ran.error()); }
     const auto said = std::ranges::find(last.rests, *ran, &FrameRest::frame);
     if (said == last.rests.end()) { return Doubt(TakeoverDoubt::UnreceivedFrames); }
-    auto legs = ProgramPlanner(machine).plan(program, start_of_job(program, machine, axes));
-    if (!legs) { return Doubt(TakeoverDoubt::OtherPlan); }
-    auto rest = locate(std::move(*legs), *said);
-    if (!rest) { return rest; }
-
+    const std::uint32_t block = said->place.block;
+    const auto first = program.leg_of(block);
+    if (program.ends_before(block)) { return Doubt(TakeoverDoubt::OtherPlan); }
+    if (block >= program.known() || !first || *first < program.first_kept()) {
+        return Doubt(TakeoverDoubt::UnknownProgram);
+    }
+    JobRest rest{.first = *first,
+                 .from = counts_of(places_before(*first, program, machine, axes), machine),
+                 .done = {},
+                 .place = said->place,
+                 .positions = {}};
     std::vector<Position> positions;
     for (const AxisView& axis : axes) { positions.push_back(axis.state->position); }
-    if (const auto fits = check_place(*rest, program, machine, positions); !fits) { return Doubt(fits.error()); }
-    const bool is_begin = rest->place == PathPlace{rest->legs[rest->leg].first, {}};
+    const Places to = places_before(block + 1, program, machine, axes);
+    const auto fits = check_place(*said, places_before(block, program, machine, axes), to, machine, positions);
+    if (!fits) { return Doubt(fits.error()); }
+    if (said->last) {
+        const auto end = end_behind(program, machine, block, counts_of(to, machine));
+        if (!end) { return Doubt(end.error()); }
+        rest.done = *end;
+    }
     if (digest_of(positions) == said->digest) {
-        rest->positions = std::move(positions);
-    } else if (*ran > 0 || !is_begin) {
+        rest.positions = std::move(positions);
+    } else if (*ran > 0 || rest.place != PathPlace{rest.first, {}}) {
         return Doubt(TakeoverDoubt::Misplaced);
     }
     return rest;

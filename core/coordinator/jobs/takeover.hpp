@@ -8,26 +8,30 @@
 #pragma once
 
 #include <expected>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/coordinator/axes/axis_view.hpp"
 #include "core/coordinator/path/program_plan.hpp"
+#include "core/coordinator/program/known_program.hpp"
 #include "core/coordinator/state/coordinator_io.hpp"
 
 namespace lockstep {
 
 /// What is left of a job.
 struct JobRest {
-    std::vector<Leg> legs;
-    std::size_t leg = 0;              // the one in progress
-    bool leg_done = false;            // its end was reached
+    std::uint32_t first = 0;          // block of the leg in progress,
+    AxisCounts from;                  // and where it begins
+    std::optional<LegEnd> done;       // its end was reached
     PathPlace place;                  // else: where it goes on,
     std::vector<Position> positions;  // and where the axes rest, exactly; empty: on whole steps, as their states say
 };
 
+/// False: blocks that rest_of_job looks at are being fetched; ask again in a later loop.
+bool is_at_hand(const MachineState& last, const KnownProgram& program);
 /// `last`: the owner's last word. `axes`: at rest, all following the new owner.
-std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, const Program& program,
+std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, const KnownProgram& program,
                                                   const MachineConfig& machine, std::span<const AxisView> axes);
 
 }  // namespace lockstep

@@ -7,10 +7,19 @@
 #include <span>
 #include <vector>
 
+#include "core/motion/path.hpp"
 #include "core/overrides.hpp"
 #include "core/path/frame_planner.hpp"
 
 namespace lockstep {
+
+/// Where a path ends on its program.
+struct LegEnd {
+    enum class Kind : std::uint8_t { Program, Settle, Pause };
+    Kind kind = Kind::Program;
+    std::uint32_t block = 0;  // the first one that is not of the path; at the program's end there is no such block
+    AxisCounts to;            // of all axes of the machine, whole steps
+};
 
 class FrameSource {
 public:
@@ -21,12 +30,14 @@ public:
     /// The axes rest at `at`: where the path begins, or where one of the last frames rests. The next frame goes on from
     /// there.
     virtual void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) = 0;
-    /// Reads on in the program, by a bounded amount. Once a slot.
-    virtual void read() {}
-    /// Reads until the next frame can be made or none is left.
+    /// Reads on in the program, by a bounded amount. Once a slot. False: nothing could be read.
+    virtual bool read() { return false; }
+    /// Reads until the next frame can be made, none is left, or no more is known.
     void read_ahead() {
-        while (!is_ready() && !is_done()) { read(); }
+        while (!is_ready() && !is_done() && read()) {}
     }
+    /// It can make no frame before more of the program is known.
+    virtual bool lacks_blocks() { return false; }
     /// The next frame can be made.
     virtual bool is_ready() = 0;
     /// The path has no further frame.
@@ -37,7 +48,11 @@ public:
     virtual std::vector<MoveBegin> begins() const = 0;
     /// New overrides, from the next frame on or soon after. False: not from there, and those before still hold.
     virtual bool turn(const Overrides& overrides) = 0;
-    /// About how long the path takes from a place on, without overrides.
+    /// Of a path that is done.
+    virtual LegEnd end() const = 0;
+    /// Of the block of one of the last frames.
+    virtual std::int32_t line_of(std::uint32_t block) const = 0;
+    /// About how long the program takes from a place of the path on, without overrides.
     virtual double seconds_from(const PathPlace& place) const = 0;
 };
 

@@ -7,8 +7,9 @@
 
 namespace lockstep {
 
-LaiFrames::LaiFrames(const MachineConfig& machine, std::vector<PathMove> moves)
-    : machine_(machine), limits_(frame_limits_of(machine)) {
+LaiFrames::LaiFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program,
+                     std::vector<PathMove> moves, const LegEnd& end)
+    : machine_(machine), program_(std::move(program)), end_(end), limits_(frame_limits_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
     path_.moves = std::move(moves);
 }
@@ -102,10 +103,11 @@ PathPlace LaiFrames::fill_tail(PathFrame& frame, std::vector<Position> at) const
 }
 
 double LaiFrames::seconds_from(const PathPlace& place) const {
+    const double behind_s = program_->seconds_from({end_.block, {}});
     const Spot spot = spot_of(place);
-    if (spot.move == path_.moves.size()) { return 0; }
+    if (spot.move == path_.moves.size()) { return behind_s; }
     const Subticks left = path_.duration() - path_.moves[spot.move].start;
-    return static_cast<double>(left.value) / kSubticksPerTick / machine_.ticks_per_second();
+    return behind_s + static_cast<double>(left.value) / kSubticksPerTick / machine_.ticks_per_second();
 }
 
 }  // namespace lockstep

@@ -5,12 +5,15 @@
 
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/lai_path.hpp"
+#include "core/program_blocks.hpp"
 
 namespace lockstep {
 
 class LaiFrames final : public FrameSource {
 public:
-    LaiFrames(const MachineConfig& machine, std::vector<PathMove> moves);
+    /// `moves`: of the program, whole, up to `end`.
+    LaiFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program, std::vector<PathMove> moves,
+              const LegEnd& end);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<LaiFrames>(*this); }
     /// A place counts the steps of the lead axes of its block's parts.
@@ -20,6 +23,8 @@ public:
     std::expected<std::optional<PathFrame>, PathStuck> next() override;
     std::vector<MoveBegin> begins() const override;
     bool turn(const Overrides&) override { return false; }
+    LegEnd end() const override { return end_; }
+    std::int32_t line_of(std::uint32_t block) const override { return program_->block(block).value().line; }
     double seconds_from(const PathPlace& place) const override;
 
 private:
@@ -36,6 +41,8 @@ private:
     PathPlace fill_tail(PathFrame& frame, std::vector<Position> at) const;
 
     MachineConfig machine_;
+    std::shared_ptr<const ProgramBlocks> program_;
+    LegEnd end_;
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
     Path path_;

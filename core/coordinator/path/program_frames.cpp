@@ -5,69 +5,113 @@
 
 namespace lockstep {
 
-ProgramFrames::ProgramFrames(const MachineConfig& machine, std::shared_ptr<const Program> program, const Leg& leg)
+ProgramFrames::ProgramFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program,
+                             std::uint32_t first, const AxisCounts& from)
     : program_(std::move(program)),
       limits_(frame_limits_of(machine)),
-      leg_(leg),
+      axes_(ProgramPlanner(machine).axes_of(program_->axes()).value()),
       tick_s_(static_cast<double>(machine.tick_ns) * 1e-9),
-      next_(leg.first),
+      next_(first),
+      resumed_(first),
+      to_(from),
       planner_(path_setup_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
-    for (const std::string& name : program_->axes) {
-        const auto place = std::ranges::find(machine.axes, name, &AxisConfig::name);
-        axes_.push_back(static_cast<std::size_t>(place - machine.axes.begin()));
-    }
-    std::vector<Position> from;
-    for (const std::int64_t count : leg.from) {
-        from.push_back(Position::steps(count));
+    std::vector<Position> at;
+    for (const std::int64_t count : from) {
+        at.push_back(Position::steps(count));
         at_.append(static_cast<double>(count));
     }
-    planner_.begin(from);
+    planner_.begin(at);
 }
 
 void ProgramFrames::resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) {
+    resumed_ = place.block;
     planner_.resume(place, at);
     if (overrides != planner_.overrides()) { (void)planner_.turn(overrides); }
 }
 
-void ProgramFrames::read() {
-    for (std::size_t n = 0; n < kBlocksAtOnce && !is_finished_; ++n) {
-        if (planner_.waiting() >= kReserve && planner_.is_ready()) { return; }
-        read_block();
+bool ProgramFrames::read() {
+    const std::uint32_t begin = next_;
+    const std::size_t at_once = next_ < resumed_ ? kBlocksPassed : kBlocksAtOnce;
+    for (std::size_t n = 0; n < at_once && !is_finished_; ++n) {
+        if (planner_.waiting() >= kReserve && planner_.is_ready()) { break; }
+        if (!read_block()) { return next_ != begin; }
     }
+    return next_ != begin || is_finished_;
 }
 
-void ProgramFrames::read_block() {
-    if (next_ == leg_.end) {
-        planner_.finish();
-        is_finished_ = true;
-        return;
+/// False: the next block is not at hand.
+bool ProgramFrames::read_block() {
+    if (program_->ends_before(next_)) {
+        finish(LegEnd::Kind::Program);
+        return true;
+    }
+    const auto block = program_->block(next_);
+    is_starved_ = !block;
+    if (!block) { return false; }
+    if (ends_leg(*block)) {
+        finish(end_by(*block));
+        return true;
     }
     const std::uint32_t number = next_++;
-    const Block& block = program_->blocks[number];
-    if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
+    lines_.push_back(block->line);
+    if (next_ <= resumed_) { lines_.clear(); }
+    if (const auto* dwell = std::get_if<Dwell>(&block->action)) {
         const Ticks ticks = ticks_of(*dwell, tick_s_);
         if (ticks > Ticks{}) { planner_.rest(ticks, number); }
-        return;
+    } else {
+        read_move(std::get<LinearMove>(block->action), number);
     }
-    const auto& move = std::get<LinearMove>(block.action);
-    for (std::size_t i = 0; i < axes_.size(); ++i) {  // what is rounded to the end of the travel is not beyond it
+    return true;
+}
+
+void ProgramFrames::finish(LegEnd::Kind end) {
+    planner_.finish();
+    end_ = end;
+    is_finished_ = true;
+    is_starved_ = false;
+}
+
+/// What is rounded to the end of the travel is not beyond it.
+void ProgramFrames::read_move(const LinearMove& move, std::uint32_t number) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
         const AxisLimits& axis = limits_[axes_[i]];
         at_[axes_[i]] = std::clamp(move.target_mm[i] * steps_per_mm_[axes_[i]], static_cast<double>(axis.min_steps),
                                    static_cast<double>(axis.max_steps));
+        to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
     planner_.line_to_steps(at_, {.feed_mm_per_tick = move.rapid ? 0 : move.feed_mm_s * tick_s_}, number);
+}
+
+std::expected<std::optional<PathFrame>, PathStuck> ProgramFrames::next() {
+    auto frame = planner_.next();
+    if (frame && *frame) { forget_lines(**frame); }
+    return frame;
+}
+
+void ProgramFrames::forget_lines(const PathFrame& frame) {
+    begins_.push_back(frame.places[0].block);
+    if (begins_.size() <= PathPlanner::kFramesKept) { return; }
+    begins_.pop_front();
+    while (next_ - lines_.size() < begins_.front()) { lines_.pop_front(); }
+}
+
+std::int32_t ProgramFrames::line_of(std::uint32_t block) const {
+    const std::size_t first = next_ - lines_.size();
+    if (block < next_ && block >= first) { return lines_[block - first]; }
+    const auto there = program_->block(block);  // the leg's first block, before it was read
+    return there ? there->line : 0;
 }
 
 bool ProgramFrames::turn(const Overrides& overrides) {
     TurnResult result = planner_.turn(overrides);
     while (result == TurnResult::LacksPath && !is_finished_) {
-        for (std::size_t n = 0; n < kBlocksAtOnce && !is_finished_; ++n) { read_block(); }
+        for (std::size_t n = 0; n < kBlocksAtOnce && !is_finished_; ++n) {
+            if (!read_block()) { return false; }
+        }
         result = planner_.turn(overrides);
     }
     return result == TurnResult::Taken;
 }
-
-double ProgramFrames::seconds_from(const PathPlace& place) const { return leg_.times->seconds_from(place); }
 
 }  // namespace lockstep

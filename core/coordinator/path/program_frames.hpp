@@ -1,6 +1,8 @@
 // The frames of a program's moves by core/path: the program is read as a stream, a bounded amount in each slot.
 #pragma once
 
+#include <deque>
+
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/path/path_planner.hpp"
@@ -9,34 +11,47 @@ namespace lockstep {
 
 class ProgramFrames final : public FrameSource {
 public:
-    ProgramFrames(const MachineConfig& machine, std::shared_ptr<const Program> program, const Leg& leg);
+    ProgramFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program, std::uint32_t first,
+                  const AxisCounts& from);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<ProgramFrames>(*this); }
     void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override;
-    void read() override;
+    bool read() override;
+    bool lacks_blocks() override { return is_starved_ && !planner_.is_ready() && !is_done(); }
     bool is_ready() override { return planner_.is_ready(); }
     bool is_done() const override { return planner_.is_done(); }
-    std::expected<std::optional<PathFrame>, PathStuck> next() override { return planner_.next(); }
+    std::expected<std::optional<PathFrame>, PathStuck> next() override;
     std::vector<MoveBegin> begins() const override { return planner_.begins(); }
     /// Reads as much more as deciding takes, so that the answer does not depend on what was read before.
     bool turn(const Overrides& overrides) override;
-    double seconds_from(const PathPlace& place) const override;
+    LegEnd end() const override { return {end_, next_, to_}; }
+    std::int32_t line_of(std::uint32_t block) const override;
+    double seconds_from(const PathPlace& place) const override { return program_->seconds_from(place); }
 
-    static constexpr std::size_t kBlocksAtOnce = 200;  // a fraction of a millisecond of work
+    static constexpr std::size_t kBlocksAtOnce = 200;   // a fraction of a millisecond of work
+    static constexpr std::size_t kBlocksPassed = 2000;  // at once where they were run before: less work
     static constexpr std::size_t kReserve = 4096;  // intervals: when so many wait for their frames, no more are read
 
 private:
-    void read_block();
+    bool read_block();
+    void finish(LegEnd::Kind end);
+    void read_move(const LinearMove& move, std::uint32_t number);
+    void forget_lines(const PathFrame& frame);
 
-    std::shared_ptr<const Program> program_;
+    std::shared_ptr<const ProgramBlocks> program_;
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
     std::vector<std::size_t> axes_;  // of the machine: those that the program names
-    Leg leg_;
     double tick_s_ = 0;
     std::uint32_t next_ = 0;  // the block to be read
+    std::uint32_t resumed_ = 0;
     bool is_finished_ = false;
-    AxisVector at_;  // where the last block read leads to
+    LegEnd::Kind end_ = LegEnd::Kind::Program;
+    bool is_starved_ = false;           // the next block was not at hand
+    AxisCounts to_;                     // where the last block read leads to, whole steps
+    std::deque<std::int32_t> lines_;    // of the blocks up to the next one
+    std::deque<std::uint32_t> begins_;  // the blocks in which the last frames begin
+    AxisVector at_;                     // where the last block read leads to
     PathPlanner planner_;
 };
 

@@ -30,9 +30,10 @@ ProgramPlanner::ProgramPlanner(const MachineConfig& machine) : machine_(machine)
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 
-std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(const Program& program) const {
+std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
+    const std::vector<std::string>& names) const {
     std::vector<std::size_t> places;
-    for (const std::string& name : program.axes) {
+    for (const std::string& name : names) {
         std::size_t place = 0;
         while (place < machine_.axes.size() && machine_.axes[place].name != name) { ++place; }
         if (place == machine_.axes.size()) {
@@ -67,16 +68,17 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
     return to;
 }
 
-std::expected<void, PlanError> ProgramPlanner::check_start(const Program& program, const std::vector<std::size_t>& axes,
-                                                           const AxisCounts& start) const {
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        const AxisConfig& axis = machine_.axes[axes[i]];
+std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program, const AxisCounts& start) const {
+    const auto axes = axes_of(program.axes);
+    if (!axes) { return std::unexpected(axes.error()); }
+    for (std::size_t i = 0; i < axes->size(); ++i) {
+        const AxisConfig& axis = machine_.axes[(*axes)[i]];
         const std::string unit = " " + std::string(unit_of(axis.name));
-        if (to_steps(axis, program.start_mm[i]) == start[axes[i]]) { continue; }
+        if (to_steps(axis, program.start_mm[i]) == start[(*axes)[i]]) { continue; }
         return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
                                          "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
                                              unit + ", the axis is at " +
-                                             number(to_mm(axis, static_cast<double>(start[axes[i]]))) + unit});
+                                             number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + unit});
     }
     return {};
 }
@@ -86,77 +88,91 @@ PathMove ProgramPlanner::path_move(const LinearMove& linear, const AxisCounts& f
     return make_move(from, to, limits_, steps_per_mm_, linear.rapid ? 0 : linear.feed_mm_s * tick_s);
 }
 
+std::expected<void, PlanError> ProgramPlanner::check_lai(const Block& block, const AxisCounts& from,
+                                                         const AxisCounts& to) const {
+    if (machine_.coordination != StepMethod::Lai) { return {}; }
+    const auto fits = check_lai_move(path_move(std::get<LinearMove>(block.action), from, to), machine_.tick_ns);
+    if (!fits) { return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()}); }
+    return {};
+}
+
 std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program, const AxisCounts& start) const {
-    const auto axes = axes_of(program);
-    if (!axes) { return std::unexpected(axes.error()); }
-    if (const auto fits = check_start(program, *axes, start); !fits) { return std::unexpected(fits.error()); }
+    if (const auto fits = check_start(program.head(), start); !fits) { return std::unexpected(fits.error()); }
+    const auto axes = axes_of(program.axes).value();
     std::vector<Leg> legs;
     AxisCounts at = start;
-    std::vector<double> way_mm(machine_.axes.size());
     const auto blocks = static_cast<std::uint32_t>(program.blocks.size());
     for (std::uint32_t b = 0; b <= blocks; ++b) {
         Leg leg{.first = b, .end = b, .from = at, .to = at};
-        LegTimes times(machine_, b);
-        for (; b < blocks && !std::holds_alternative<Pause>(program.blocks[b].action); ++b) {
+        for (; b < blocks && !ends_leg(program.blocks[b]); ++b) {
             const Block& block = program.blocks[b];
             if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
                 leg.moves = leg.moves || dwell->seconds > 0;
-                times.add_rest(dwell->seconds);
                 continue;
             }
-            const auto& linear = std::get<LinearMove>(block.action);
-            const auto to = target(linear, *axes, at, block.line);
+            const auto to = target(std::get<LinearMove>(block.action), axes, at, block.line);
             if (!to) { return std::unexpected(to.error()); }
-            if (machine_.coordination == StepMethod::Lai) {
-                if (auto fits = check_lai_move(path_move(linear, at, *to), machine_.tick_ns); !fits) {
-                    return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()});
-                }
-            }
-            for (std::size_t i = 0; i < at.size(); ++i) {
-                way_mm[i] = static_cast<double>((*to)[i] - at[i]) / steps_per_mm_[i];
-            }
-            times.add_move(way_mm, linear.rapid ? 0 : linear.feed_mm_s);
+            if (auto fits = check_lai(block, at, *to); !fits) { return std::unexpected(fits.error()); }
             leg.moves = leg.moves || *to != at;
             at = *to;
         }
-        times.finish();
         leg.end = b;
         leg.to = at;
-        leg.then_pause = b < blocks;
-        leg.pause_line = leg.then_pause ? program.blocks[b].line : 0;
-        leg.times = std::make_shared<const LegTimes>(std::move(times));
+        leg.then_pause = b < blocks && std::holds_alternative<Pause>(program.blocks[b].action);
         legs.push_back(std::move(leg));
     }
     return legs;
 }
 
-std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Program> program, const Leg& leg) const {
-    if (machine_.coordination == StepMethod::Lai) {
-        return std::make_unique<LaiFrames>(machine_, moves(*program, leg));
+std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const ProgramBlocks> program, std::uint32_t first,
+                                                    const AxisCounts& from) const {
+    if (machine_.coordination != StepMethod::Lai) {
+        return std::make_unique<ProgramFrames>(machine_, std::move(program), first, from);
     }
-    return std::make_unique<ProgramFrames>(machine_, std::move(program), leg);
+    const auto axes = axes_of(program->axes()).value();
+    std::vector<PathMove> moves;
+    LegEnd end{.block = first, .to = from};
+    for (; !program->ends_before(end.block); ++end.block) {
+        const Block block = program->block(end.block).value();
+        end.kind = end_by(block);
+        if (ends_leg(block)) { break; }
+        if (const auto move = move_of(block, end.block, axes, end.to)) { moves.push_back(*move); }
+    }
+    return std::make_unique<LaiFrames>(machine_, std::move(program), std::move(moves), end);
+}
+
+bool ProgramPlanner::moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const {
+    if (const auto* dwell = std::get_if<Dwell>(&block.action)) { return dwell->seconds > 0; }
+    const AxisCounts from = at;
+    at = target(std::get<LinearMove>(block.action), axes_of(program.axes()).value(), at, block.line).value();
+    return at != from;
+}
+
+/// Nothing: the block neither moves nor dwells. `at` becomes where it leads.
+std::optional<PathMove> ProgramPlanner::move_of(const Block& block, std::uint32_t number,
+                                                const std::vector<std::size_t>& axes, AxisCounts& at) const {
+    PathMove move{.from = at, .to = at};
+    if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
+        move = path_move(*linear, at, target(*linear, axes, at, block.line).value());
+        at = move.to;
+    } else {
+        move.dwell = ticks_of(std::get<Dwell>(block.action), static_cast<double>(machine_.tick_ns) * 1e-9);
+    }
+    move.line = block.line;
+    move.block = number;
+    return move.lead != 0 || move.dwell > Ticks{} ? std::optional(move) : std::nullopt;
 }
 
 void ProgramPlanner::each_move(const Program& program, const Leg& leg,
                                const std::function<void(const PathMove&)>& visit) const {
-    const auto axes = axes_of(program).value();
+    const auto axes = axes_of(program.axes).value();
     AxisCounts at = leg.from;
     for (std::uint32_t b = leg.first; b < leg.end; ++b) {
-        const Block& block = program.blocks[b];
-        PathMove move{.from = at, .to = at};
-        if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
-            move = path_move(*linear, at, target(*linear, axes, at, block.line).value());
-            at = move.to;
-        } else {
-            move.dwell = ticks_of(std::get<Dwell>(block.action), static_cast<double>(machine_.tick_ns) * 1e-9);
-        }
-        move.line = block.line;
-        move.block = b;
-        if (move.lead != 0 || move.dwell > Ticks{}) { visit(move); }
+        if (const auto move = move_of(program.blocks[b], b, axes, at)) { visit(*move); }
     }
 }
 
-std::vector<PathMove> ProgramPlanner::moves(const Program& program, const Leg& leg) const {
+std::vector<PathMove> ProgramPlanner::moves_of(const Program& program, const Leg& leg) const {
     std::vector<PathMove> moves;
     each_move(program, leg, [&moves](const PathMove& move) { moves.push_back(move); });
     return moves;

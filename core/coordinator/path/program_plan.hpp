@@ -8,24 +8,21 @@
 #include <vector>
 
 #include "core/coordinator/path/frame_source.hpp"
-#include "core/coordinator/path/leg_times.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/motion/lookahead.hpp"
-#include "core/program.hpp"
+#include "core/program_blocks.hpp"
 
 namespace lockstep {
 
-/// Blocks that follow each other without a pause.
+/// Blocks that follow each other without a rest between two of them.
 struct Leg {
     std::uint32_t first = 0;  // of the program's blocks, up to
-    std::uint32_t end = 0;    // this one, which is the pause if there is one
+    std::uint32_t end = 0;    // this one, which is the pause or the rest if there is one
     bool moves = false;       // a block moves or dwells
     bool then_pause = false;
-    std::int32_t pause_line = 0;
     AxisCounts from;  // whole steps
     AxisCounts to;
-    std::shared_ptr<const LegTimes> times;
 };
 
 struct PlanError {
@@ -36,6 +33,13 @@ struct PlanError {
 
 Ticks ticks_of(const Dwell& dwell, double tick_s);
 
+/// Program: the block ends no leg. Before the others the machine comes to rest, on whole steps.
+inline LegEnd::Kind end_by(const Block& block) {
+    if (std::holds_alternative<Pause>(block.action)) { return LegEnd::Kind::Pause; }
+    return std::holds_alternative<Settle>(block.action) ? LegEnd::Kind::Settle : LegEnd::Kind::Program;
+}
+inline bool ends_leg(const Block& block) { return end_by(block) != LegEnd::Kind::Program; }
+
 /// The machine's side of planning: limits and scales of all axes.
 class ProgramPlanner {
 public:
@@ -45,19 +49,33 @@ public:
     /// program's (StartMismatch), a target outside the travel (OutsideTravel), a move that is too long to count.
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const;
 
-    /// What the frames of a leg are made of. It is resumed before it makes any.
-    std::unique_ptr<FrameSource> frames(std::shared_ptr<const Program> program, const Leg& leg) const;
+    /// What the frames of a leg are made of: of the blocks from `first` on, where the axes stand at `from`. It is
+    /// resumed before it makes any. By the LAI method the whole program is known.
+    std::unique_ptr<FrameSource> frames(std::shared_ptr<const ProgramBlocks> program, std::uint32_t first,
+                                        const AxisCounts& from) const;
+    std::unique_ptr<FrameSource> frames(std::shared_ptr<const Program> program, const Leg& leg) const {
+        return frames(std::make_shared<WholeProgram>(std::move(program)), leg.first, leg.from);
+    }
 
     /// The moves of a leg from whole step to whole step, and its dwells.
     void each_move(const Program& program, const Leg& leg, const std::function<void(const PathMove&)>& visit) const;
-    std::vector<PathMove> moves(const Program& program, const Leg& leg) const;
+    std::vector<PathMove> moves_of(const Program& program, const Leg& leg) const;
 
-private:
-    std::expected<std::vector<std::size_t>, PlanError> axes_of(const Program& program) const;
-    std::expected<void, PlanError> check_start(const Program& program, const std::vector<std::size_t>& axes,
-                                               const AxisCounts& start) const;
+    /// The places of axes in the machine. Error: one that it lacks.
+    std::expected<std::vector<std::size_t>, PlanError> axes_of(const std::vector<std::string>& names) const;
+    /// Error: the axes stand elsewhere than where the program starts.
+    std::expected<void, PlanError> check_start(const ProgramHead& program, const AxisCounts& start) const;
+    /// Where a move leads. Error: outside the travel, or too far to count.
     std::expected<AxisCounts, PlanError> target(const LinearMove& move, const std::vector<std::size_t>& axes,
                                                 const AxisCounts& from, std::int32_t line) const;
+    /// Whether a block moves an axis or dwells. `at` becomes where it leads.
+    bool moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const;
+    /// Error: a move that cannot be made by the LAI method.
+    std::expected<void, PlanError> check_lai(const Block& block, const AxisCounts& from, const AxisCounts& to) const;
+
+private:
+    std::optional<PathMove> move_of(const Block& block, std::uint32_t number, const std::vector<std::size_t>& axes,
+                                    AxisCounts& at) const;
     PathMove path_move(const LinearMove& linear, const AxisCounts& from, const AxisCounts& to) const;
 
     MachineConfig machine_;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/program/known_program.hpp"
 #include "core/faults.hpp"
-#include "core/program.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
@@ -21,10 +21,10 @@ struct JobEvent {
     Kind kind = Kind::Begun;
     std::uint64_t job = 0;
     JobKind job_kind = JobKind::Run;
-    JobOutcome outcome = JobOutcome::Done;   // Ended
-    std::shared_ptr<const Program> program;  // Begun; null for homing
-    std::uint64_t program_id = 0;            // its Command::program; of Ended too
-    Epoch epoch = 0;                         // EpochBegun: its frame 1 starts at `start`; Overridden: in it
+    JobOutcome outcome = JobOutcome::Done;        // Ended
+    std::shared_ptr<const KnownProgram> program;  // Begun; null for homing
+    std::uint64_t program_id = 0;                 // its Command::program; of Ended too
+    Epoch epoch = 0;                              // EpochBegun: its frame 1 starts at `start`; Overridden: in it
     Tick start;
     PathPlace place;                         // EpochBegun: where on the program it starts
     Overrides overrides;                     // EpochBegun, Overridden
@@ -65,10 +65,12 @@ struct CoordinatorNotice {
         AxisGone,
         Interrupted,
         EpochBegun,
-        Claimed,      // it owns the machine now
-        StoodDown,    // another does
-        JobCutShort,  // by the takeover: where, and why it is not gone on with
-        JobContinued  // after the takeover: where
+        Claimed,       // it owns the machine now
+        StoodDown,     // another does
+        JobCutShort,   // by the takeover: where, and why it is not gone on with
+        JobContinued,  // after the takeover: where
+        ProgramLate,   // the axes rest on the path and wait for more of the program; behind which frame
+        ProgramCut     // the job ended with what is known of its program: at which line, and why
     };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;
@@ -81,6 +83,13 @@ struct CoordinatorInputs {
     std::span<const AxisState> axes;
     std::span<const MachineState> others;  // coordinators of the same machine; its own states are left out by identity
     std::span<const Command> commands;
+    std::span<const ProgramPart> parts = {};
+};
+
+/// A part of a program that was taken: the record keeps it.
+struct TakenPart {
+    std::uint64_t program = 0;
+    std::uint32_t index = 0;
 };
 
 struct CoordinatorOutputs {
@@ -88,6 +97,7 @@ struct CoordinatorOutputs {
     std::vector<Frame> frames;
     std::vector<AxisCommand> axis_commands;
     std::vector<Reply> replies;
+    std::vector<TakenPart> taken;
     std::vector<JobEvent> jobs;
     std::vector<CoordinatorNotice> notices;
     std::optional<EpochOutcome> epoch_end;  // in the step that judged it

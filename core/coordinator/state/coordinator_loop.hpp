@@ -6,9 +6,9 @@
 
 #include "core/coordinator/axes/axis_orders.hpp"
 #include "core/coordinator/axes/axis_roster.hpp"
+#include "core/coordinator/program/program_store.hpp"
 #include "core/coordinator/state/coordinator_io.hpp"
 #include "core/coordinator/state/machine_condition.hpp"
-#include "core/coordinator/state/program_store.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {

@@ -25,6 +25,13 @@ std::expected<void, std::string> ValueKeeper::edit(const gcode::ProgramValues& v
     return {};
 }
 
+void ValueKeeper::note_left(std::uint64_t program, const gcode::KeptValues& after) {
+    for (Arrived& arrived : arrived_) {
+        if (arrived.program == program) { arrived.after = after; }
+    }
+    if (running_ && running_->program == program) { running_->after = after; }
+}
+
 void ValueKeeper::take(const JobEvent& event) {
     const std::uint64_t program = event.program_id;
     if (event.kind == JobEvent::Kind::Begun) { running_ = Arrived{program, revision_, after(program)}; }

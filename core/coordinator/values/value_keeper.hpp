@@ -31,9 +31,11 @@ public:
         bool owns_machine = true;  // else the owner decides, and this coordinator may have to continue the program
         bool has_job = false;      // in motion, held, or inherited by a takeover
     };
-    /// A program has arrived whole. Error: why it is refused.
+    /// A program has arrived, or its first part. Error: why it is refused.
     std::expected<void, std::string> accept(std::uint64_t program, const gcode::ProgramValues& values,
                                             Circumstances now);
+    /// The last part of a program has arrived: the values that it leaves.
+    void note_left(std::uint64_t program, const gcode::KeptValues& after);
     void take(const JobEvent& event);
     /// The owner's values, while another coordinator owns the machine.
     void follow(std::uint64_t revision, gcode::KeptValues values);

@@ -24,10 +24,10 @@ namespace lockstep {
 
 /// The most bytes a ProgramChunk may have.
 inline constexpr std::size_t kMaxChunkBytes = lockstep_wire_MAX_CHUNK_BYTES;
+inline constexpr std::uint32_t kMaxChunks = 1U << 24;  // of a program
 /// The most bytes MachineValues may have.
 inline constexpr std::size_t kMaxValuesBytes = lockstep_wire_MAX_VALUES_BYTES;
 /// The most chunks a program may have: 128 MB.
-inline constexpr std::uint32_t kMaxChunks = 4096;
 
 /// A setpoint and the arrays it points to. Movable, since vectors keep their elements' place; not copyable.
 struct SetpointMessage : lockstep_wire_Setpoint {

@@ -65,6 +65,7 @@ lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {
             .program = chunk.program,
             .index = chunk.index,
             .count = chunk.count,
+            .share = chunk.share,
             .bytes = {._maximum = size,
                       ._length = size,
                       ._buffer = const_cast<std::uint8_t*>(chunk.bytes.data()),  // DDS only reads it
@@ -73,8 +74,9 @@ lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {
 
 FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire) {
     Checks check("program chunk");
-    check.within<std::uint32_t>("count", wire.count, 1, kMaxChunks);
-    check.within<std::int64_t>("index", wire.index, 0, std::int64_t{wire.count} - 1);
+    check.within<std::uint32_t>("count", wire.count, 0, kMaxChunks);
+    check.within<std::int64_t>("index", wire.index, 0, std::int64_t{wire.count == 0 ? kMaxChunks : wire.count} - 1);
+    check.within("share", wire.share, 0.0, 1.0);
     check.within<std::size_t>("the number of bytes", wire.bytes._length, 0, kMaxChunkBytes);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return ProgramChunk{.client = wire.client,
@@ -82,6 +84,7 @@ FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire) {
                         .program = wire.program,
                         .index = wire.index,
                         .count = wire.count,
+                        .share = wire.share,
                         .bytes = {wire.bytes._buffer, wire.bytes._buffer + wire.bytes._length}};
 }
 
@@ -91,6 +94,8 @@ lockstep_wire_Reply to_wire(const Reply& reply) {
                              .status = static_cast<lockstep_wire_ReplyStatus>(reply.status),
                              .fault = reply.fault,
                              .job = reply.job,
+                             .parts = reply.parts,
+                             .free_blocks = reply.free_blocks,
                              .text = {}};
     const std::string text = cut_text(reply.text, lockstep_wire_MAX_REPLY_BYTES);
     std::memcpy(wire.text, text.data(), text.size());
@@ -108,7 +113,9 @@ FromWire<Reply> from_wire(const lockstep_wire_Reply& wire) {
                  .status = status,
                  .fault = wire.fault,
                  .job = wire.job,
-                 .text = std::string(wire.text, length)};
+                 .text = std::string(wire.text, length),
+                 .parts = wire.parts,
+                 .free_blocks = wire.free_blocks};
 }
 
 }  // namespace lockstep

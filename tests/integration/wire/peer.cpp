@@ -32,8 +32,11 @@ bool answer_chunks(CoordinatorBus& bus) {
         bool all = false;
         bus.chunks.take([&](ProgramChunk&& chunk) {
             chunks[chunk.index] = chunk.bytes.size();
-            all = chunks.size() == chunk.count;
-            bus.replies.write({.client = chunk.client, .sequence = chunk.sequence});
+            all = chunk.count != 0 && chunks.size() == chunk.count;
+            bus.replies.write({.client = chunk.client,
+                               .sequence = chunk.sequence,
+                               .parts = static_cast<std::uint32_t>(chunks.size()),
+                               .free_blocks = 1'000'000});
         });
         return all;
     });

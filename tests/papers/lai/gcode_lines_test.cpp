@@ -64,7 +64,7 @@ std::vector<PathMove> moves_of(const MachineConfig& machine) {
         ADD_FAILURE() << legs.error().text;
         return {};
     }
-    return planner.moves(read->program, legs->front());
+    return planner.moves_of(read->program, legs->front());
 }
 
 Path planned(const std::vector<PathMove>& moves, const MachineConfig& machine, LaiFollowing following) {

@@ -38,12 +38,12 @@ TEST(Reply, NamesTheReasonOfARefusal) {
 }
 
 TEST(ProgramStore, KeepsTheNewestFewPrograms) {
-    ProgramStore programs;
+    ProgramStore programs{MachineConfig{}};
     for (std::uint64_t id = 1; id <= 5; ++id) { programs.accept(id, {.name = std::to_string(id)}); }
     EXPECT_EQ(programs.find(1), nullptr);
     ASSERT_NE(programs.find(2), nullptr);
     programs.accept(5, {.name = "again"});
-    EXPECT_EQ(programs.find(5)->name, "again");
+    EXPECT_EQ(programs.find(5)->head().name, "again");
     EXPECT_NE(programs.find(2), nullptr);
 }
 

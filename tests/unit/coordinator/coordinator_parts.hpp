@@ -56,7 +56,7 @@ protected:
     Term term{5, 1};
     AxisRoster axes{machine};
     AxisOrders orders{2};
-    ProgramStore programs;
+    ProgramStore programs{machine};
     MachineCondition condition;
     CoordinatorOutputs out;
 };

@@ -150,7 +150,7 @@ public:
     void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override {
         frames_->resume(place, at, overrides);
     }
-    void read() override { frames_->read(); }
+    bool read() override { return frames_->read(); }
     bool is_ready() override { return *known_ && frames_->is_ready(); }
     bool is_done() const override { return frames_->is_done(); }
     std::expected<std::optional<PathFrame>, PathStuck> next() override {
@@ -159,6 +159,8 @@ public:
     }
     std::vector<MoveBegin> begins() const override { return frames_->begins(); }
     bool turn(const Overrides& overrides) override { return frames_->turn(overrides); }
+    LegEnd end() const override { return frames_->end(); }
+    std::int32_t line_of(std::uint32_t block) const override { return frames_->line_of(block); }
     double seconds_from(const PathPlace& place) const override { return frames_->seconds_from(place); }
 
 private:

@@ -66,8 +66,7 @@ protected:
     OwnTargetsOfTwo() { receive_all(); }
     std::expected<OwnTargets, Refusal> targets(double x_mm, double y_mm, Ticks ticks = {}) {
         accept(1, x_mm, y_mm);
-        const auto legs = ProgramPlanner(machine).plan(*programs.find(1), axes.counts()).value();
-        return OwnTargets::plan(legs, ticks, loop(), methods::begin_steps);
+        return OwnTargets::plan(*programs.find(1), ticks, loop(), methods::begin_steps);
     }
 };
 

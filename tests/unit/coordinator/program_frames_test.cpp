@@ -148,28 +148,6 @@ TEST(ProgramTime, OfALineIsTheSameHoweverFinelyItIsCut) {
     }
 }
 
-TEST(LegTimes, OfALineAreThatOfItsRiseCruiseAndFall) {
-    const MachineConfig machine = two_axes();
-    for (const double part_mm : {200.0, 1.0, 0.05}) {
-        const Leg leg = ProgramPlanner(machine).plan(line_in_parts(200, part_mm), {0, 0}).value()[0];
-        EXPECT_NEAR(leg.times->seconds(), 2 + 100.0 / 1500, 1e-3) << part_mm;
-        EXPECT_NEAR(leg.times->seconds_from({static_cast<std::uint32_t>(leg.end / 2), {}}),
-                    part_mm == 200 ? leg.times->seconds() : leg.times->seconds() / 2, 1e-3);
-        EXPECT_EQ(leg.times->seconds_from({leg.end, {}}), 0);
-    }
-}
-
-TEST(LegTimes, CountDwellsAndTheWayAlongAMove) {
-    LegTimes times(two_axes(), 3);
-    const std::vector<double> way{150, 0};
-    times.add_move(way, 50);
-    times.add_rest(2);
-    times.finish();
-    EXPECT_NEAR(times.seconds(), 3 + 50.0 / 1500 + 2, 1e-3);
-    EXPECT_NEAR(times.seconds_from({3, Displacement::steps(75)}), (3 + 50.0 / 1500) / 2 + 2, 1e-3) << "mm along it";
-    EXPECT_NEAR(times.seconds_from({4, {}}), 2, 1e-3);
-}
-
 class LaiFramesTest : public Frames {
 protected:
     LaiFramesTest() : Frames(corner(), lai()) {}

@@ -21,86 +21,74 @@ ProgramChunk chunk(std::uint32_t index, std::uint32_t count, std::vector<std::ui
             .bytes = std::move(bytes)};
 }
 
-/// The program's bytes in two halves.
-std::pair<std::vector<std::uint8_t>, std::vector<std::uint8_t>> halves() {
-    const auto all = some_program();
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    return {{all.begin(), middle}, {middle, all.end()}};
+TEST(ProgramInbox, ReadsTheHeadAndTheBlocksOfAWholeProgram) {
+    ProgramInbox inbox;
+    const auto part = inbox.read(chunk(0, 1, some_program()));
+    ASSERT_TRUE(part);
+    EXPECT_EQ(part->head.name, "job");
+    EXPECT_EQ(part->blocks.size(), 1u);
+    EXPECT_TRUE(part->is_last);
+    EXPECT_EQ(part->sequence, 100u);
 }
 
-TEST(ProgramInbox, AProgramIsWholeWhenItsLastChunkHasCome) {
+TEST(ProgramInbox, ReadsLaterPartsThatNameNoAxes) {
     ProgramInbox inbox;
-    const auto [first, second] = halves();
-    EXPECT_FALSE(inbox.take(chunk(1, 2, second)).program) << "out of order";
-    const auto taken = inbox.take(chunk(0, 2, first));
-    ASSERT_TRUE(taken.program);
-    EXPECT_EQ(taken.program->name, "job");
-    EXPECT_EQ(taken.reply.status, ReplyStatus::Accepted);
-    EXPECT_EQ(taken.reply.sequence, 100u);
+    ASSERT_TRUE(inbox.read(chunk(0, 0, some_program())));
+    const auto bytes = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{2, LinearMove{{20}, 5}}}});
+    const auto part = inbox.read(chunk(1, 0, bytes));
+    ASSERT_TRUE(part) << part.error().text;
+    EXPECT_FALSE(part->is_last);
+    ASSERT_EQ(part->blocks.size(), 1u);
+    EXPECT_EQ(part->blocks[0].line, 2);
+    const auto wide = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{3, LinearMove{{1, 2}, 5}}}});
+    EXPECT_FALSE(inbox.read(chunk(2, 0, wide))) << "two places for one axis";
 }
 
-TEST(ProgramInbox, AChunkThatComesAgainIsAcknowledgedAgainAndChangesNothing) {
+TEST(ProgramInbox, AChunkWithoutBytesIsAQuestion) {
     ProgramInbox inbox;
-    const auto [first, second] = halves();
-    (void)inbox.take(chunk(0, 2, first));
-    EXPECT_EQ(inbox.take(chunk(0, 2, first)).reply.status, ReplyStatus::Accepted);
-    EXPECT_TRUE(inbox.take(chunk(1, 2, second)).program);
-    const auto again = inbox.take(chunk(1, 2, second));
-    EXPECT_EQ(again.reply.status, ReplyStatus::Accepted);
-    EXPECT_FALSE(again.program);
-}
-
-TEST(ProgramInbox, TwoClientsDoNotDisturbEachOther) {
-    ProgramInbox inbox;
-    const auto [first, second] = halves();
-    (void)inbox.take(chunk(0, 2, first, 1));
-    EXPECT_FALSE(inbox.take(chunk(1, 2, second, 2)).program);
-    EXPECT_TRUE(inbox.take(chunk(1, 2, second, 1)).program);
+    ASSERT_TRUE(inbox.read(chunk(0, 0, some_program())));
+    const auto part = inbox.read(chunk(0, 0, {}));
+    ASSERT_TRUE(part);
+    EXPECT_TRUE(part->is_question);
 }
 
 TEST(ProgramInbox, NonsenseIsRefusedAndSaysWhy) {
     ProgramInbox inbox;
-    for (const ProgramChunk& bad : {chunk(0, 0, {}), chunk(3, 2, {}), chunk(0, 1U << 30, {})}) {
-        const auto taken = inbox.take(bad);
-        EXPECT_EQ(taken.reply.status, ReplyStatus::Refused);
-        EXPECT_EQ(static_cast<FaultCode>(taken.reply.fault), FaultCode::BadProgram);
-        EXPECT_FALSE(taken.reply.text.empty());
+    const auto refused = inbox.read(chunk(3, 2, {}));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(static_cast<FaultCode>(refused.error().fault), FaultCode::BadProgram);
+    EXPECT_FALSE(refused.error().text.empty());
+}
+
+TEST(ProgramInbox, BytesThatAreNoProgramAreRefused) {
+    ProgramInbox inbox;
+    for (int n = 0; n < 2; ++n) {
+        EXPECT_FALSE(inbox.read(chunk(0, 1, {0xff, 0xff, 0xff}))) << "also when they come again";
     }
-    (void)inbox.take(chunk(0, 2, {1}));
-    EXPECT_EQ(inbox.take(chunk(1, 3, {1})).reply.status, ReplyStatus::Refused) << "the count changed";
 }
 
-TEST(ProgramInbox, BytesThatAreNoProgramAreRefusedWhenWhole) {
-    ProgramInbox inbox;
-    const auto taken = inbox.take(chunk(0, 1, {0xff, 0xff, 0xff}));
-    EXPECT_EQ(taken.reply.status, ReplyStatus::Refused);
-    EXPECT_FALSE(taken.program);
-    EXPECT_EQ(inbox.take(chunk(0, 1, {0xff, 0xff, 0xff})).reply.status, ReplyStatus::Refused)
-        << "also when it comes again";
-}
-
-TEST(ProgramInbox, TheOldestUnfinishedProgramGivesWay) {
-    ProgramInbox inbox;
-    const auto [first, second] = halves();
-    (void)inbox.take(chunk(0, 2, first, 1));
-    for (Identity client = 2; client <= 6; ++client) { (void)inbox.take(chunk(0, 2, first, client)); }
-    EXPECT_FALSE(inbox.take(chunk(1, 2, second, 1)).program);
-    EXPECT_TRUE(inbox.take(chunk(1, 2, second, 6)).program);
+TEST(ProgramInbox, ARefusedProgramStaysRefused) {
+    ProgramInbox inbox([](const ProgramChunk&, const ProgramDocument&) {
+        return std::expected<void, std::string>(std::unexpected(std::string("no")));
+    });
+    for (int n = 0; n < 2; ++n) { EXPECT_EQ(inbox.read(chunk(0, 0, some_program())).error().text, "no"); }
 }
 
 TEST(ProgramInbox, AnEditOfTheMachinesValuesIsNoProgramToRun) {
     const gcode::ProgramValues edit{.revision = 0, .after = gcode::KeptValues{}, .at_once = true};
     int checks = 0;
-    ProgramInbox inbox([&](std::uint64_t, const ProgramDocument& document) {
+    ProgramInbox inbox([&](const ProgramChunk&, const ProgramDocument& document) {
         checks += document.values && document.values->at_once ? 1 : 0;
         return std::expected<void, std::string>{};
     });
     const ProgramChunk whole =
         chunk(0, 1, program_bytes({.name = "edit", .axes = {"X"}, .start_mm = {0}, .blocks = {}}, edit));
-    const auto taken = inbox.take(whole);
-    EXPECT_FALSE(taken.program);
-    EXPECT_EQ(taken.reply.status, ReplyStatus::Accepted);
-    EXPECT_EQ(inbox.take(whole).reply.status, ReplyStatus::Accepted) << "a repeated chunk";
+    for (int n = 0; n < 2; ++n) {
+        const auto reply = inbox.read(whole);
+        ASSERT_FALSE(reply);
+        EXPECT_EQ(reply.error().status, ReplyStatus::Accepted);
+        EXPECT_EQ(reply.error().parts, 1u);
+    }
     EXPECT_EQ(checks, 1) << "the repeated one changes nothing";
 }
 

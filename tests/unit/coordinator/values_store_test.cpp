@@ -34,7 +34,7 @@ TEST_F(KeptInAFile, AChangeIsThereForTheNextProcess) {
     EXPECT_EQ(read_values(file), RevisedValues{});
     {
         ValuesStore store(file, {}, not_written);
-        ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
+        ASSERT_TRUE(store.accept({.program = 1}, edit(0, 12.5), {}));
         (void)store.step(0s, {});
     }
     const auto read = read_values(file);
@@ -45,7 +45,7 @@ TEST_F(KeptInAFile, AChangeIsThereForTheNextProcess) {
 
 TEST_F(KeptInAFile, ThePublishedStateTellsWhatIsOnTheDisk) {
     ValuesStore store(folder_ / file_, {}, not_written);
-    ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
+    ASSERT_TRUE(store.accept({.program = 1}, edit(0, 12.5), {}));
     std::optional<MachineValues> published = store.step(0s, {5, 6});
     ASSERT_TRUE(published);
     EXPECT_EQ(published->revision, 1U);
@@ -61,7 +61,7 @@ TEST_F(KeptInAFile, AChangeIsPublishedAtOnce) {
     ValuesStore store(folder_ / file_, {}, not_written);
     ASSERT_TRUE(store.step(0s, {}));
     EXPECT_TRUE(store.step(1ms, {}) == std::nullopt);
-    ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
+    ASSERT_TRUE(store.accept({.program = 1}, edit(0, 12.5), {}));
     const auto published = store.step(2ms, {});
     ASSERT_TRUE(published);
     EXPECT_EQ(published->revision, 1U);
@@ -93,7 +93,7 @@ TEST_F(KeptInAFile, AnUnfinishedFileOfAProcessThatDiedChangesNothing) {
     const fs::path file = folder_ / file_;
     {
         ValuesStore store(file, {}, not_written);
-        ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
+        ASSERT_TRUE(store.accept({.program = 1}, edit(0, 12.5), {}));
         (void)store.step(0s, {});
     }
     std::ofstream(file.string() + ".new-123") << "revision: 2 sys";
@@ -113,7 +113,7 @@ TEST_F(KeptInAFile, AWriteThatFailedIsRepeated) {
     const fs::path folder = folder_ / "machine";
     std::ofstream(folder) << "a file where the folder is to be";
     ValuesStore store(folder / "values.textproto", {}, [](const std::string&) { ++failures; });
-    ASSERT_TRUE(store.accept(1, edit(0, 12.5), {}));
+    ASSERT_TRUE(store.accept({.program = 1}, edit(0, 12.5), {}));
     (void)store.step(0s, {});
     while (failures == 0) { std::this_thread::sleep_for(1ms); }
     fs::remove(folder);

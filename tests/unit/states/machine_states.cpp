@@ -338,10 +338,10 @@ void coordinator_silent_in_own_move(Walker& m) {
     expect_fault(m, FaultCode::CoordinatorSilent);
 }
 
-/// A program is being sent: its last chunk has not arrived yet.
+/// A program is being sent: nothing of it has arrived yet.
 void program_arriving(Walker& m) {
     m.home();
-    m.send_all_but_the_last_chunk();
+    m.delay_program();
 }
 
 /// The owner ends in the middle of a job.

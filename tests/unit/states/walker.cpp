@@ -1,7 +1,6 @@
 #include "tests/unit/states/walker.hpp"
 
 #include "core/protocol/names.hpp"
-#include "services/documents/program_document.hpp"
 #include "tests/unit/virtual/jogger.hpp"
 
 namespace lockstep {
@@ -56,18 +55,6 @@ void Walker::inject(VirtualFault fault, double seconds) {
     fault.at = vm.now();
     fault.lasts = Ticks{static_cast<std::int64_t>(seconds * 1e6)};
     vm.schedule(fault);
-}
-
-void Walker::send_all_but_the_last_chunk() {
-    const std::vector<std::uint8_t> bytes = program_bytes(program_of({{40, 40}, {20, 20}}, 20));
-    const auto half = bytes.begin() + std::ssize(bytes) / 2;
-    const ProgramChunk first{.program = kNotSent, .count = 2, .bytes = {bytes.begin(), half}};
-    unsent_ = {.sequence = 1, .program = kNotSent, .index = 1, .count = 2, .bytes = {half, bytes.end()}};
-    deliver(first);
-}
-
-void Walker::deliver(const ProgramChunk& chunk) {
-    if (const auto taken = inbox_.take(chunk); taken.program) { vm.give_program(chunk.program, *taken.program); }
 }
 
 bool Walker::is_settled() const {
@@ -160,7 +147,7 @@ std::size_t Walker::choices(FaultCode code) {
 
 /// `By hand`: faults end, and missing parts are sent.
 void Walker::repair() {
-    if (const auto chunk = std::exchange(unsent_, std::nullopt)) { deliver(*chunk); }
+    if (std::exchange(is_program_delayed_, false)) { vm.give_program(kNotSent, program_of({{40, 40}, {20, 20}}, 20)); }
     (void)vm.advance_until([this] { return !vm.faults_pending(); }, Ticks{120'000'000});
     wait(0.2);
 }

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "services/coordinator/program_inbox.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -38,9 +37,8 @@ public:
     void inject(VirtualFault fault, double seconds);
     /// Of X, by a client that renews it for `seconds`, or until its end.
     Reply jog(Identity client, double distance_mm, double seconds);
-    /// Of the program that Question::Program::Unknown names.
-    void send_all_but_the_last_chunk();
-
+    /// The program that Question::Program::Unknown names arrives with the next repair.
+    void delay_program() { is_program_delayed_ = true; }
     /// Sends the command and waits for its effect. Fails if no answer comes in time, a refusal offers no remedy, or an
     /// accepted command has no effect in time.
     Answer answer_to(const Question& question);
@@ -57,7 +55,6 @@ public:
 private:
     void TestBody() override {}
 
-    void deliver(const ProgramChunk& chunk);
     bool settles(double seconds);
     bool is_settled() const;
     void repair();
@@ -66,8 +63,7 @@ private:
     void expect_effect(const Question& question, const Reply& reply, std::uint64_t jobs_before);
 
     std::uint64_t programs_ = 0;
-    ProgramInbox inbox_;
-    std::optional<ProgramChunk> unsent_;
+    bool is_program_delayed_ = false;
 };
 
 }  // namespace lockstep

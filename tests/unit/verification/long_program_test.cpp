@@ -7,6 +7,7 @@
 
 #include "clients/analysis/findings.hpp"
 #include "clients/verification/verification.hpp"
+#include "core/coordinator/program/program_store.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/queued_sink.hpp"
@@ -95,9 +96,10 @@ TEST(ProgramRecord, FitsASmallQueueAsItArrivesInChunks) {
             recorder.record(Tick{i}, ProgramChunk{.program = 5, .index = i, .count = kChunks, .bytes = bytes});
             while (written + 1 < i) { std::this_thread::sleep_for(std::chrono::milliseconds{1}); }
         }
-        const auto program = std::make_shared<const Program>();
-        recorder.record(Tick{100},
-                        JobEvent{.kind = JobEvent::Kind::Begun, .job = 2, .program = program, .program_id = 5});
+        ProgramStore programs(machine);
+        programs.accept(5, {.name = "long", .axes = {}, .start_mm = {}, .blocks = {}});
+        recorder.record(
+            Tick{100}, JobEvent{.kind = JobEvent::Kind::Begun, .job = 2, .program = programs.find(5), .program_id = 5});
         EXPECT_EQ(recorder.published().program_parts, kChunks + 1);
         EXPECT_EQ(sink.failures(), 0U);
     }

@@ -183,11 +183,11 @@ TEST(HostileCommands, AreRefused) {
 TEST(HostileChunk, IsRefused) {
     const ProgramChunk good{.index = 0, .count = 1, .bytes = {1, 2, 3}};
     auto wire = to_wire(good);
-    wire.count = 0;
-    expect_refused(wire, "count");
-    wire = to_wire(good);
     wire.count = 0xFFFFFFFF;
     expect_refused(wire, "count");
+    wire = to_wire(good);
+    wire.share = 1.5;
+    expect_refused(wire, "share");
     wire = to_wire(good);
     wire.index = 1;
     expect_refused(wire, "index");

@@ -101,6 +101,8 @@ MachineState RandomMessages::machine_state() {
             .outcome = index(2) == 0 ? std::nullopt : std::optional(static_cast<JobOutcome>(index(3))),
             .job_begun = term(),
             .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .job_fault = static_cast<std::uint16_t>(between(0, UINT16_MAX)),
+            .lacks_blocks = coin(),
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
             .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
@@ -138,6 +140,7 @@ Command RandomMessages::command() {
 ProgramChunk RandomMessages::chunk() {
     const std::uint32_t count = 1 + index(4096);
     ProgramChunk chunk{.client = bits(), .sequence = bits(), .program = bits(), .index = index(count), .count = count};
+    chunk.share = static_cast<double>(index(1000)) / 1000;
     chunk.bytes.resize(index(32768 + 1));
     for (auto& byte : chunk.bytes) { byte = static_cast<std::uint8_t>(bits()); }
     return chunk;

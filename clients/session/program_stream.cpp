@@ -1,0 +1,110 @@
+#include "clients/session/program_stream.hpp"
+
+#include <iterator>
+#include <utility>
+
+namespace lockstep {
+
+ProgramStream::ProgramStream(LineReader lines, const GcodeSetup& setup, std::uint64_t revision)
+    : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()), before_(setup.values), revision_(revision) {}
+
+std::expected<void, Diagnostics> ProgramStream::read_first() {
+    for (std::size_t n = 0; n < kLinesFirst && read_line() == Reading::Goes; ++n) {}
+    if (trouble_) { return std::unexpected(Diagnostics{*trouble_}); }
+    return {};
+}
+
+std::expected<Program, Diagnostics> ProgramStream::skip_before(int line) {
+    Program program{.name = head_.name, .axes = head_.axes, .start_mm = head_.start_mm, .blocks = {}};
+    std::optional<Block> feed;  // the last move with one
+    std::optional<Block> last;
+    while (line_ + 1 < line && read_line() == Reading::Goes) {
+        for (Block& block : blocks_) {
+            const auto* move = std::get_if<LinearMove>(&block.action);
+            if (move != nullptr && !move->rapid) { feed = block; }
+            if (move != nullptr) { last = std::move(block); }
+        }
+        blocks_.clear();
+    }
+    modal_ = gcode_.modal();
+    if (!trouble_) { (void)read_first(); }
+    if (trouble_) { return std::unexpected(Diagnostics{*trouble_}); }
+    if (feed) { program.blocks.push_back(*std::move(feed)); }
+    if (last) { program.blocks.push_back(*std::move(last)); }
+    program.blocks.insert(program.blocks.end(), blocks_.begin(), blocks_.end());
+    return program;
+}
+
+void ProgramStream::replace_first(const Program& program) {
+    head_ = program.head();
+    blocks_ = program.blocks;
+    next_ = 0;
+}
+
+ProgramStream::Reading ProgramStream::read_line() {
+    if (is_over_) { return Reading::Ends; }
+    const auto next = lines_.next();
+    if (!next) {
+        trouble_ = Diagnostic{.line = line_ + 1, .column = 1, .message = next.error()};
+    } else if (next->state == LineReader::State::Waits) {
+        return Reading::Waits;
+    } else if (next->state == LineReader::State::Line) {
+        take_line(next->line);
+    } else if (const auto done = gcode_.finish(); !done) {
+        trouble_ =
+            Diagnostic{.line = done.error().line, .column = done.error().column, .message = done.error().message};
+    }
+    is_over_ = trouble_ || gcode_.is_ended() || next->state == LineReader::State::Ends;
+    return is_over_ ? Reading::Ends : Reading::Goes;
+}
+
+void ProgramStream::take_line(std::string_view line) {
+    const auto done = gcode_.take(line, ++line_);
+    if (!done) {
+        trouble_ =
+            Diagnostic{.line = done.error().line, .column = done.error().column, .message = done.error().message};
+        return;  // what the line did before its error is left out
+    }
+    std::vector<Block> blocks = gcode_.take_blocks();
+    blocks_.insert(blocks_.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+}
+
+void ProgramStream::append(ProgramSender& sender) {
+    for (std::size_t room = sender.free_blocks(); room > 0 && next_ < blocks_.size(); --room) {
+        sender.append(blocks_[next_++]);
+        is_settled_ = false;
+    }
+    if (next_ < blocks_.size()) { return; }
+    blocks_.clear();
+    next_ = 0;
+}
+
+void ProgramStream::feed(ProgramSender& sender, std::chrono::nanoseconds now) {
+    sender.note_share(lines_.share_read());
+    for (std::size_t n = 0; n < kLinesAtOnce; ++n) {
+        append(sender);
+        if (!blocks_.empty()) { return; }
+        const Reading reading = read_line();
+        if (reading == Reading::Waits) { return settle(sender, now); }
+        waits_since_.reset();
+        if (reading == Reading::Ends && blocks_.empty()) { return finish(sender); }
+    }
+}
+
+void ProgramStream::finish(ProgramSender& sender) {
+    if (trouble_) { return sender.cut("line " + std::to_string(trouble_->line) + ": " + trouble_->message); }
+    const gcode::KeptValues after = gcode_.values();
+    sender.end(after == before_ ? std::nullopt : std::optional(after));
+}
+
+/// What came is sent at once; the machine runs to its end when no more has come for a while.
+void ProgramStream::settle(ProgramSender& sender, std::chrono::nanoseconds now) {
+    sender.flush();
+    if (!waits_since_) { waits_since_ = now; }
+    if (is_settled_ || now - *waits_since_ < kSettleAfter) { return; }
+    sender.append({line_, Settle{}});
+    sender.flush();
+    is_settled_ = true;
+}
+
+}  // namespace lockstep

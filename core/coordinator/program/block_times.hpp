@@ -1,0 +1,56 @@
+// About how long the blocks of a program take, for progress and time left: at their feed as far as the axes allow it,
+// with a rise from rest and a fall to rest between two sharp corners. Constant work for each block, bounded memory.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/path_place.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+class BlockTimes {
+public:
+    explicit BlockTimes(const MachineConfig& machine);
+
+    // Block by block.
+    /// `way_mm`: of each axis. `feed_mm_s` 0: as fast as the axes allow.
+    void add_move(std::span<const double> way_mm, double feed_mm_s);
+    void add_dwell(double seconds);
+    /// The machine comes to rest: behind the last block too.
+    void add_rest();
+
+    double seconds() const { return marks_.empty() ? 0 : marks_.back().end_s; }
+    /// A place's way is along its block, in mm.
+    double seconds_from(const PathPlace& place) const;
+
+    /// Above so many blocks a mark stands for two, four, eight ... of them.
+    static constexpr std::size_t kMostMarks = 1 << 16;
+
+private:
+    struct Mark {
+        double end_s = 0;
+        double length_mm = 0;  // of its block, where it has only one
+    };
+
+    void add(double seconds, double length_mm);
+    void halve();
+    void close_run();
+
+    std::vector<double> max_velocity_mm_s_;
+    std::vector<double> acceleration_mm_s2_;
+    std::vector<Mark> marks_;
+    std::uint64_t blocks_ = 0;
+    std::uint64_t stride_ = 1;  // blocks for each mark
+    // Since the last sharp corner:
+    std::size_t run_ = 0;  // its first mark
+    double run_begin_s_ = 0;
+    double run_s_ = 0;  // at the speeds asked for
+    double run_mm_ = 0;
+    double run_acceleration_ = 0;
+    std::vector<double> direction_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,160 @@
+#include "core/coordinator/program/known_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+enum class Kind : std::uint8_t { Move, Rapid, Dwell, Pause, Settle };
+
+// Line and kind are one number, exact up to 2^53.
+constexpr double kKinds = 8;
+
+Kind kind_of(const Block& block) {
+    if (const auto* move = std::get_if<LinearMove>(&block.action)) { return move->rapid ? Kind::Rapid : Kind::Move; }
+    if (std::holds_alternative<Dwell>(block.action)) { return Kind::Dwell; }
+    return std::holds_alternative<Pause>(block.action) ? Kind::Pause : Kind::Settle;
+}
+
+double amount_of(const Block& block) {
+    if (const auto* move = std::get_if<LinearMove>(&block.action)) { return move->feed_mm_s; }
+    const auto* dwell = std::get_if<Dwell>(&block.action);
+    return dwell != nullptr ? dwell->seconds : 0;
+}
+
+Block block_of(std::span<const double> row) {
+    const auto line = static_cast<std::int32_t>(row[0] / kKinds);
+    const auto kind = static_cast<Kind>(row[0] - kKinds * line);
+    const std::span<const double> place = row.subspan(2);
+    switch (kind) {
+        case Kind::Move:
+        case Kind::Rapid: return {line, LinearMove{{place.begin(), place.end()}, row[1], kind == Kind::Rapid}};
+        case Kind::Dwell: return {line, Dwell{row[1]}};
+        case Kind::Pause: return {line, Pause{}};
+        case Kind::Settle: break;
+    }
+    return {line, Settle{}};
+}
+
+}  // namespace
+
+std::expected<KnownProgram, ProgramCut> KnownProgram::begin(const MachineConfig& machine, ProgramHead head,
+                                                            std::unique_ptr<RowStore> rows) {
+    auto axes = ProgramPlanner(machine).axes_of(head.axes);
+    if (!axes) { return std::unexpected(ProgramCut{axes.error().fault, 0, axes.error().text}); }
+    return KnownProgram(machine, std::move(head), *std::move(axes), std::move(rows));
+}
+
+KnownProgram::KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<std::size_t> axes,
+                           std::unique_ptr<RowStore> rows)
+    : planner_(machine),
+      head_(std::move(head)),
+      axes_(std::move(axes)),
+      rows_(std::move(rows)),
+      times_(machine),
+      at_mm_(head_.start_mm),
+      legs_{0},
+      row_(row_width(head_)) {
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) { zero_.append(0); }
+}
+
+std::expected<void, ProgramCut> KnownProgram::check(const Block& block) const {
+    if (known_ > std::numeric_limits<std::uint32_t>::max() - kMaxProgramBlocks) {
+        return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
+                                          "the program has more than 4 thousand million blocks; cut it in two"});
+    }
+    const auto* move = std::get_if<LinearMove>(&block.action);
+    if (move == nullptr) { return {}; }
+    if (move->target_mm.size() != axes_.size()) {
+        return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
+                                          "the target has " + std::to_string(move->target_mm.size()) + " places for " +
+                                              std::to_string(axes_.size()) + " axes"});
+    }
+    const auto to = planner_.target(*move, axes_, zero_, block.line);
+    if (!to) { return std::unexpected(ProgramCut{to.error().fault, block.line, to.error().text}); }
+    return {};
+}
+
+void KnownProgram::take(const Block& block) {
+    if (const auto* move = std::get_if<LinearMove>(&block.action)) {
+        std::vector<double> way(zero_.size());
+        for (std::size_t i = 0; i < axes_.size(); ++i) { way[axes_[i]] = move->target_mm[i] - at_mm_[i]; }
+        times_.add_move(way, move->rapid ? 0 : move->feed_mm_s);
+        at_mm_ = move->target_mm;
+    } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
+        times_.add_dwell(dwell->seconds);
+    } else {
+        times_.add_rest();
+        legs_.push_back(known_ + static_cast<std::uint32_t>(taken_.size() / row_.size()) + 1);
+        if (legs_.size() > kLegsKept) { legs_.pop_front(); }
+    }
+    taken_.push_back(kKinds * block.line + static_cast<double>(kind_of(block)));
+    taken_.push_back(amount_of(block));
+    taken_.insert(taken_.end(), at_mm_.begin(), at_mm_.end());
+    last_line_ = block.line;
+}
+
+std::expected<void, ProgramCut> KnownProgram::append(std::span<const Block> blocks) {
+    const auto taken = take_all(blocks);
+    if (!taken) { cut(taken.error()); }
+    return taken;
+}
+
+std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> blocks) {
+    for (const Block& block : blocks) {
+        if (auto fits = check(block); !fits) { return fits; }
+    }
+    taken_.clear();
+    const std::int32_t line_before = last_line_;
+    for (const Block& block : blocks) { take(block); }
+    if (const auto kept = rows_->append(taken_); !kept) {
+        last_line_ = line_before;
+        return std::unexpected(ProgramCut{FaultCode::ProgramNotKept, blocks.front().line, kept.error()});
+    }
+    known_ += static_cast<std::uint32_t>(blocks.size());
+    return {};
+}
+
+void KnownProgram::cut(ProgramCut cut) {
+    if (!is_open_) { return; }
+    is_open_ = false;
+    cut_ = std::move(cut);
+}
+
+bool KnownProgram::read(std::uint32_t number) const { return number < known_ && rows_->read(number, row_); }
+
+std::optional<Block> KnownProgram::block(std::uint32_t number) const {
+    return read(number) ? std::optional(block_of(row_)) : std::nullopt;
+}
+
+std::optional<std::vector<double>> KnownProgram::place_before(std::uint32_t number) const {
+    if (number == 0) { return head_.start_mm; }
+    if (!read(number - 1)) { return std::nullopt; }
+    return std::vector<double>(row_.begin() + kHeadNumbers, row_.end());
+}
+
+std::optional<Program> KnownProgram::whole() const {
+    Program program{.name = head_.name, .axes = head_.axes, .start_mm = head_.start_mm, .blocks = {}};
+    for (std::uint32_t number = 0; number < known_; ++number) {
+        auto block = this->block(number);
+        if (!block) { return std::nullopt; }
+        program.blocks.push_back(*std::move(block));
+    }
+    return program;
+}
+
+std::optional<std::uint32_t> KnownProgram::leg_of(std::uint32_t number) const {
+    const auto behind = std::ranges::upper_bound(legs_, number);
+    return behind == legs_.begin() ? std::nullopt : std::optional(*(behind - 1));
+}
+
+/// What is not known yet takes as long for its share as what is.
+double KnownProgram::seconds_from(const PathPlace& place) const {
+    const double left = times_.seconds_from(place);
+    if (!is_open_ || known_share_ <= 0) { return left; }
+    return left + times_.seconds() * (1 / std::min(known_share_, 1.0) - 1);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,100 @@
+// A program as a coordinator knows it: whole, or still growing while it runs. Its blocks are kept outside of it.
+#pragma once
+
+#include <deque>
+#include <expected>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/coordinator/path/program_plan.hpp"
+#include "core/coordinator/program/block_times.hpp"
+#include "core/coordinator/program/row_store.hpp"
+#include "core/faults.hpp"
+#include "core/machine.hpp"
+#include "core/program_blocks.hpp"
+
+namespace lockstep {
+
+/// Why a program ends before its end: no more of it comes.
+struct ProgramCut {
+    FaultCode why = FaultCode::BadProgram;
+    std::int32_t line = 0;  // of what is wrong; 0: none
+    std::string text;       // the value, the limit and the remedy
+};
+
+class KnownProgram final : public ProgramBlocks {
+public:
+    /// Error: an axis that the machine lacks.
+    static std::expected<KnownProgram, ProgramCut> begin(const MachineConfig& machine, ProgramHead head,
+                                                         std::unique_ptr<RowStore> rows);
+    /// How many numbers a block is kept as.
+    static std::size_t row_width(const ProgramHead& head) { return kHeadNumbers + head.axes.size(); }
+
+    /// More blocks of an open program. Error: one that the machine cannot run, or they cannot be kept. None of them is
+    /// taken then, and the program is cut before them.
+    std::expected<void, ProgramCut> append(std::span<const Block> blocks);
+    /// All of its blocks are known.
+    void end() { is_open_ = false; }
+    /// No more blocks come.
+    void cut(ProgramCut cut);
+    /// Its sender's estimate of how much of it is known; 0: it cannot say.
+    void note_share(double known) { known_share_ = known; }
+    /// Blocks before this one were run. They are kept as long as there is room.
+    void release_before(std::uint32_t block) const { rows_->release_before(block); }
+
+    const ProgramHead& head() const { return head_; }
+    const std::vector<std::string>& axes() const override { return head_.axes; }
+    /// More blocks may come.
+    bool is_open() const { return is_open_; }
+    const std::optional<ProgramCut>& cut() const { return cut_; }
+    std::uint32_t known() const { return known_; }
+    /// How many blocks more it can take now.
+    std::uint64_t free() const { return rows_->free_rows(); }
+    /// Of the last block that is known; 0: there is none.
+    std::int32_t last_line() const { return last_line_; }
+
+    std::optional<Block> block(std::uint32_t number) const override;
+    bool ends_before(std::uint32_t number) const override { return !is_open_ && number >= known_; }
+    double seconds_from(const PathPlace& place) const override;
+    /// Where the axes of the program are before a block, in mm. Nothing: it is not at hand yet.
+    std::optional<std::vector<double>> place_before(std::uint32_t number) const;
+    /// All of it, so far. Nothing: not all of it is at hand.
+    std::optional<Program> whole() const;
+    /// The first block of the leg with this block. Nothing: it is forgotten.
+    std::optional<std::uint32_t> leg_of(std::uint32_t number) const;
+    /// The first block that is still kept.
+    std::uint32_t first_kept() const { return rows_->first_row(); }
+
+    static constexpr std::size_t kLegsKept = 65'536;
+
+private:
+    static constexpr std::size_t kHeadNumbers = 2;  // line and kind, feed or seconds; then the place behind the block
+
+    KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<std::size_t> axes,
+                 std::unique_ptr<RowStore> rows);
+    std::expected<void, ProgramCut> check(const Block& block) const;
+    std::expected<void, ProgramCut> take_all(std::span<const Block> blocks);
+    void take(const Block& block);
+    bool read(std::uint32_t number) const;
+
+    ProgramPlanner planner_;
+    AxisCounts zero_;  // of all axes of the machine
+    ProgramHead head_;
+    std::vector<std::size_t> axes_;  // of the machine: those that the program names
+    std::unique_ptr<RowStore> rows_;
+    BlockTimes times_;
+    bool is_open_ = true;
+    std::optional<ProgramCut> cut_;
+    std::uint32_t known_ = 0;
+    std::int32_t last_line_ = 0;
+    double known_share_ = 0;
+    std::vector<double> at_mm_;        // behind the last block that is known
+    std::deque<std::uint32_t> legs_;   // the newest: their first blocks
+    std::vector<double> taken_;        // rows of the blocks being taken
+    mutable std::vector<double> row_;  // that was read last
+};
+
+}  // namespace lockstep

@@ -1,0 +1,65 @@
+// The programs that a coordinator knows: whole, or open, with more to come.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/coordinator/program/known_program.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+/// Makes the place where a program's blocks are kept.
+using MakeRows = std::function<std::unique_ptr<RowStore>(std::size_t width)>;
+std::unique_ptr<RowStore> memory_rows(std::size_t width);
+
+/// Keeps only the newest few, and those that run.
+class ProgramStore {
+public:
+    explicit ProgramStore(const MachineConfig& machine, MakeRows make_rows = memory_rows)
+        : machine_(machine), make_rows_(std::move(make_rows)) {}
+
+    /// A whole program.
+    void accept(std::uint64_t id, const Program& program);
+    /// A part of a program. Parts are numbered from 0, and are taken in this order: a part that was taken before is
+    /// acknowledged again, one that comes too early is not taken. The reply says how many are.
+    struct Taken {
+        Reply reply;
+        bool is_new = false;  // it was taken now
+    };
+    Taken take(const ProgramPart& part, Slot now);
+    /// Jobs of it go on.
+    void forget(std::uint64_t id);
+    /// Null: nothing of it has arrived, or it was replaced by newer ones.
+    std::shared_ptr<const KnownProgram> find(std::uint64_t id) const;
+    /// The owner of the machine, in each slot: cuts open programs whose sender is silent. `missed`: slots before this
+    /// one in which this process was stalled.
+    void tend(Slot now, Slot missed);
+
+    static constexpr std::size_t kProgramsKept = 4;
+    static constexpr double kSenderSilence_s = 10;
+
+private:
+    struct Entry {
+        std::uint64_t id = 0;
+        Identity client = 0;                    // its sender
+        std::shared_ptr<KnownProgram> program;  // null: its first part was refused
+        std::uint32_t parts = 0;                // taken
+        Slot received = 0;                      // a part, or a repetition
+        std::optional<Reply> refusal;           // of the part that was refused
+    };
+    Entry* entry_of(std::uint64_t id);
+    Entry& begin(std::uint64_t id, const ProgramHead& head);
+    void take_next(Entry& entry, const ProgramPart& part);
+
+    MachineConfig machine_;
+    MakeRows make_rows_;
+    std::list<Entry> programs_;  // the oldest first
+};
+
+}  // namespace lockstep

@@ -1,0 +1,62 @@
+#include "core/gcode/gcode_stream.hpp"
+
+#include <optional>
+
+#include "core/gcode/interpreter.hpp"
+#include "core/gcode/program_builder.hpp"
+
+namespace lockstep {
+
+struct GcodeStream::Parts {
+    explicit Parts(const GcodeSetup& given)
+        : setup(given),
+          builder(setup),
+          interpreter(gcode::interpreter_setup(setup), gcode::start_state(setup),
+                      [this](const gcode::Action& action, int line) { take(action, line); }) {}
+
+    void take(const gcode::Action& action, int line) {
+        builder.take(action, line, interpreter);
+        for (GcodeError& error : builder.take_errors()) {
+            if (!wrong) { wrong = std::move(error); }
+        }
+    }
+    std::expected<void, GcodeError> outcome(const gcode::Result& done) {
+        if (!wrong && !done) { wrong = done.error(); }
+        return wrong ? std::expected<void, GcodeError>(std::unexpected(*wrong)) : std::expected<void, GcodeError>();
+    }
+
+    GcodeSetup setup;
+    gcode::ProgramBuilder builder;
+    gcode::Interpreter interpreter;
+    std::optional<GcodeError> wrong;
+};
+
+GcodeStream::GcodeStream(const GcodeSetup& setup) : parts_(std::make_unique<Parts>(setup)) {}
+GcodeStream::~GcodeStream() = default;
+GcodeStream::GcodeStream(GcodeStream&&) noexcept = default;
+GcodeStream& GcodeStream::operator=(GcodeStream&&) noexcept = default;
+
+ProgramHead GcodeStream::head() const { return parts_->builder.head(); }
+
+std::expected<void, GcodeError> GcodeStream::take(std::string_view line, int number) {
+    auto done = parts_->outcome(parts_->interpreter.take(line, number));
+    if (!done) { return done; }
+    if (auto slow = gcode::slow_feed(parts_->interpreter)) { return std::unexpected(*std::move(slow)); }
+    return {};
+}
+
+std::expected<void, GcodeError> GcodeStream::finish() { return parts_->outcome(parts_->interpreter.finish()); }
+
+bool GcodeStream::is_ended() const { return parts_->interpreter.ended(); }
+
+std::vector<Block> GcodeStream::take_blocks() { return parts_->builder.take_blocks(); }
+
+std::vector<GcodeNote> GcodeStream::take_notes() { return parts_->builder.take_notes(); }
+
+gcode::KeptValues GcodeStream::values() const {
+    return gcode::kept_values(parts_->interpreter.state(), gcode::park_place(parts_->setup));
+}
+
+ModalState GcodeStream::modal() const { return gcode::modal_of(parts_->interpreter.state(), parts_->setup); }
+
+}  // namespace lockstep

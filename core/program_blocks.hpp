@@ -1,0 +1,39 @@
+// The blocks of a program as a stream: all of them, or those that are known so far.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/path_place.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+class ProgramBlocks {
+public:
+    virtual ~ProgramBlocks() = default;
+    virtual const std::vector<std::string>& axes() const = 0;
+    /// Nothing: it is not at hand yet, or there is none.
+    virtual std::optional<Block> block(std::uint32_t number) const = 0;
+    /// There is no block of this number, and none will come.
+    virtual bool ends_before(std::uint32_t number) const = 0;
+    /// About how long the program takes from a place on, as far as it is known. 0: it is not estimated.
+    virtual double seconds_from(const PathPlace& /*place*/) const { return 0; }
+};
+
+class WholeProgram final : public ProgramBlocks {
+public:
+    explicit WholeProgram(std::shared_ptr<const Program> program) : program_(std::move(program)) {}
+
+    const std::vector<std::string>& axes() const override { return program_->axes; }
+    std::optional<Block> block(std::uint32_t number) const override {
+        return ends_before(number) ? std::nullopt : std::optional(program_->blocks[number]);
+    }
+    bool ends_before(std::uint32_t number) const override { return number >= program_->blocks.size(); }
+
+private:
+    std::shared_ptr<const Program> program_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,112 @@
+#include "services/files/line_reader.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kAtOnce = 1 << 18;
+
+std::unexpected<std::string> failure(const std::string& name) {
+    return std::unexpected(name + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+std::expected<LineReader, std::string> LineReader::open(const std::string& path) {
+    const bool is_pipe = path == "-";
+    const int file = is_pipe ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) { return failure(path); }
+    return LineReader(file, is_pipe ? "standard input" : path);
+}
+
+LineReader::LineReader(int file, std::string name) : file_(file), name_(std::move(name)) {
+    struct stat status {};
+    is_file_ = fstat(file_, &status) == 0 && S_ISREG(status.st_mode);
+    bytes_ = is_file_ ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
+LineReader::LineReader(LineReader&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      name_(std::move(other.name_)),
+      is_file_(other.is_file_),
+      bytes_(other.bytes_),
+      read_(other.read_),
+      buffer_(std::move(other.buffer_)),
+      at_(other.at_),
+      is_at_end_(other.is_at_end_),
+      is_begun_(other.is_begun_) {}
+
+LineReader::~LineReader() {
+    if (file_ > STDIN_FILENO) { close(file_); }
+}
+
+double LineReader::share_read() const {
+    if (bytes_ == 0) { return 0; }
+    return std::min(1.0, static_cast<double>(read_ - (buffer_.size() - at_)) / static_cast<double>(bytes_));
+}
+
+/// False: nothing is there now.
+std::expected<bool, std::string> LineReader::fill() {
+    pollfd wait{.fd = file_, .events = POLLIN, .revents = 0};
+    if (!is_file_ && poll(&wait, 1, 0) == 0) { return false; }
+    buffer_.erase(0, std::exchange(at_, 0));
+    const std::size_t before = buffer_.size();
+    buffer_.resize(before + kAtOnce);
+    const ssize_t size = ::read(file_, buffer_.data() + before, kAtOnce);
+    buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    if (size < 0 && (errno == EINTR || errno == EAGAIN)) { return false; }
+    if (size < 0) { return failure(name_); }
+    read_ += static_cast<std::uint64_t>(size);
+    is_at_end_ = size == 0;
+    if (is_at_end_ && is_file_ && read_ < bytes_) {
+        return std::unexpected(name_ + ": it has become shorter while it was read");
+    }
+    return true;
+}
+
+/// Nothing: the line's end is not known yet.
+std::optional<std::string_view> LineReader::cut_line() {
+    const std::string_view rest = std::string_view(buffer_).substr(at_);
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos && !is_at_end_) { return std::nullopt; }
+    std::string_view line = rest.substr(0, end);
+    std::size_t next = line.size() + (end == std::string_view::npos ? 0 : 1);
+    if (const std::size_t carriage = line.find('\r'); carriage != std::string_view::npos) {
+        const bool only_returns = line.substr(carriage).find_first_not_of('\r') == std::string_view::npos;
+        next = only_returns ? next : carriage + 1;
+        line = line.substr(0, carriage);
+    }
+    at_ += next;
+    return line;
+}
+
+std::expected<LineReader::Next, std::string> LineReader::next() {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    for (;;) {
+        if (!std::exchange(is_begun_, is_begun_ || buffer_.size() >= kByteOrderMark.size()) &&
+            buffer_.starts_with(kByteOrderMark)) {
+            at_ = kByteOrderMark.size();
+        }
+        if (is_at_end_ && at_ == buffer_.size()) { return Next{State::Ends, {}}; }
+        if (at_ < buffer_.size()) {
+            if (const auto line = cut_line()) { return Next{State::Line, *line}; }
+        }
+        if (buffer_.size() - at_ > kMostLineBytes) {
+            return std::unexpected(name_ + ": a line is longer than " + std::to_string(kMostLineBytes) + " bytes");
+        }
+        const auto filled = fill();
+        if (!filled) { return std::unexpected(filled.error()); }
+        if (!*filled) { return Next{State::Waits, {}}; }
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,63 @@
+// About how long the blocks of a program take, in bounded memory.
+#include "core/coordinator/program/block_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace lockstep {
+namespace {
+
+MachineConfig two_axes() {
+    MachineConfig machine{.name = "two"};
+    for (const char* name : {"X", "Y"}) {
+        machine.axes.push_back({.name = name,
+                                .steps_per_mm = 80,
+                                .start_velocity_mm_s = 10,
+                                .max_velocity_mm_s = 150,
+                                .max_accel_mm_s2 = 1500,
+                                .max_decel_mm_s2 = 1500,
+                                .position_max_mm = 500});
+    }
+    return machine;
+}
+
+BlockTimes of_a_line(int parts) {
+    BlockTimes times(two_axes());
+    const std::array<double, 2> way{200.0 / parts, 0};
+    for (int k = 0; k < parts; ++k) { times.add_move(way, 100); }
+    times.add_rest();
+    return times;
+}
+
+TEST(BlockTimes, OfALineAreThatOfItsRiseCruiseAndFall) {
+    for (const std::uint32_t parts : {1U, 200U, 4000U}) {
+        const BlockTimes times = of_a_line(static_cast<int>(parts));
+        EXPECT_NEAR(times.seconds(), 2 + 100.0 / 1500, 1e-3) << parts;
+        EXPECT_NEAR(times.seconds_from({parts / 2, {}}), parts == 1 ? times.seconds() : times.seconds() / 2, 1e-3);
+        EXPECT_EQ(times.seconds_from({parts + 1, {}}), 0);
+    }
+}
+
+TEST(BlockTimes, CountDwellsAndTheWayAlongAMove) {
+    BlockTimes times(two_axes());
+    const std::array<double, 2> way{150, 0};
+    times.add_move(way, 50);
+    times.add_dwell(2);
+    EXPECT_NEAR(times.seconds(), 3 + 50.0 / 1500 + 2, 1e-3);
+    EXPECT_NEAR(times.seconds_from({0, Displacement::steps(75)}), (3 + 50.0 / 1500) / 2 + 2, 1e-3) << "mm along it";
+    EXPECT_NEAR(times.seconds_from({1, {}}), 2, 1e-3);
+}
+
+TEST(BlockTimes, KeepABoundedNumberOfMarksOfAnyProgram) {
+    constexpr std::uint32_t kParts = 10 * BlockTimes::kMostMarks;
+    const BlockTimes times = of_a_line(kParts);
+    EXPECT_NEAR(times.seconds(), 2 + 100.0 / 1500, 1e-3);
+    for (const std::uint32_t part : {0U, 1000U, kParts / 3, kParts / 2, kParts - 1}) {
+        const double left = times.seconds() * (kParts - part) / kParts;
+        EXPECT_NEAR(times.seconds_from({part, {}}), left, 1e-3) << part;
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
