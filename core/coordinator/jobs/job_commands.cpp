@@ -10,6 +10,9 @@ namespace {
 std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Command& command,
                                                                        const CoordinatorLoop& loop, bool whole) {
     auto program = loop.programs.find(command.program);
+    if (const Reply* refusal = loop.programs.refusal_of(command.program)) {
+        return refuse(static_cast<FaultCode>(refusal->fault), refusal->text);
+    }
     if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived"); }
     if (whole && program->is_open()) {
         return refuse(FaultCode::UnknownProgram, "the program has not arrived whole, and this is planned as a whole");

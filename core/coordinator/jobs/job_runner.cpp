@@ -91,14 +91,14 @@ void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
 }
 
 void JobRunner::interrupted(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
-    const bool may_go_on = path_.interrupt(end_of_epoch);
+    path_.interrupt(end_of_epoch);
     if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
     if (intent_ == Intent::Hold) { return loop.enter(MachinePhase::Holding); }
     const bool lacks_blocks = path_.waits_for_blocks();
     loop.notice({lacks_blocks ? CoordinatorNotice::Kind::ProgramLate : CoordinatorNotice::Kind::Interrupted,
                  lacks_blocks ? FaultCode::None : FaultCode::FrameLate, end_of_epoch.ran});
     if (path_.is_stuck()) { return fail(FaultCode::FrameBeyondLimits, 0, loop); }
-    if (!may_go_on) { return fail(FaultCode::FrameLate, 0, loop); }
+    if (!lacks_blocks && !path_.may_try_again(end_of_epoch)) { return fail(FaultCode::FrameLate, 0, loop); }
     follow(path_.go_on(loop), loop);
 }
 

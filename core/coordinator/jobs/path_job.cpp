@@ -131,10 +131,14 @@ void PathJob::end_epoch(const EpochEnd& end) {
     progress_.end_path(subticks(runner_.ticks_of(end.ran)));
 }
 
-bool PathJob::interrupt(const EpochEnd& end) {
+void PathJob::interrupt(const EpochEnd& end) {
     resume_ = end.place;
     positions_ = end.positions;
-    fruitless_ = end.ran == 0 ? fruitless_ + 1 : 0;
+    if (end.ran > 0) { fruitless_ = 0; }
+}
+
+bool PathJob::may_try_again(const EpochEnd& end) {
+    fruitless_ += end.ran == 0 ? 1 : 0;
     return fruitless_ < kMaxFruitless;
 }
 

@@ -46,8 +46,10 @@ public:
     void stop(Slot next) { runner_.stop(next); }
     void end_epoch(const EpochEnd& end);
     void give_up_epoch() { is_moving_ = false; }
-    /// All axes rest together on the path, proved by their counts. False: too many epochs in a row have run no frame.
-    bool interrupt(const EpochEnd& end);
+    /// All axes rest together on the path, proved by their counts.
+    void interrupt(const EpochEnd& end);
+    /// Behind an interruption that nobody asked for. False: too many of them in a row left no frame that was run.
+    bool may_try_again(const EpochEnd& end);
     /// The epoch ended early because no frame keeps the limits.
     bool is_stuck() const { return runner_.is_stuck(); }
     /// The machine rests because no more of the program is known.
@@ -94,7 +96,7 @@ private:
     PathPlace resume_;                 // where the epoch begins; held or interrupted: where the next one will,
     std::vector<Position> positions_;  // and where the axes rest, exactly; empty: on whole steps
     std::optional<LegEnd> leg_done_;   // by the owner before
-    int fruitless_ = 0;                // epochs in a row that ran no frame
+    int fruitless_ = 0;                // interruptions in a row without a frame that was run
 };
 
 }  // namespace lockstep

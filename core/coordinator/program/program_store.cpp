@@ -26,6 +26,11 @@ std::shared_ptr<const KnownProgram> ProgramStore::find(std::uint64_t id) const {
     return found == programs_.end() ? nullptr : found->program;
 }
 
+const Reply* ProgramStore::refusal_of(std::uint64_t id) const {
+    const auto found = std::ranges::find(programs_, id, &Entry::id);
+    return found == programs_.end() || found->program || !found->refusal ? nullptr : &*found->refusal;
+}
+
 void ProgramStore::forget(std::uint64_t id) {
     std::erase_if(programs_, [id](const Entry& entry) { return entry.id == id; });
 }

@@ -37,6 +37,8 @@ public:
     void forget(std::uint64_t id);
     /// Null: nothing of it has arrived, or it was replaced by newer ones.
     std::shared_ptr<const KnownProgram> find(std::uint64_t id) const;
+    /// Why nothing of it was taken; null: something was, or nothing has arrived.
+    const Reply* refusal_of(std::uint64_t id) const;
     /// The owner of the machine, in each slot: cuts open programs whose sender is silent. `missed`: slots before this
     /// one in which this process was stalled.
     void tend(Slot now, Slot missed);

@@ -6,6 +6,7 @@
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
+#include "core/coordinator/jobs/path_job.hpp"
 #include "core/coordinator/jobs/path_progress.hpp"
 #include "core/methods/paper_steps.hpp"
 
@@ -140,6 +141,18 @@ TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
     EXPECT_EQ(doubt_of(last), TakeoverDoubt::Interrupted);
     job.forget();
     EXPECT_FALSE(job.exists());
+}
+
+/// Holds before a first frame are asked for: they say nothing about the path.
+TEST_F(CoordinatorParts, APathIsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
+    PathJob path(machine);
+    const EpochEnd fruitless{.kind = EpochEnd::Kind::Interrupted};
+    for (int k = 0; k < 5; ++k) { path.interrupt(fruitless); }
+    EXPECT_TRUE(path.may_try_again(fruitless));
+    EXPECT_TRUE(path.may_try_again(fruitless));
+    EXPECT_FALSE(path.may_try_again(fruitless));
+    path.interrupt({.kind = EpochEnd::Kind::Interrupted, .ran = 1});
+    EXPECT_TRUE(path.may_try_again(fruitless)) << "a frame was run";
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ private:
         feed_.push_back(0);
         asked_.push_back(at_);
     }
+    void add(const Settle&) { add(Dwell{}); }
     void add(const Pause&) {
         come_to_rest();
         course_.stretches.push_back({.to = at_, .rests = true, .pauses = true});
