@@ -46,7 +46,7 @@ private:
     std::string link_;
 };
 
-/// What has arrived within the time. Nothing: the other side is gone.
+/// The bytes that arrive within the time, perhaps none. nullopt: the other side has closed the connection.
 std::optional<std::string> read_from(const Descriptor& from, std::chrono::milliseconds within);
 /// False: the other side is gone, or has not read for long.
 bool write_to(const Descriptor& to, const std::string& bytes);

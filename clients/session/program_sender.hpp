@@ -27,7 +27,7 @@ public:
     /// How many blocks more it takes now; the coordinator's room, less what waits here and is under way. 0: later.
     std::size_t free_blocks() const;
     void append(const Block& block);
-    /// What was appended is sent now, though more of it would fit into its part.
+    /// Sends the appended blocks now, although the part has room for more.
     void flush();
     /// How much of the program has been appended, 0 to 1, where that is known.
     void note_share(double share) { share_ = share; }

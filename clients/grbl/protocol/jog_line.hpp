@@ -11,7 +11,7 @@
 
 namespace lockstep::grbl {
 
-/// What holds unless the line says otherwise.
+/// The sender's modes. Words of the line take precedence over them.
 struct JogModes {
     bool inches = false;
     bool relative = false;

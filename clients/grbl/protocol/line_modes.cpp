@@ -22,7 +22,7 @@ gcode::Point park_of(const MachineConfig& machine) {
     return park;
 }
 
-/// What changes no more than a mode, or ends a program that does nothing.
+/// Whether the action only changes a mode, or ends a program that does nothing.
 bool is_mode(const gcode::Action& action) {
     const auto* event = std::get_if<gcode::Event>(&action);
     if (event == nullptr) { return false; }

@@ -1,4 +1,4 @@
-// What a sender of grbl's protocol may learn of the machine.
+// The part of the machine's state that senders of grbl's protocol can read.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ public:
 
     explicit JogKeys(const MachineConfig& machine) : machine_(machine) {}
 
-    /// What was typed; `now` from any clock that does not go back.
+    /// Takes the bytes that the terminal sent. `now`: the time of any monotonic clock.
     void take(std::string_view bytes, std::chrono::nanoseconds now);
     void release_all() { held_.clear(); }
 
