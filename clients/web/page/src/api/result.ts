@@ -1,0 +1,27 @@
+// What a request gave: a value, or what is wrong with it.
+import type { Problem } from "./contract";
+
+export type Result<T> = { readonly ok: true; readonly value: T } | { readonly ok: false; readonly problem: Problem };
+
+function isProblem(value: unknown): value is Problem {
+  return typeof value === "object" && value !== null && typeof (value as Problem).code === "string"
+    && typeof (value as Problem).title === "string";
+}
+
+/** An answer that is no Problem (of a proxy, say) still names its status. */
+export function problemOf(status: number, statusText: string, body: string): Problem {
+  try {
+    const parsed: unknown = JSON.parse(body);
+    if (isProblem(parsed)) return parsed;
+  } catch {
+    // the text itself is shown
+  }
+  return { title: statusText || String(status), status, code: `http-${status}`, detail: body.slice(0, 300) };
+}
+
+/** The server did not answer at all. */
+export const NO_ANSWER = "no-answer";
+
+export function noAnswer(detail: string): Problem {
+  return { title: "", status: 0, code: NO_ANSWER, detail };
+}

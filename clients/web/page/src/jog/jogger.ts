@@ -1,0 +1,88 @@
+// Joins the dead man with the server: held keys become requests, refusals let go of the keys.
+import { command } from "../api/client";
+import type { JogAxis, Problem } from "../api/contract";
+import { JogDeadMan, type Direction, type JogRequest, type ReleaseReason } from "./dead_man";
+import { OneAtATime } from "./one_at_a_time";
+
+const TICK_MS = 10;
+
+interface JogBody {
+  readonly stream?: string;
+  /** The number of the press: a request that comes late, behind its release, starts nothing. */
+  readonly press: number;
+  readonly jogs: readonly JogAxis[];
+}
+
+export interface JogSource {
+  /** What a direction means now: speeds and distance. */
+  jogs(direction: Direction): JogAxis[];
+  /** The name of the open connection; empty while there is none. */
+  stream(): string;
+  /** The jog is over though the key is held. */
+  ended(problem: Problem | undefined): void;
+}
+
+export class Jogger {
+  private readonly deadMan: JogDeadMan;
+  private readonly requests: OneAtATime<JogBody>;
+  private jogs: JogAxis[] = [];
+  private pressed = 0;
+  private problem: Problem | undefined;
+
+  constructor(renew_ms: number, private readonly source: JogSource) {
+    this.deadMan = new JogDeadMan(renew_ms);
+    const clock = { after: (ms: number, action: () => void) => {
+      const timer = setTimeout(action, ms);
+      return () => clearTimeout(timer);
+    } };
+    this.requests = new OneAtATime((body, signal) => this.send(body, signal), clock, () => this.refused());
+    setInterval(() => this.carryOut(this.deadMan.tick(performance.now())), TICK_MS);
+    addEventListener("blur", () => this.releaseAll("blur"));
+    addEventListener("pagehide", () => this.releaseAll("hidden"));
+    document.addEventListener("visibilitychange", () => document.hidden && this.releaseAll("hidden"));
+  }
+
+  press(holder: string, direction: Direction): void {
+    this.carryOut(this.deadMan.press(holder, direction, performance.now()));
+  }
+
+  release(holder: string): void {
+    this.carryOut(this.deadMan.release(holder, performance.now()));
+  }
+
+  releaseAll(reason: ReleaseReason): void {
+    this.carryOut(this.deadMan.releaseAll(reason, performance.now()));
+  }
+
+  private carryOut(requests: readonly JogRequest[]): void {
+    for (const request of requests) {
+      if (request.kind === "start") {
+        ++this.pressed;
+        this.jogs = this.source.jogs(request.direction);
+        this.requests.change(this.body());
+      } else if (request.kind === "renew") this.requests.renew(this.body());
+      else {
+        this.jogs = [];
+        this.requests.stop(this.body());
+      }
+    }
+  }
+
+  private body(): JogBody {
+    const stream = this.source.stream();
+    const body = { press: this.pressed, jogs: this.jogs };
+    return stream === "" ? body : { stream, ...body };
+  }
+
+  private async send(body: JogBody, signal: AbortSignal): Promise<boolean> {
+    const answer = await command("jog", body, signal);
+    this.problem = answer.ok ? undefined : answer.problem;
+    return answer.ok && answer.value.jogging !== false;
+  }
+
+  private refused(): void {
+    const wasMoving = this.deadMan.isMoving();
+    this.releaseAll("refused");
+    if (wasMoving) this.source.ended(this.problem);
+  }
+}

@@ -1,0 +1,37 @@
+// Lines that were entered before, newest last; the arrow keys walk through them.
+
+export const MOST_LINES = 100;
+
+export class History {
+  private lines: string[];
+  private at: number;
+  private draft = "";
+
+  constructor(lines: readonly string[] = []) {
+    this.lines = lines.slice(-MOST_LINES);
+    this.at = this.lines.length;
+  }
+
+  /** A line that was sent. The same one again is not kept twice in a row. */
+  add(line: string): void {
+    if (line.trim() !== "" && this.lines.at(-1) !== line) this.lines = [...this.lines, line].slice(-MOST_LINES);
+    this.at = this.lines.length;
+    this.draft = "";
+  }
+
+  /** The line before; what was being written is kept for the way back. */
+  earlier(written: string): string {
+    if (this.at === this.lines.length) this.draft = written;
+    this.at = Math.max(0, this.at - 1);
+    return this.lines[this.at] ?? this.draft;
+  }
+
+  later(): string {
+    this.at = Math.min(this.lines.length, this.at + 1);
+    return this.lines[this.at] ?? this.draft;
+  }
+
+  all(): readonly string[] {
+    return this.lines;
+  }
+}

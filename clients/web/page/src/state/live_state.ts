@@ -1,0 +1,43 @@
+// The newest state of the machine, from events.
+import type { State } from "../api/contract";
+import type { ServerEvent } from "./event_parser";
+import { mergePatch, type Json } from "./merge_patch";
+
+export class LiveState {
+  private whole: Json | undefined;
+  private streamName = "";
+  private lastId = "";
+
+  /** Whether the event changed the state. A patch without a state to patch is passed over. */
+  take(event: ServerEvent): boolean {
+    if (event.name === "stream") {
+      this.streamName = (JSON.parse(event.data) as { stream: string }).stream;
+      return false;
+    }
+    if (event.name === "state") this.whole = JSON.parse(event.data) as Json;
+    else if (event.name === "delta" && this.whole !== undefined) {
+      this.whole = mergePatch(this.whole, JSON.parse(event.data) as Json);
+    } else return false;
+    this.lastId = event.id;
+    return true;
+  }
+
+  get state(): State | undefined {
+    return this.whole as unknown as State | undefined;
+  }
+
+  /** The name of the connection, for jogs: the server ends a jog with its stream. */
+  get stream(): string {
+    return this.streamName;
+  }
+
+  /** From where the server may continue after a lost connection. */
+  get resumeFrom(): string {
+    return this.lastId;
+  }
+
+  /** The connection is gone, and with it its name. */
+  disconnected(): void {
+    this.streamName = "";
+  }
+}

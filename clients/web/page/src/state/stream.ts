@@ -1,0 +1,86 @@
+// The connection to the server's events: opened again when it ends, and probed when it is silent.
+import { session } from "../api/client";
+import { EventParser } from "./event_parser";
+import { LiveState } from "./live_state";
+
+const PROBE_AFTER_MS = 500;
+const DEAD_AFTER_MS = 12_000; // the server sends a comment after 5 s
+const RETRY_MS = [250, 500, 1000, 2000, 3000];
+
+export interface StreamListener {
+  changed(): void;
+  /** The session is not or no longer valid. */
+  denied(): void;
+}
+
+export class StateStream {
+  readonly live = new LiveState();
+  connected = false;
+  /** When the server last proved that it is there: by an event, a comment or an answer. */
+  contact_ms = performance.now();
+  private aborted: AbortController | undefined;
+  private attempts = 0;
+  private received_ms = performance.now();
+  private probing = false;
+
+  constructor(private readonly listener: StreamListener) {
+    setInterval(() => void this.watch(), PROBE_AFTER_MS / 2);
+  }
+
+  /** Runs until the session is denied. */
+  async run(): Promise<void> {
+    for (;;) {
+      const denied = await this.connect();
+      this.connected = false;
+      this.live.disconnected();
+      this.listener.changed();
+      if (denied) return this.listener.denied();
+      const wait = RETRY_MS[Math.min(this.attempts++, RETRY_MS.length - 1)]!;
+      await new Promise((resolve) => setTimeout(resolve, wait));
+    }
+  }
+
+  /** @returns whether the server denies access */
+  private async connect(): Promise<boolean> {
+    this.aborted = new AbortController();
+    const from = this.live.resumeFrom;
+    this.received_ms = performance.now();
+    try {
+      const response = await fetch("/api/events", {
+        headers: from === "" ? {} : { "Last-Event-ID": from }, cache: "no-store", signal: this.aborted.signal,
+      });
+      if (!response.ok || response.body === null) return response.status === 401;
+      await this.read(response.body);
+    } catch {
+      // tried again
+    }
+    return false;
+  }
+
+  private async read(body: ReadableStream<Uint8Array>): Promise<void> {
+    const parser = new EventParser();
+    const text = new TextDecoder();
+    const reader = body.getReader();
+    for (;;) {
+      const { done, value } = await reader.read();
+      if (done) return;
+      this.connected = true;
+      this.attempts = 0;
+      this.received_ms = this.contact_ms = performance.now();
+      const events = parser.take(text.decode(value, { stream: true }));
+      if (events.map((event) => this.live.take(event)).includes(true)) this.listener.changed();
+    }
+  }
+
+  /** A state that does not change sends no events: an answer to a small request proves the connection instead. */
+  private async watch(): Promise<void> {
+    const now = performance.now();
+    if (this.connected && now - this.received_ms > DEAD_AFTER_MS) this.aborted?.abort();
+    if (!this.connected || this.probing || now - this.contact_ms < PROBE_AFTER_MS) return;
+    this.probing = true;
+    const answer = await session();
+    this.probing = false;
+    if (answer.ok) this.contact_ms = performance.now();
+    else if (answer.problem.status === 401) this.aborted?.abort();
+  }
+}

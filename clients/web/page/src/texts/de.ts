@@ -1,0 +1,94 @@
+// Every text of the page, in German.
+import type { Texts } from "./en";
+
+export const de: Texts = {
+  page: {
+    title: "Lockstep", skip: "Zu den Bedienelementen der Maschine",
+    theme: "Dunkel oder hell", language: "English", keys: "Tasten", close: "Schließen", dismiss: "Ausblenden", loading: "Verbinde …",
+  },
+  signIn: {
+    token: "Schlüssel", submit: "Anmelden",
+    hint: "Öffne die Adresse, die lockstep-web beim Start ausgegeben hat, oder gib ihren Schlüssel ein.",
+  },
+  link: {
+    lost: "Seit {age} keine Verbindung zum Server. Alle Werte sind die zuletzt bekannten.",
+    stale: "Die Steuerung schweigt seit {age}. Alle Werte sind die zuletzt bekannten.",
+    unreachable: "Keine Steuerung wird empfangen. Alle Werte sind die zuletzt bekannten.",
+    never: "Noch keine Steuerung wurde empfangen. Starte die Maschine: lockstep up",
+    configDiffers: "Die Steuerung läuft mit einer anderen Konfiguration, als dieser Server liest: Orte und Grenzen können falsch sein.",
+    standby: "Eine Ersatzsteuerung steht bereit", viewers: "{count} sehen zu", writer: "Befehle: {name}",
+    writerHere: "Befehle: der Server dieser Seite", viewOnly: "Nur ansehen",
+  },
+  mode: {
+    Unreachable: "Nicht erreichbar", Waiting: "Wartet auf Achsen", Idle: "Bereit", Homing: "Referenzfahrt", Running: "Läuft",
+    Holding: "Hält an", Paused: "Angehalten", Stopping: "Stoppt", Fault: "Fehler", Jogging: "Handfahrt",
+  },
+  phase: {
+    Initialize: "Startet", Standby: "Ruht", Accelerate: "Beschleunigt", Cruise: "Fährt", Decelerate: "Bremst",
+    Stop: "Stopp", Fault: "Fehler",
+  },
+  commands: {
+    home: "Referenz", homeAxis: "Referenzfahrt {axis}", run: "Start", hold: "Halt", resume: "Weiter", stop: "Stopp",
+    estop: "Not-Halt", reset: "Quittieren", refused: "Abgelehnt: {title}", noAnswer: "Der Server antwortet nicht.",
+    noAnswerRemedy: "Prüfe die Verbindung. Die Achsen bremsen von selbst, wenn eine Handfahrt nicht mehr erneuert wird.",
+    remedy: "Abhilfe: {remedy}", place: "{place}: {value}", limit: "erlaubt: {limit}",
+    estopHint: "Die Pulse enden sofort. Dies ist keine Sicherheitsfunktion: die Motoren bleiben unter Spannung.",
+  },
+  alarms: {
+    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", ended: "Der letzte Auftrag endete vorzeitig",
+  },
+  axes: {
+    title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",
+    notHomed: "Nicht referenziert", missing: "Nicht empfangen", unproved: "Lage nicht bewiesen: {cause}", age: "Alter", slack: "Vorlauf", late: "Verzug",
+    skew: "Versatz", clock: "Uhr", following: "Schleppfehler: {steps} Schritte", now: "< 0,5 s",
+    hints: {
+      age: "Der Werte dieser Achse", slack: "So lange vor ihrem Beginn kam die letzte Vorgabe mindestens, ms",
+      late: "Schritt neben seiner befohlenen Zeit, höchstens, µs", skew: "Zwischen Schritten zweier Achsen, höchstens, µs",
+      clock: "Die Maschinenzeit weicht höchstens so weit ab, µs",
+    },
+  },
+  jog: {
+    title: "Handfahrt", velocity: "Tempo", distance: "Strecke", continuous: "Halten", keys: "Pfeiltasten, Bild auf und Bild ab, solange der Fokus hier ist",
+    move: "{axis} {sign} fahren", plus: "plus", minus: "minus",
+    ended: "Die Maschine hat die Handfahrt beendet. Drücke erneut.", blocked: "Zuerst {axes} referenzieren",
+  },
+  path: {
+    title: "Bahn", twoD: "Von oben", threeD: "3D", fit: "Einpassen", follow: "Dem Kopf folgen", empty: "Lade ein Programm, um seine Bahn zu sehen.",
+    label: "Bahn des Programms. Pfeiltasten verschieben oder drehen sie, Plus und Minus vergrößern, 0 passt sie ein.", segments: "{count} Strecken", ahead: "Voraus", rapid: "Eilgang",
+    done: "Erledigt",
+  },
+  strip: { title: "Letzte {seconds} s", velocity: "Tempo", position: "Lage", unit: { velocity: "mm/s", position: "mm" } },
+  job: {
+    title: "Auftrag", none: "Noch kein Auftrag", left: "noch", progress: "Fortschritt", waits: "Ruht auf der Bahn, bis mehr vom Programm ankommt",
+    line: "Zeile {line}", outcome: { Done: "Fertig", Stopped: "Gestoppt", Failed: "Fehlgeschlagen" },
+    kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt" },
+    held: "Angehalten in Zeile {line}", braking: "Bremst …",
+  },
+  overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
+  program: {
+    title: "Programm", load: "Programm laden", drop: "Lege eine G-Code-Datei hier ab, oder lade sie.", checking: "Prüfe …", none: "Kein Programm ist geladen.",
+    figures: "{lines} Zeilen, {size}", failed: "{name} wurde nicht geladen", errorAt: "Zeile {line}, Spalte {column}: {message}", error: "{message}",
+    tooLong: "{size}; höchstens {limit}", notes: "{count} Hinweise", noteAt: "Zeile {line}: {text}", follow: "Der Zeile in Ausführung folgen", text: "G-Code",
+
+  },
+  mdi: {
+    title: "MDI", label: "Eine Zeile G-Code", send: "Senden", placeholder: "G0 X10 Y10", history: "Frühere Zeilen", accepted: "angenommen", refused: "abgelehnt",
+    keys: "Pfeil auf und ab: frühere Zeilen",
+  },
+  offsets: {
+    title: "Nullpunkte", system: "System", active: "aktiv", touch: "{axis} hier auf 0", edit: "{system}, {axis}", rotation: "Drehung",
+    g92: "G92", none: "Noch nicht empfangen",
+  },
+  tools: {
+    title: "Werkzeuge", number: "Nr.", pocket: "Platz", length: "Länge Z", diameter: "Durchmesser", add: "Speichern", remove: "Werkzeug {number} entfernen",
+    none: "Die Werkzeugtabelle ist leer.",
+  },
+  reports: {
+    title: "Berichte", none: "Noch keine Berichte auf diesem Rechner. lockstep analyze erstellt einen.", report: "Bericht", incident: "Vorfall", refresh: "Neu lesen",
+  },
+  keys: {
+    title: "Tasten", estop: "F1", estopText: "Not-Halt", stop: "Escape", stopText: "Stopp", hold: "F2", holdText: "Halt", resume: "F4",
+    resumeText: "Weiter", jog: "Pfeile, Bild auf, Bild ab", jogText: "Handfahrt, solange der Fokus auf den Fahrtasten liegt und die Taste gehalten wird",
+    view: "Pfeile, +, −, 0", viewText: "Bahn verschieben, vergrößern und einpassen, solange der Fokus auf ihr liegt",
+  },
+};

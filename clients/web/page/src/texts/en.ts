@@ -1,0 +1,95 @@
+// Every text of the page, in English. Words in braces are filled in; another language is a file like this one.
+
+export const en = {
+  page: {
+    title: "Lockstep", skip: "Skip to the machine's controls",
+    theme: "Dark or light", language: "Deutsch", keys: "Keys", close: "Close", dismiss: "Dismiss", loading: "Connecting …",
+  },
+  signIn: {
+    token: "Token", submit: "Sign in",
+    hint: "Open the address that lockstep-web printed at its start, or enter its token.",
+  },
+  link: {
+    lost: "No connection to the server for {age}. All values are the last known.",
+    stale: "The coordinator is silent for {age}. All values are the last known.",
+    unreachable: "No coordinator is received. All values are the last known.",
+    never: "No coordinator was received yet. Start the machine: lockstep up",
+    configDiffers: "The coordinator runs another configuration than this server reads: places and limits may be wrong.",
+    standby: "A standby coordinator is ready", viewers: "{count} viewing", writer: "Commands: {name}",
+    writerHere: "Commands: this page's server", viewOnly: "View only",
+  },
+  mode: {
+    Unreachable: "Unreachable", Waiting: "Waiting for axes", Idle: "Idle", Homing: "Homing", Running: "Running",
+    Holding: "Holding", Paused: "Held", Stopping: "Stopping", Fault: "Fault", Jogging: "Jogging",
+  },
+  phase: {
+    Initialize: "Initialize", Standby: "Standby", Accelerate: "Accelerate", Cruise: "Cruise", Decelerate: "Decelerate",
+    Stop: "Stop", Fault: "Fault",
+  },
+  commands: {
+    home: "Home", homeAxis: "Home {axis}", run: "Run", hold: "Hold", resume: "Resume", stop: "Stop",
+    estop: "Emergency stop", reset: "Reset", refused: "Refused: {title}", noAnswer: "The server does not answer.",
+    noAnswerRemedy: "Check the connection. The axes brake by themselves when a jog is no longer renewed.",
+    remedy: "Remedy: {remedy}", place: "{place}: {value}", limit: "allowed: {limit}",
+    estopHint: "Pulses cease at once. This is no safety function: it does not cut the power of the motors.",
+  },
+  alarms: {
+    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", ended: "The last job ended early",
+  },
+  axes: {
+    title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",
+    notHomed: "Not homed", missing: "Not received", unproved: "Position not proved: {cause}", age: "Age", slack: "Slack", late: "Late",
+    skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", now: "< 0.5 s",
+    hints: {
+      age: "Of the values of this axis", slack: "How long before its start the latest setpoint came, at least, ms",
+      late: "Step beside its commanded time, at most, µs", skew: "Between steps of two axes, at most, µs",
+      clock: "Machine time is at most so far off, µs",
+    },
+  },
+  jog: {
+    title: "Jog", velocity: "Speed", distance: "Distance", continuous: "Hold", keys: "Arrow keys, Page Up and Page Down while the focus is here",
+    move: "Jog {axis} {sign}", plus: "plus", minus: "minus",
+    ended: "The machine ended the jog. Press again.", blocked: "Home {axes} first",
+  },
+  path: {
+    title: "Path", twoD: "From above", threeD: "3D", fit: "Fit", follow: "Follow the head", empty: "Load a program to see its path.",
+    label: "Path of the program. Arrow keys move or turn it, plus and minus zoom, 0 fits it.", segments: "{count} segments", ahead: "Ahead", rapid: "Rapid",
+    done: "Done",
+  },
+  strip: { title: "Last {seconds} s", velocity: "Velocity", position: "Position", unit: { velocity: "mm/s", position: "mm" } },
+  job: {
+    title: "Job", none: "No job yet", left: "left", progress: "Progress", waits: "Rests on the path until more of the program arrives",
+    line: "Line {line}", outcome: { Done: "Done", Stopped: "Stopped", Failed: "Failed" },
+    kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog" },
+    held: "Held at line {line}", braking: "Braking …",
+  },
+  overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
+  program: {
+    title: "Program", load: "Load program", drop: "Drop a G-code file here, or load it.", checking: "Checking …", none: "No program is loaded.",
+    figures: "{lines} lines, {size}", failed: "{name} was not loaded", errorAt: "Line {line}, column {column}: {message}", error: "{message}",
+    tooLong: "{size}; at most {limit}", notes: "{count} notes", noteAt: "Line {line}: {text}", follow: "Follow the line in motion", text: "G-code",
+
+  },
+  mdi: {
+    title: "MDI", label: "One line of G-code", send: "Send", placeholder: "G0 X10 Y10", history: "Lines before", accepted: "accepted", refused: "refused",
+    keys: "Arrow up and down: lines before",
+  },
+  offsets: {
+    title: "Offsets", system: "System", active: "active", touch: "Set {axis} to 0 here", edit: "{system}, {axis}", rotation: "Rotation",
+    g92: "G92", none: "Not received yet",
+  },
+  tools: {
+    title: "Tools", number: "No.", pocket: "Pocket", length: "Length Z", diameter: "Diameter", add: "Save tool", remove: "Remove tool {number}",
+    none: "The tool table is empty.",
+  },
+  reports: {
+    title: "Reports", none: "No reports on this host yet. lockstep analyze makes one.", report: "Report", incident: "Incident", refresh: "Refresh",
+  },
+  keys: {
+    title: "Keys", estop: "F1", estopText: "Emergency stop", stop: "Escape", stopText: "Stop", hold: "F2", holdText: "Hold", resume: "F4",
+    resumeText: "Resume", jog: "Arrows, Page Up, Page Down", jogText: "Jog, while the focus is on the jog pad and the key is held",
+    view: "Arrows, +, −, 0", viewText: "Move, zoom and fit the path, while the focus is on it",
+  },
+};
+
+export type Texts = typeof en;

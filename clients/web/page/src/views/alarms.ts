@@ -1,0 +1,35 @@
+// Alarms with cause and remedy, the most serious first.
+import type { Alarm, Fault } from "../api/contract";
+import { h, icon, show } from "../dom/element";
+import { ICONS } from "../dom/icons";
+import { fill, t } from "../texts";
+import type { Model, View } from "./view";
+
+function heading(fault: Fault): string {
+  const axis = fault.axis ? `${fill(t.alarms.axis, { axis: fault.axis })}: ` : "";
+  return `${axis}${fault.code}${fault.number > 0 ? ` (${fault.number})` : ""}`;
+}
+
+function item(fault: Fault, kind: string, className: string): HTMLElement {
+  return h("li", { class: `alarm ${className}` }, icon(className === "fault" ? ICONS.emergency : ICONS.warning),
+    h("div", {}, h("strong", {}, `${kind} – ${heading(fault)}`), h("p", {}, fault.cause),
+      fault.remedy === "" ? undefined : h("p", { class: "remedy" }, fill(t.commands.remedy, { remedy: fault.remedy }))));
+}
+
+export class Alarms implements View {
+  private readonly list = h("ul", {});
+  readonly element = h("section", { class: "alarms", role: "alert", "aria-label": t.alarms.title, hidden: true }, this.list);
+  private shown = "";
+
+  show({ state }: Model): void {
+    const alarms: Alarm[] = state.alarms ?? [];
+    const ended = alarms.length === 0 && state.job?.outcome === "Failed" ? state.job.ended_by : undefined;
+    const now = JSON.stringify([alarms, ended]);
+    if (now === this.shown) return;
+    this.shown = now;
+    this.list.replaceChildren(
+      ...alarms.map((alarm) => item(alarm, alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
+      ...(ended ? [item(ended, t.alarms.ended, "warning")] : []));
+    show(this.element, this.list.children.length > 0);
+  }
+}

@@ -1,0 +1,49 @@
+// What the server refused: what, where, why, and the remedy.
+import type { Problem } from "../api/contract";
+import { NO_ANSWER, type Result } from "../api/result";
+import { h, icon } from "../dom/element";
+import { ICONS } from "../dom/icons";
+import { fill, t } from "../texts";
+
+const MOST_NOTICES = 3;
+const STAYS_MS = 15_000;
+
+function details(problem: Problem): string {
+  const value = problem.value === undefined ? "" : String(JSON.stringify(problem.value));
+  const parts = [
+    problem.detail === problem.title ? "" : problem.detail,
+    problem.place === undefined ? "" : fill(t.commands.place, { place: problem.place, value }),
+    problem.limit === undefined ? "" : fill(t.commands.limit, { limit: problem.limit }),
+  ];
+  return parts.filter((part) => part !== "").join(" · ");
+}
+
+export class Notices {
+  readonly element = h("div", { class: "notices", role: "status", "aria-live": "polite" });
+
+  /** Shows what was refused; says nothing of what was accepted. */
+  readonly report = (result: Result<unknown>): void => {
+    if (!result.ok) this.show(result.problem);
+  };
+
+  private show(problem: Problem): void {
+    const isSilent = problem.code === NO_ANSWER;
+    const remedy = isSilent ? t.commands.noAnswerRemedy : problem.remedy;
+    this.add(
+      isSilent ? t.commands.noAnswer : fill(t.commands.refused, { title: problem.title }),
+      isSilent ? "" : details(problem),
+      remedy === undefined || remedy === "" ? "" : fill(t.commands.remedy, { remedy }),
+    );
+  }
+
+  private add(title: string, detail: string, remedy: string): void {
+    const same = [...this.element.children].find((notice) => notice.querySelector("strong")?.textContent === title);
+    same?.remove();
+    const notice = h("div", { class: "notice" }, icon(ICONS.warning),
+      h("div", {}, h("strong", {}, title), h("p", {}, detail), h("p", { class: "remedy" }, remedy)),
+      h("button", { type: "button", class: "plain", "aria-label": t.page.dismiss, on: { click: () => notice.remove() } }, icon(ICONS.close)));
+    this.element.append(notice);
+    while (this.element.children.length > MOST_NOTICES) this.element.firstElementChild?.remove();
+    setTimeout(() => notice.remove(), STAYS_MS);
+  }
+}

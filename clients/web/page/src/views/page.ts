@@ -1,0 +1,62 @@
+// The whole page: its parts, and where they are.
+import type { Machine } from "../api/contract";
+import { h } from "../dom/element";
+import { t } from "../texts";
+import { Alarms } from "./alarms";
+import { Axes } from "./axes";
+import { giver, type Give, type Report } from "./command_button";
+import { Header } from "./header";
+import { JobCard } from "./job_card";
+import { JogPad } from "./jog_pad";
+import { keysDialog } from "./keys_dialog";
+import { LinkBanner } from "./link_banner";
+import { MdiTab } from "./mdi_tab";
+import { Notices } from "./notices";
+import { OffsetsTab } from "./offsets_tab";
+import { Overrides } from "./overrides";
+import { PathView } from "./path_view";
+import { ProgramTab } from "./program_tab";
+import { ReportsTab } from "./reports_tab";
+import { SafetyBar } from "./safety_bar";
+import { Strip } from "./strip";
+import { Tabs } from "./tabs";
+import { ToolsTab } from "./tools_tab";
+import type { Model, View } from "./view";
+
+export class Page {
+  readonly give: Give;
+  private readonly views: View[];
+
+  constructor(place: HTMLElement, machine: Machine, stream: () => string) {
+    const notices = new Notices();
+    const report: Report = notices.report;
+    this.give = giver(report);
+    const keys = keysDialog();
+    const safety = new SafetyBar(this.give);
+    const header = new Header(() => keys.showModal(), safety.element);
+    const [banner, alarms] = [new LinkBanner(), new Alarms()];
+    const [axes, jog] = [new Axes(machine, this.give), new JogPad(machine, stream, report)];
+    const [path, strip] = [new PathView(machine), new Strip(machine)];
+    const [job, overrides] = [new JobCard(this.give), new Overrides(machine, this.give)];
+    const [program, mdi] = [new ProgramTab(machine, report), new MdiTab(this.give)];
+    const [offsets, tools, reports] = [new OffsetsTab(machine, this.give), new ToolsTab(this.give), new ReportsTab(report)];
+    const tabs = new Tabs(t.program.title, [
+      { id: "program", title: t.program.title, content: program.element }, { id: "mdi", title: t.mdi.title, content: mdi.element },
+      { id: "offsets", title: t.offsets.title, content: offsets.element }, { id: "tools", title: t.tools.title, content: tools.element },
+      { id: "reports", title: t.reports.title, content: reports.element },
+    ]);
+    this.views = [header, safety, banner, alarms, axes, jog, path, strip, job, overrides, program, mdi, offsets, tools, reports];
+    place.replaceChildren(
+      h("a", { class: "skip", href: "#main" }, t.page.skip), header.element,
+      h("main", { id: "main", tabindex: -1 },
+        h("div", { class: "top" }, banner.element, alarms.element),
+        h("div", { class: "left" }, axes.element, jog.element),
+        h("div", { class: "middle" }, path.element, strip.element),
+        h("div", { class: "right" }, h("div", { class: "job-area" }, job.element, overrides.element), tabs.element)),
+      notices.element, keys);
+  }
+
+  show(model: Model): void {
+    for (const view of this.views) view.show(model);
+  }
+}

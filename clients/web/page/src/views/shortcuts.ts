@@ -1,0 +1,20 @@
+// Keys that work anywhere on the page. None is a character, so none is typed by accident.
+import type { Give } from "./command_button";
+
+const VERBS: Record<string, string> = { F1: "estop", Escape: "stop", F2: "hold", F4: "resume" };
+
+export function shortcutVerb(event: Pick<KeyboardEvent, "key" | "repeat" | "ctrlKey" | "altKey" | "metaKey">): string | undefined {
+  if (event.repeat || event.ctrlKey || event.altKey || event.metaKey) return undefined;
+  return VERBS[event.key];
+}
+
+/** @param mayOperate whether commands are of use. A dialog keeps Escape for itself. */
+export function listenToShortcuts(give: Give, mayOperate: () => boolean): void {
+  addEventListener("keydown", (event) => {
+    const verb = shortcutVerb(event);
+    if (verb === undefined || !mayOperate()) return;
+    if (event.key === "Escape" && document.querySelector("dialog[open]") !== null) return;
+    event.preventDefault();
+    void give(verb);
+  });
+}

@@ -1,0 +1,41 @@
+// The token comes in the address's fragment, which a browser never sends; else it is asked for.
+import { session, signIn } from "../api/client";
+import type { Problem, Role } from "../api/contract";
+import { h, setText } from "../dom/element";
+import { t } from "../texts";
+
+/** Takes the token out of the address, so that it is in no history and no screenshot. */
+export function takeToken(): string | undefined {
+  const token = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (token === null) return undefined;
+  history.replaceState(null, "", location.pathname + location.search);
+  return token;
+}
+
+/** The role of the address's token, or of a session that still is; else what is wrong. */
+export async function enter(): Promise<Role | Problem> {
+  const token = takeToken();
+  const answer = token === undefined ? await session() : await signIn(token);
+  return answer.ok ? answer.value.role : answer.problem;
+}
+
+/** Asks for a token until one is right. */
+export function askForToken(place: HTMLElement, problem: Problem | undefined): Promise<Role> {
+  return new Promise((resolve) => {
+    const wrong = h("p", { class: "wrong", role: "alert" });
+    const say = (p: Problem) => setText(wrong, [p.title || t.commands.noAnswer, p.remedy].filter(Boolean).join(" – "));
+    const input = h("input", { type: "password", id: "token", autocomplete: "off", required: true });
+    const form = h("form", { class: "sign-in", on: { submit: (event) => {
+      event.preventDefault();
+      void signIn(input.value.trim()).then((answer) => {
+        if (!answer.ok) return say(answer.problem);
+        form.remove();
+        resolve(answer.value.role);
+      });
+    } } }, h("h1", {}, t.page.title), h("p", { class: "soft" }, t.signIn.hint),
+      h("label", { for: "token" }, t.signIn.token), input, wrong, h("button", { type: "submit", class: "action primary" }, t.signIn.submit));
+    if (problem !== undefined && (problem.status !== 401 || location.hash !== "")) say(problem);
+    place.replaceChildren(form);
+    input.focus();
+  });
+}

@@ -1,0 +1,80 @@
+import { describe, expect, test } from "vitest";
+import type { Offsets } from "../../../clients/web/page/src/api/contract";
+import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
+import { Trace } from "../../../clients/web/page/src/chart/trace";
+import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
+import { workPlace } from "../../../clients/web/page/src/views/axis_places";
+import { shortcutVerb } from "../../../clients/web/page/src/views/shortcuts";
+
+describe("work coordinates", () => {
+  const offsets: Offsets = { revision: 1, active: "G54", systems: { G54: { origin: { X: 10, Y: 20 }, rotation_deg: 0 } }, g92: { Z: 5 } };
+
+  test("take off the origin and G92", () => {
+    expect(workPlace({ X: 15, Y: 20, Z: 7 }, offsets)).toEqual({ X: 5, Y: 0, Z: 2 });
+  });
+
+  test("undo a rotation about Z", () => {
+    const turned = { ...offsets, systems: { G54: { origin: {}, rotation_deg: 90 } }, g92: null };
+    const place = workPlace({ X: 0, Y: 3 }, turned);
+    expect([place["X"], place["Y"]!].map((v) => Math.round(v! * 1e9) / 1e9)).toEqual([3, 0]);
+  });
+
+  test("leave an unknown position unknown", () => {
+    expect(workPlace({ X: undefined, Y: 1 }, offsets)).toEqual({ X: undefined, Y: -19 });
+  });
+});
+
+describe("the history of lines", () => {
+  test("is walked back and forth, and keeps what was being written", () => {
+    const history = new History(["G0 X1", "G0 X2"]);
+    expect([history.earlier("G1"), history.earlier(""), history.earlier(""), history.later(), history.later()]).toEqual(
+      ["G0 X2", "G0 X1", "G0 X1", "G0 X2", "G1"]);
+  });
+
+  test("keeps a line once, and no more than it may", () => {
+    const history = new History();
+    ["a", "a", " ", "b"].forEach((line) => history.add(line));
+    expect(history.all()).toEqual(["a", "b"]);
+    for (let i = 0; i < 2 * MOST_LINES; ++i) history.add(`l${i}`);
+    expect(history.all()).toHaveLength(MOST_LINES);
+  });
+});
+
+describe("the trace of a chart", () => {
+  test("has the last seconds, the oldest first, in bounded memory", () => {
+    const trace = new Trace(1, 4);
+    for (let s = 1; s <= 6; ++s) trace.add(s, [10 * s]);
+    expect(trace.since(6, 2.5)).toEqual([[-2, -1, 0], [40, 50, 60]]);
+    expect(trace.since(6, 100)[0]).toHaveLength(4);
+  });
+
+  test("has gaps where a value is missing", () => {
+    const trace = new Trace(2, 4);
+    trace.add(1, [1, null]);
+    expect(trace.since(1, 5)).toEqual([[0], [1], [null]]);
+  });
+});
+
+describe("keys anywhere on the page", () => {
+  const key = (name: string, more = {}) => shortcutVerb({ key: name, repeat: false, ctrlKey: false, altKey: false, metaKey: false, ...more });
+
+  test("stop, hold and resume", () => {
+    expect(["F1", "Escape", "F2", "F4", "a", " "].map((name) => key(name))).toEqual(["estop", "stop", "hold", "resume", undefined, undefined]);
+  });
+
+  test("do nothing with a modifier or by repetition", () => {
+    expect([key("F4", { altKey: true }), key("F1", { repeat: true })]).toEqual([undefined, undefined]);
+  });
+});
+
+describe("an answer that is an error", () => {
+  test("is the server's problem where it is one", () => {
+    const problem = { type: "about:blank", title: "Not homed", status: 409, code: "not-homed", detail: "axis X" };
+    expect(problemOf(409, "Conflict", JSON.stringify(problem))).toEqual(problem);
+  });
+
+  test("still names its status where it is none", () => {
+    expect(problemOf(502, "Bad Gateway", "<html>").code).toBe("http-502");
+    expect(noAnswer("x").code).toBe("no-answer");
+  });
+});
