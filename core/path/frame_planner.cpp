@@ -175,7 +175,7 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
 }
 
 /// A straight interval can be left anywhere; on a curved one the limits hold at its middle, so it is finished as
-/// planned.
+/// planned. A rest is finished too, but the speed behind it is still free.
 FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
     const double at = to_double(t);
     const auto& passages = path.passages();
@@ -183,7 +183,9 @@ FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, boo
     while (m > 0 && passages[m].begin > at) { --m; }
     const Passage& passage = passages[m];
     Cursor cursor{.interval = passage.interval, .begin = passage.begin - at, .w0 = passage.w0, .w1 = passage.w1};
-    if (!is_braking && window_.interval(passage.interval).kind != IntervalKind::Straight) { return cursor; }
+    const IntervalKind kind = window_.interval(passage.interval).kind;
+    if (kind == IntervalKind::Rest) { cursor.w1.reset(); }
+    if (kind == IntervalKind::Rest || (kind == IntervalKind::Curved && !is_braking)) { return cursor; }
     std::size_t k = passage.first_phase;
     const auto& phases = path.phases();
     while (k + 1 < phases.size() && phases[k + 1].interval == passage.interval && phases[k].end() <= at) { ++k; }
@@ -253,12 +255,18 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     if (!has_made_) { start_slower(slower); }
     double least = at_.w0;
     std::size_t last = at_.interval;
-    for (const Passage& passage : path_.passages()) {
+    const auto& passages = path_.passages();
+    for (std::size_t k = 0; k < passages.size(); ++k) {
+        const Passage& passage = passages[k];
+        const double end = k + 1 < passages.size() ? passages[k + 1].begin : path_.end();
         const bool is_fixed = passage.interval == at_.interval && at_.w1;
         const Interval& part = window_.interval(passage.interval);
         least = is_fixed ? *at_.w1 : std::max(0.0, window_.bounds(part).least_after(least));
         last = passage.interval;
-        if (!is_fixed && passage.begin >= from) { window_.lower(last + 1, std::max(slower * passage.w1, least)); }
+        const bool is_rest = part.kind == IntervalKind::Rest;
+        if (!is_fixed && (is_rest ? end : passage.begin) >= from) {
+            window_.lower(last + 1, std::max(slower * passage.w1, least));
+        }
         if (failure.is_full && last > at_.interval) { window_.slow(last, slower); }
         if (passage.begin > to + kMargin_ticks) { break; }
     }
@@ -287,7 +295,8 @@ void FramePlanner::take(Cursor next) {
     is_traced_ = false;
     has_made_ = true;
     at_ = std::move(next);
-    const bool is_cut = !at_.w1 && at_.interval < window_.end();
+    const bool is_cut =
+        !at_.w1 && at_.interval < window_.end() && window_.interval(at_.interval).kind != IntervalKind::Rest;
     if (is_cut) { window_.cut(at_.interval, at_.u, at_.w0); }
     window_.drop_before(at_.interval);
 }

@@ -71,6 +71,16 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
 std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program, const AxisCounts& start) const {
     const auto axes = axes_of(program.axes);
     if (!axes) { return std::unexpected(axes.error()); }
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        const AxisConfig& axis = machine_.axes[i];
+        const std::string unit = " " + std::string(unit_of(axis.name));
+        if (start[i] >= limits_[i].min_steps && start[i] <= limits_[i].max_steps) { continue; }
+        return std::unexpected(PlanError{FaultCode::OutsideTravel, 0,
+                                         "axis " + axis.name + " stands at " +
+                                             number(to_mm(axis, static_cast<double>(start[i]))) + unit +
+                                             ", outside its travel, " + number(axis.position_min_mm) + " to " +
+                                             number(axis.position_max_mm) + unit + ": home it"});
+    }
     for (std::size_t i = 0; i < axes->size(); ++i) {
         const AxisConfig& axis = machine_.axes[(*axes)[i]];
         const std::string unit = " " + std::string(unit_of(axis.name));

@@ -46,7 +46,8 @@ public:
     explicit ProgramPlanner(const MachineConfig& machine);
 
     /// The whole program from where the axes stand. Errors: an axis the machine lacks, a start elsewhere than the
-    /// program's (StartMismatch), a target outside the travel (OutsideTravel), a move that is too long to count.
+    /// program's (StartMismatch), a start or a target outside the travel (OutsideTravel), a move that is too long to
+    /// count.
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const;
 
     /// What the frames of a leg are made of: of the blocks from `first` on, where the axes stand at `from`. It is
@@ -63,7 +64,8 @@ public:
 
     /// The places of axes in the machine. Error: one that it lacks.
     std::expected<std::vector<std::size_t>, PlanError> axes_of(const std::vector<std::string>& names) const;
-    /// Error: the axes stand elsewhere than where the program starts.
+    /// Error: an axis of the machine stands outside its travel, so no frame may begin there; or the axes stand
+    /// elsewhere than where the program starts.
     std::expected<void, PlanError> check_start(const ProgramHead& program, const AxisCounts& start) const;
     /// Where a move leads. Error: outside the travel, or too far to count.
     std::expected<AxisCounts, PlanError> target(const LinearMove& move, const std::vector<std::size_t>& axes,

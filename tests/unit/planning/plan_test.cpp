@@ -1,4 +1,5 @@
 // A plan predicts the machine's motion.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,6 +40,19 @@ TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
         EXPECT_GE(plan->axes[i].min_mm, machine.axes[i].position_min_mm);
         EXPECT_LE(plan->axes[i].max_mm, machine.axes[i].position_max_mm);
     }
+}
+
+TEST(Plan, NoAxisMayStandOutsideItsTravel) {
+    const MachineConfig machine = example("two-axis");
+    const Program program = program_of(machine, "G1 X35 F3000\n");
+    AxisCounts start;
+    for (const AxisConfig& axis : machine.axes) { (void)start.push_back(to_steps(axis, axis.homing.park_mm)); }
+    ASSERT_TRUE(ProgramPlanner(machine).check_start(program.head(), start));
+    start[1] = to_steps(machine.axes[1], machine.axes[1].position_max_mm) + 1;  // Y, which the program does not move
+    const auto fits = ProgramPlanner(machine).check_start(program.head(), start);
+    ASSERT_FALSE(fits);
+    EXPECT_EQ(fits.error().fault, FaultCode::OutsideTravel);
+    EXPECT_THAT(fits.error().text, testing::HasSubstr("outside its travel"));
 }
 
 /// The motion of an axis from its positions alone, every 0.2 ms.
