@@ -23,22 +23,6 @@ std::vector<PlannedMove> moves_of(const ProgramPlanner& planner, const Program& 
     return moves;
 }
 
-}  // namespace
-
-void AxisMotion::add(const Piece& piece) {
-    pieces_.push_back({end_, to_, piece});
-    to_ = to_ + piece.covered();
-    end_ += piece.ticks;
-}
-
-Position AxisMotion::at(Ticks t) const {
-    if (t >= end_) { return to_; }
-    const auto behind = std::ranges::upper_bound(pieces_, t, {}, &TimedPiece::begin);
-    if (behind == pieces_.begin()) { return pieces_.front().from; }
-    const TimedPiece& piece = *(behind - 1);
-    return piece.from + piece.piece.covered(t - piece.begin);
-}
-
 std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const Program& program, const Leg& leg,
                                            const Overrides& overrides) {
     const ProgramPlanner planner(machine);
@@ -66,6 +50,36 @@ std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const P
     }
     for (; next < plan.moves.size(); ++next) { plan.moves[next].begin = plan.duration; }
     return plan;
+}
+
+}  // namespace
+
+void AxisMotion::add(const Piece& piece) {
+    pieces_.push_back({end_, to_, piece});
+    to_ = to_ + piece.covered();
+    end_ += piece.ticks;
+}
+
+Position AxisMotion::at(Ticks t) const {
+    if (t >= end_) { return to_; }
+    const auto behind = std::ranges::upper_bound(pieces_, t, {}, &TimedPiece::begin);
+    if (behind == pieces_.begin()) { return pieces_.front().from; }
+    const TimedPiece& piece = *(behind - 1);
+    return piece.from + piece.piece.covered(t - piece.begin);
+}
+
+std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
+                                                         const AxisCounts& start, const Overrides& overrides) {
+    const auto legs = ProgramPlanner(machine).plan(program, start);
+    if (!legs) { return std::unexpected(legs.error()); }
+    std::vector<LegPlan> plans;
+    for (const Leg& leg : *legs) {
+        if (!leg.moves) { continue; }
+        auto plan = plan_leg(machine, program, leg, overrides);
+        if (!plan) { return std::unexpected(plan.error()); }
+        plans.push_back(*std::move(plan));
+    }
+    return plans;
 }
 
 }  // namespace lockstep

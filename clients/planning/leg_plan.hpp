@@ -49,8 +49,9 @@ struct LegPlan {
     std::int64_t to(std::size_t move, std::size_t axis) const { return axes[axis].at(end(move)).count(); }
 };
 
-/// Error: the axes' limits contradict each other.
-std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const Program& program, const Leg& leg,
-                                           const Overrides& overrides = {});
+/// The legs in which something moves or dwells, from rest to rest; between two of them the program waits for a person.
+/// Errors: as ProgramPlanner::plan; the axes' limits contradict each other.
+std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
+                                                         const AxisCounts& start, const Overrides& overrides = {});
 
 }  // namespace lockstep

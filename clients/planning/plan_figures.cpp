@@ -22,7 +22,7 @@ std::size_t place_of(const MachineConfig& machine, const std::string& name, std:
 }
 
 /// The speed is linear between the ends of a piece.
-drawing::AxisCurve speed_curve(const MachineConfig& machine, const ProgramPlan& plan, std::size_t i) {
+drawing::AxisCurve speed_curve(const MachineConfig& machine, const std::vector<LegPlan>& legs, std::size_t i) {
     const AxisConfig& axis = machine.axes[i];
     const double ticks_per_s = machine.ticks_per_second();
     drawing::AxisCurve curve{.axis = axis.name, .limit = axis.max_velocity_mm_s};
@@ -31,7 +31,7 @@ drawing::AxisCurve speed_curve(const MachineConfig& machine, const ProgramPlan& 
         curve.time_s.push_back(static_cast<double>((start + at).value) / ticks_per_s);
         curve.value.push_back(steps_per_tick * ticks_per_s / axis.steps_per_mm);
     };
-    for (const LegPlan& leg : plan.legs) {
+    for (const LegPlan& leg : legs) {
         add({}, 0);
         for (const auto& [begin, from, piece] : leg.axes[i].pieces()) {
             const double change = piece.acceleration.steps_per_tick2();
@@ -47,7 +47,8 @@ drawing::AxisCurve speed_curve(const MachineConfig& machine, const ProgramPlan& 
 
 }  // namespace
 
-drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan& plan) {
+drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan& plan,
+                                 const std::vector<LegPlan>& legs) {
     const std::size_t x = place_of(machine, "X", 0);
     const std::size_t y = place_of(machine, "Y", 1);
     drawing::PlanePath way{{plan.start_mm[x]}, {plan.start_mm[y]}};
@@ -55,16 +56,17 @@ drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan
         way.x.push_back(to_mm(machine.axes[x], leg.axes[x].at(at).as_steps()));
         way.y.push_back(to_mm(machine.axes[y], leg.axes[y].at(at).as_steps()));
     };
-    for (const LegPlan& leg : plan.legs) {
+    for (const LegPlan& leg : legs) {
         for (std::size_t k = 0; k < leg.moves.size(); ++k) { add(leg, leg.end(k)); }
     }
     return drawing::path_figure(plan.program + ": path", in_a_line(plan),
                                 {.x = machine.axes[x].name, .y = machine.axes[y].name}, way, {});
 }
 
-drawing::Figure plan_speed_figure(const MachineConfig& machine, const ProgramPlan& plan) {
+drawing::Figure plan_speed_figure(const MachineConfig& machine, const ProgramPlan& plan,
+                                  const std::vector<LegPlan>& legs) {
     std::vector<drawing::AxisCurve> curves;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) { curves.push_back(speed_curve(machine, plan, i)); }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) { curves.push_back(speed_curve(machine, legs, i)); }
     return drawing::speed_figure(plan.program + ": planned speed of each axis", in_a_line(plan), curves);
 }
 

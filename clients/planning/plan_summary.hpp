@@ -1,11 +1,15 @@
-// The plan of a program: its duration, its length and the load on each axis. Nothing moves.
+// The plan of a program: its duration, its length and the load on each axis. Nothing moves. The program may be of any
+// length: it is planned as a stream, and what has been planned is forgotten.
 #pragma once
 
 #include <expected>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "clients/planning/leg_plan.hpp"
+#include "clients/planning/plan_totals.hpp"
+#include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "idl/proto/report.pb.h"
@@ -15,20 +19,9 @@ namespace lockstep {
 /// The position of a homed machine: one place in mm per axis, each on a whole step.
 std::vector<double> parked_mm(const MachineConfig& machine);
 
-struct AxisPlan {
-    std::string name;
-    std::int64_t steps = 0;  // both ways together
-    double peak_velocity_mm_s = 0;
-    double peak_acceleration_mm_s2 = 0;  // of its pieces, rising or falling
-    double peak_jump_mm_s = 0;           // the largest sudden change of its speed: in a corner, from and to rest
-    double min_mm = 0;                   // the range of its positions, its start included
-    double max_mm = 0;
-};
-
 struct ProgramPlan {
     std::string program;
     std::vector<double> start_mm;
-    std::vector<LegPlan> legs;  // from rest to rest; between two of them the program waits for a person
     int moves = 0;
     int pauses = 0;
     Ticks duration;  // of all legs, dwells included; pauses are not
@@ -37,7 +30,15 @@ struct ProgramPlan {
     std::vector<AxisPlan> axes;
 };
 
-/// Plans the program as the coordinator does, from its start position.
+/// Counts for every axis of the machine: the program's start if it names the axis, else the park position.
+AxisCounts start_counts(const MachineConfig& machine, const ProgramHead& program);
+
+/// Plans the program as the coordinator does, from its start position. The blocks are read once, in their order; those
+/// behind a leg's end are not looked at before its last frame. `each_frame` is called with how long the motion is so
+/// far.
+std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, const ProgramHead& head,
+                                                  std::shared_ptr<const ProgramBlocks> blocks,
+                                                  const std::function<void(Ticks)>& each_frame = {});
 std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program);
 
 /// `lines`: of the G-code file.

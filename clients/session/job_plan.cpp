@@ -22,18 +22,13 @@ std::expected<double, Failure> planned_seconds(const Session& session, const Pro
     const Overrides overrides = session.state() ? session.state()->state.overrides : Overrides{};
     AxisCounts start;
     for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
-    const auto legs = ProgramPlanner(machine).plan(program, start);
+    const auto legs = plan_legs(machine, program, start, overrides);
     if (!legs) {
         return std::unexpected(
             bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
     }
     Ticks duration;
-    for (const Leg& leg : *legs) {
-        if (!leg.moves) { continue; }
-        const auto plan = plan_leg(machine, program, leg, overrides);
-        if (!plan) { return std::unexpected(bad_file(program.name, {{plan.error().line, 1, plan.error().text}})); }
-        duration += plan->duration;
-    }
+    for (const LegPlan& leg : *legs) { duration += leg.duration; }
     return static_cast<double>(duration.value) / machine.ticks_per_second();
 }
 

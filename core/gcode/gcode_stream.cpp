@@ -1,6 +1,7 @@
 #include "core/gcode/gcode_stream.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/program_builder.hpp"
@@ -22,13 +23,14 @@ struct GcodeStream::Parts {
     }
     std::expected<void, GcodeError> outcome(const gcode::Result& done) {
         if (!wrong && !done) { wrong = done.error(); }
-        return wrong ? std::expected<void, GcodeError>(std::unexpected(*wrong)) : std::expected<void, GcodeError>();
+        if (!wrong) { return {}; }
+        return std::unexpected(*std::exchange(wrong, std::nullopt));
     }
 
     GcodeSetup setup;
     gcode::ProgramBuilder builder;
     gcode::Interpreter interpreter;
-    std::optional<GcodeError> wrong;
+    std::optional<GcodeError> wrong;  // with the line that is being taken
 };
 
 GcodeStream::GcodeStream(const GcodeSetup& setup) : parts_(std::make_unique<Parts>(setup)) {}

@@ -18,7 +18,8 @@ public:
     GcodeStream& operator=(GcodeStream&&) noexcept;
 
     ProgramHead head() const;
-    /// The next line, without its end. Error: the first thing wrong with it; nothing behind it can be read.
+    /// The next line, without its end. Error: the first thing wrong with it. Behind it lines can be read for their
+    /// errors only.
     std::expected<void, GcodeError> take(std::string_view line, int number);
     /// The end of the text.
     std::expected<void, GcodeError> finish();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <system_error>
 
 #include "core/axis_unit.hpp"
 #include "services/documents/program_document.hpp"
@@ -48,6 +50,13 @@ double chord_tolerance(const MachineConfig& machine) {
 }
 
 }  // namespace
+
+bool is_long_program(const std::filesystem::path& path) {
+    constexpr std::uintmax_t kLong_bytes = 2'000'000;  // some 100,000 lines
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+    return bytes != static_cast<std::uintmax_t>(-1) && bytes > kLong_bytes;
+}
 
 Diagnostics to_diagnostics(const std::vector<GcodeError>& errors) {
     Diagnostics diagnostics;

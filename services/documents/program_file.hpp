@@ -38,6 +38,8 @@ std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem:
                                                           const std::vector<double>& start_mm,
                                                           GcodeSwitches switches = {},
                                                           const gcode::KeptValues& values = {});
+/// It is read as a stream, not as a whole: subroutines then stand before their calls.
+bool is_long_program(const std::filesystem::path& path);
 Diagnostics to_diagnostics(const std::vector<GcodeError>& errors);
 
 /// `start_mm` is the position of each axis when the program begins, one number per axis of the machine. The program

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "clients/planning/leg_plan.hpp"
 #include "clients/planning/plan_summary.hpp"
 
 namespace lockstep::analysis {
@@ -51,18 +52,18 @@ std::int64_t AskedPath::steps(std::size_t move, std::size_t axis) const {
 }
 
 std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const Program& program) {
-    const auto plan = plan_program(machine, program);
-    if (!plan) { return std::unexpected(plan.error().text); }
+    const auto legs = plan_legs(machine, program, start_counts(machine, program.head()));
+    if (!legs) { return std::unexpected(legs.error().text); }
     AskedPath asked;
-    asked.planned_ = plan->duration;
-    asked.legs_ = static_cast<std::int64_t>(plan->legs.size());
+    asked.legs_ = static_cast<std::int64_t>(legs->size());
     asked.moves_of_.resize(machine.axes.size());
     for (const AxisConfig& axis : machine.axes) { asked.mm_per_step_.push_back(1 / axis.steps_per_mm); }
-    for (const LegPlan& leg : plan->legs) { asked.add(leg); }
+    for (const LegPlan& leg : *legs) { asked.add(leg); }
     return asked;
 }
 
 void AskedPath::add(const LegPlan& leg) {
+    planned_ += leg.duration;
     for (std::size_t axis = 0; counts_.size() < axes(); ++axis) { counts_.push_back(leg.axes[axis].at({}).count()); }
     for (std::size_t k = 0; k < leg.moves.size(); ++k) {
         const auto number = static_cast<std::uint32_t>(moves_.size());

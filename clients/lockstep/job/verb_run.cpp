@@ -1,9 +1,7 @@
 // lockstep run
 #include <unistd.h>
 
-#include <filesystem>
 #include <iostream>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -99,12 +97,7 @@ std::expected<void, Failure> confirm(const RunOptions& options, const Output& ou
 
 /// A short file is read and checked as a whole before anything moves.
 bool is_streamed(const RunOptions& options) {
-    constexpr std::uintmax_t kShortFile_bytes = 2'000'000;  // some 100,000 lines
-    if (options.file == "-") { return true; }
-    std::error_code ignored;
-    const std::uintmax_t bytes = std::filesystem::file_size(options.file, ignored);
-    return bytes != static_cast<std::uintmax_t>(-1) && bytes > kShortFile_bytes && !options.dry_run &&
-           (!options.dry_run || options.is_restart());
+    return options.file == "-" || (is_long_program(options.file) && !options.dry_run);
 }
 
 /// Reads what must be known before anything moves: the first lines, or those up to the one to begin with.

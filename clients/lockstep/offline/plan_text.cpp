@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-std::string places(const ProgramInput& input) {
+std::string places(const PlannedFile& input) {
     std::string text;
     for (std::size_t i = 0; i < input.machine.axes.size(); ++i) {
         text += " " + input.machine.axes[i].name + "=" + fixed(input.plan.start_mm[i], 3);
@@ -27,7 +27,7 @@ std::string row(const AxisPlan& axis) {
 
 }  // namespace
 
-std::string plan_text(const ProgramInput& input) {
+std::string plan_text(const PlannedFile& input) {
     const ProgramPlan& plan = input.plan;
     std::string text = plan.program + " on machine " + input.machine.name + ", from" + places(input) + "\n";
     text += "  duration  " + duration_text(plan.duration_s) + " (" + fixed(plan.duration_s, 6) + " s)";

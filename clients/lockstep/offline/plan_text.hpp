@@ -8,6 +8,6 @@
 namespace lockstep {
 
 /// A few lines and a table of the axes, without a newline at the end.
-std::string plan_text(const ProgramInput& input);
+std::string plan_text(const PlannedFile& input);
 
 }  // namespace lockstep

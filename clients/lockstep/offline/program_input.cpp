@@ -1,12 +1,15 @@
 #include "clients/lockstep/offline/program_input.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "clients/planning/program_text.hpp"
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/format.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/documents/values/values_document.hpp"
 #include "services/files/directories.hpp"
@@ -24,6 +27,63 @@ std::expected<gcode::KeptValues, Failure> values_of(const ProgramOptions& option
     auto values = read_values(file);
     if (!values) { return std::unexpected(bad_file(file, values.error())); }
     return std::move(values->values);
+}
+
+/// What a program is read with.
+struct ReadingSetup {
+    MachineConfig machine;
+    std::vector<double> start_mm;
+    gcode::KeptValues values;
+};
+
+std::expected<ReadingSetup, Failure> reading_setup(const ProgramOptions& options) {
+    auto machine = choose_machine(options.machine_file);
+    if (!machine) { return std::unexpected(machine.error()); }
+    auto places = places_at_start(machine->config, options.start);
+    if (!places) { return std::unexpected(bad_input("--start: " + places.error())); }
+    auto values = values_of(options, machine->config);
+    if (!values) { return std::unexpected(values.error()); }
+    return ReadingSetup{std::move(machine->config), *std::move(places), *std::move(values)};
+}
+
+Failure not_planned(const std::string& file, const PlanError& error) {
+    return bad_file(file, {{.line = error.line, .message = error.text}});
+}
+
+/// On a terminal a line for each hundredth.
+class Progress {
+public:
+    Progress(std::string name, const ProgramText& text, double ticks_per_s, Output& output)
+        : name_(std::move(name)), text_(text), ticks_per_s_(ticks_per_s), output_(output) {}
+
+    void show(Ticks planned) {
+        const auto share = static_cast<int>(100 * text_.share_read());
+        if (std::exchange(shown_, share) == share) { return; }
+        output_.progress(name_ + ": " + std::to_string(share) + " %, " + std::to_string(text_.lines()) + " lines, " +
+                         duration_text(static_cast<double>(planned.value) / ticks_per_s_) + " of motion");
+    }
+
+private:
+    std::string name_;
+    const ProgramText& text_;
+    double ticks_per_s_;
+    Output& output_;
+    int shown_ = 0;
+};
+
+std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options, Output& output) {
+    auto setup = reading_setup(options);
+    if (!setup) { return std::unexpected(setup.error()); }
+    auto lines = LineReader::open(options.file);
+    if (!lines) { return std::unexpected(bad_file(options.file, {{.message = lines.error()}})); }
+    const auto text = std::make_shared<ProgramText>(
+        *std::move(lines),
+        program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values));
+    Progress progress(options.file, *text, setup->machine.ticks_per_second(), output);
+    auto plan = plan_blocks(setup->machine, text->head(), text, [&progress](Ticks planned) { progress.show(planned); });
+    if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
+    if (!plan) { return std::unexpected(not_planned(options.file, plan.error())); }
+    return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes()};
 }
 
 }  // namespace
@@ -46,28 +106,29 @@ void add_start(CLI::App& verb, ProgramOptions& options) {
 std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options) {
     const std::string& file = options.file;
     if (const auto text = read_text_file(file); !text) { return std::unexpected(bad_file(file, {text.error()})); }
-    auto machine = choose_machine(options.machine_file);
-    if (!machine) { return std::unexpected(machine.error()); }
-    const auto places = places_at_start(machine->config, options.start);
-    if (!places) { return std::unexpected(bad_input("--start: " + places.error())); }
-    const auto values = values_of(options, machine->config);
-    if (!values) { return std::unexpected(values.error()); }
-    auto read = read_program_file(file, machine->config, *places, options.switches, *values);
+    auto setup = reading_setup(options);
+    if (!setup) { return std::unexpected(setup.error()); }
+    auto read = read_program_file(file, setup->machine, setup->start_mm, options.switches, setup->values);
     if (!read) { return std::unexpected(bad_file(file, read.error())); }
-    auto plan = plan_program(machine->config, read->reading.program);
-    if (!plan) { return std::unexpected(bad_file(file, {{.line = plan.error().line, .message = plan.error().text}})); }
+    auto plan = plan_program(setup->machine, read->reading.program);
+    if (!plan) { return std::unexpected(not_planned(file, plan.error())); }
     const bool ends_open = !read->text.empty() && read->text.back() != '\n';
     const auto lines = std::ranges::count(read->text, '\n') + (ends_open ? 1 : 0);
-    return ProgramInput{.machine = std::move(machine->config),
-                        .program = std::move(read->reading.program),
-                        .plan = *std::move(plan),
-                        .lines = static_cast<int>(lines),
-                        .text = std::move(read->text),
-                        .setup = std::move(read->setup),
-                        .notes = std::move(read->reading.notes)};
+    return ProgramInput{
+        {std::move(setup->machine), *std::move(plan), static_cast<int>(lines), std::move(read->reading.notes)},
+        std::move(read->reading.program),
+        std::move(read->text),
+        std::move(read->setup)};
 }
 
-void warn(const ProgramInput& input, Output& output) {
+std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output) {
+    if (is_long_program(options.file)) { return plan_long_file(options, output); }
+    auto input = read_program(options);
+    if (!input) { return std::unexpected(input.error()); }
+    return static_cast<PlannedFile&&>(*std::move(input));
+}
+
+void warn(const PlannedFile& input, Output& output) {
     for (const GcodeNote& note : input.notes) { output.warn("line " + std::to_string(note.line) + ": " + note.text); }
 }
 

@@ -1,4 +1,4 @@
-// The input of plan and simulate: a machine's configuration and a G-code file read for the machine's position.
+// The input of check, plan and simulate: a machine's configuration and a G-code file read for the machine's position.
 #pragma once
 
 #include <expected>
@@ -31,19 +31,26 @@ struct ProgramOptions {
 void add_program_options(CLI::App& verb, ProgramOptions& options);
 void add_start(CLI::App& verb, ProgramOptions& options);
 
-struct ProgramInput {
+/// A plan, and what it was made of.
+struct PlannedFile {
     MachineConfig machine;
-    Program program;
     ProgramPlan plan;
-    int lines = 0;  // of the G-code
-    std::string text;
-    GcodeSetup setup;              // that the text was read with
+    int lines = 0;                 // of the G-code
     std::vector<GcodeNote> notes;  // words that were passed over, and messages
+};
+
+/// A file that is held as a whole, too.
+struct ProgramInput : PlannedFile {
+    Program program;
+    std::string text;
+    GcodeSetup setup;  // that the text was read with
 };
 
 /// Errors: everything that is wrong with the configuration, the start, the values or the program, by line and column.
 std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options);
+/// Of a file of any length: a long one is read as a stream, with progress. Errors: as read_program().
+std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output);
 /// A line for each note.
-void warn(const ProgramInput& input, Output& output);
+void warn(const PlannedFile& input, Output& output);
 
 }  // namespace lockstep

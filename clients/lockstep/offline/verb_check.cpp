@@ -13,7 +13,7 @@ namespace {
 
 ExitCode check(const ProgramOptions& options) {
     Output output(options.json);
-    const auto input = read_program(options);
+    const auto input = plan_file(options, output);
     if (!input) { return output.fail(input.error()); }
     warn(*input, output);
     output.print(options.file + ": no errors\n" + plan_text(*input));

@@ -20,24 +20,38 @@ struct PlanOptions : ProgramOptions {
     std::string moves;
 };
 
+/// What needs all of the program at a time.
+std::expected<void, Failure> write_files(const PlanOptions& options, const ProgramInput& input) {
+    if (!options.moves.empty()) {
+        const auto written = write_text_file(options.moves, moves_csv(input));
+        if (!written) { return std::unexpected(bad_input("--moves: " + written.error())); }
+    }
+    if (options.svg_dir.empty()) { return {}; }
+    const auto legs = plan_legs(input.machine, input.program, start_counts(input.machine, input.program.head()));
+    if (!legs) { return std::unexpected(bad_file(options.file, {{legs.error().line, 0, legs.error().text}})); }
+    const auto drawn =
+        write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input.machine, input.plan, *legs)},
+                                        {"speed.svg", plan_speed_figure(input.machine, input.plan, *legs)}});
+    return drawn ? std::expected<void, Failure>{} : std::unexpected(bad_input(drawn.error()));
+}
+
+ExitCode report(const PlannedFile& planned, Output& output) {
+    warn(planned, output);
+    output.print(plan_text(planned));
+    output.report(to_report(planned.plan, planned.lines));
+    return kExitDone;
+}
+
 ExitCode plan(const PlanOptions& options) {
     Output output(options.json);
+    if (options.moves.empty() && options.svg_dir.empty()) {
+        const auto planned = plan_file(options, output);
+        return planned ? report(*planned, output) : output.fail(planned.error());
+    }
     const auto input = read_program(options);
     if (!input) { return output.fail(input.error()); }
-    warn(*input, output);
-    if (!options.moves.empty()) {
-        const auto written = write_text_file(options.moves, moves_csv(*input));
-        if (!written) { return output.fail(bad_input("--moves: " + written.error())); }
-    }
-    if (!options.svg_dir.empty()) {
-        const auto drawn =
-            write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input->machine, input->plan)},
-                                            {"speed.svg", plan_speed_figure(input->machine, input->plan)}});
-        if (!drawn) { return output.fail(bad_input(drawn.error())); }
-    }
-    output.print(plan_text(*input));
-    output.report(to_report(input->plan, input->lines));
-    return kExitDone;
+    if (const auto written = write_files(options, *input); !written) { return output.fail(written.error()); }
+    return report(*input, output);
 }
 
 }  // namespace

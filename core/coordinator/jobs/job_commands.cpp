@@ -33,15 +33,12 @@ CommandResult check_program(const KnownProgram& program, const CoordinatorLoop& 
 CommandResult check_lai_moves(const KnownProgram& program, const CoordinatorLoop& loop) {
     if (loop.machine.coordination != StepMethod::Lai) { return {}; }
     const ProgramPlanner planner(loop.machine);
+    const auto axes = planner.axes_of(program.axes()).value();
     AxisCounts at = loop.axes.counts();
     for (std::uint32_t number = 0; !program.ends_before(number); ++number) {
-        const Block block = program.block(number).value();
-        const AxisCounts from = at;
-        if (!std::holds_alternative<LinearMove>(block.action)) { continue; }
-        (void)planner.moves(block, program, at);
-        if (const auto fits = planner.check_lai(block, from, at); !fits) {
-            return refuse(fits.error().fault, "line " + std::to_string(block.line) + ": " + fits.error().text);
-        }
+        const auto move = planner.move_of(program.block(number).value(), number, axes, at);
+        if (move) { continue; }
+        return refuse(move.error().fault, "line " + std::to_string(move.error().line) + ": " + move.error().text);
     }
     return {};
 }

@@ -98,14 +98,6 @@ PathMove ProgramPlanner::path_move(const LinearMove& linear, const AxisCounts& f
     return make_move(from, to, limits_, steps_per_mm_, linear.rapid ? 0 : linear.feed_mm_s * tick_s);
 }
 
-std::expected<void, PlanError> ProgramPlanner::check_lai(const Block& block, const AxisCounts& from,
-                                                         const AxisCounts& to) const {
-    if (machine_.coordination != StepMethod::Lai) { return {}; }
-    const auto fits = check_lai_move(path_move(std::get<LinearMove>(block.action), from, to), machine_.tick_ns);
-    if (!fits) { return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()}); }
-    return {};
-}
-
 std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program, const AxisCounts& start) const {
     if (const auto fits = check_start(program.head(), start); !fits) { return std::unexpected(fits.error()); }
     const auto axes = axes_of(program.axes).value();
@@ -115,16 +107,9 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& p
     for (std::uint32_t b = 0; b <= blocks; ++b) {
         Leg leg{.first = b, .end = b, .from = at, .to = at};
         for (; b < blocks && !ends_leg(program.blocks[b]); ++b) {
-            const Block& block = program.blocks[b];
-            if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
-                leg.moves = leg.moves || dwell->seconds > 0;
-                continue;
-            }
-            const auto to = target(std::get<LinearMove>(block.action), axes, at, block.line);
-            if (!to) { return std::unexpected(to.error()); }
-            if (auto fits = check_lai(block, at, *to); !fits) { return std::unexpected(fits.error()); }
-            leg.moves = leg.moves || *to != at;
-            at = *to;
+            const auto move = move_of(program.blocks[b], b, axes, at);
+            if (!move) { return std::unexpected(move.error()); }
+            leg.moves = leg.moves || move->has_value();
         }
         leg.end = b;
         leg.to = at;
@@ -146,7 +131,7 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
         const Block block = program->block(end.block).value();
         end.kind = end_by(block);
         if (ends_leg(block)) { break; }
-        if (const auto move = move_of(block, end.block, axes, end.to)) { moves.push_back(*move); }
+        if (const auto move = move_of(block, end.block, axes, end.to).value()) { moves.push_back(*move); }
     }
     return std::make_unique<LaiFrames>(machine_, std::move(program), std::move(moves), end);
 }
@@ -158,19 +143,26 @@ bool ProgramPlanner::moves(const Block& block, const ProgramBlocks& program, Axi
     return at != from;
 }
 
-/// Nothing: the block neither moves nor dwells. `at` becomes where it leads.
-std::optional<PathMove> ProgramPlanner::move_of(const Block& block, std::uint32_t number,
-                                                const std::vector<std::size_t>& axes, AxisCounts& at) const {
+std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const Block& block, std::uint32_t number,
+                                                                          const std::vector<std::size_t>& axes,
+                                                                          AxisCounts& at) const {
     PathMove move{.from = at, .to = at};
-    if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
-        move = path_move(*linear, at, target(*linear, axes, at, block.line).value());
-        at = move.to;
-    } else {
-        move.dwell = ticks_of(std::get<Dwell>(block.action), static_cast<double>(machine_.tick_ns) * 1e-9);
+    if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
+        move.dwell = ticks_of(*dwell, static_cast<double>(machine_.tick_ns) * 1e-9);
+    } else if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
+        const auto to = target(*linear, axes, at, block.line);
+        if (!to) { return std::unexpected(to.error()); }
+        move = path_move(*linear, at, *to);
+        at = *to;
+        if (machine_.coordination == StepMethod::Lai) {
+            const auto fits = check_lai_move(move, machine_.tick_ns);
+            if (!fits) { return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()}); }
+        }
     }
     move.line = block.line;
     move.block = number;
-    return move.lead != 0 || move.dwell > Ticks{} ? std::optional(move) : std::nullopt;
+    if (move.lead == 0 && move.dwell <= Ticks{}) { return std::nullopt; }
+    return move;
 }
 
 void ProgramPlanner::each_move(const Program& program, const Leg& leg,
@@ -178,7 +170,7 @@ void ProgramPlanner::each_move(const Program& program, const Leg& leg,
     const auto axes = axes_of(program.axes).value();
     AxisCounts at = leg.from;
     for (std::uint32_t b = leg.first; b < leg.end; ++b) {
-        if (const auto move = move_of(program.blocks[b], b, axes, at)) { visit(*move); }
+        if (const auto move = move_of(program.blocks[b], b, axes, at).value()) { visit(*move); }
     }
 }
 

@@ -4,6 +4,7 @@
 #include <expected>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,12 +73,13 @@ public:
                                                 const AxisCounts& from, std::int32_t line) const;
     /// Whether a block moves an axis or dwells. `at` becomes where it leads.
     bool moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const;
-    /// Error: a move that cannot be made by the LAI method.
-    std::expected<void, PlanError> check_lai(const Block& block, const AxisCounts& from, const AxisCounts& to) const;
+    /// The block's move or dwell, of a program with these `axes` (axes_of), from `at`, which becomes where it leads.
+    /// Nothing: it neither moves nor dwells. Errors: as target(), and what cannot be made by the LAI method.
+    std::expected<std::optional<PathMove>, PlanError> move_of(const Block& block, std::uint32_t number,
+                                                              const std::vector<std::size_t>& axes,
+                                                              AxisCounts& at) const;
 
 private:
-    std::optional<PathMove> move_of(const Block& block, std::uint32_t number, const std::vector<std::size_t>& axes,
-                                    AxisCounts& at) const;
     PathMove path_move(const LinearMove& linear, const AxisCounts& from, const AxisCounts& to) const;
 
     MachineConfig machine_;

@@ -1,0 +1,39 @@
+#include "clients/planning/counted_blocks.hpp"
+
+#include <utility>
+
+namespace lockstep {
+
+CountedBlocks::CountedBlocks(const ProgramPlanner& planner, std::shared_ptr<const ProgramBlocks> blocks,
+                             std::vector<std::size_t> axes, AxisCounts start)
+    : planner_(planner), blocks_(std::move(blocks)), axes_(std::move(axes)), at_(start) {}
+
+std::optional<Block> CountedBlocks::block(std::uint32_t number) const {
+    auto block = blocks_->block(number);
+    if (block && number == next_ && !count(*block, number)) { return std::nullopt; }
+    return block;
+}
+
+/// A wrong block ends the program, so it is looked at before it is asked for.
+bool CountedBlocks::ends_before(std::uint32_t number) const {
+    if (blocks_->ends_before(number)) { return true; }
+    if (number == next_) { (void)block(number); }
+    return error_ && number >= next_;
+}
+
+bool CountedBlocks::count(const Block& block, std::uint32_t number) const {
+    if (error_) { return false; }
+    const auto move = planner_.move_of(block, number, axes_, at_);
+    if (!move) {
+        error_ = move.error();
+        return false;
+    }
+    ++next_;
+    if (*move && (*move)->lead != 0) {
+        ++moves_;
+        length_mm_ += (*move)->length_mm;
+    }
+    return true;
+}
+
+}  // namespace lockstep

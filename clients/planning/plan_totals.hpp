@@ -1,0 +1,57 @@
+// Sums up a planned motion frame by frame: its duration, and how far and how fast each axis goes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "core/motion/path.hpp"
+#include "core/path/frame_planner.hpp"
+
+namespace lockstep {
+
+struct AxisPlan {
+    std::string name;
+    std::int64_t steps = 0;  // both ways together
+    double peak_velocity_mm_s = 0;
+    double peak_acceleration_mm_s2 = 0;  // of its pieces, rising or falling
+    double peak_jump_mm_s = 0;           // the largest sudden change of its speed: in a corner, from and to rest
+    double min_mm = 0;                   // the range of its positions, its start included
+    double max_mm = 0;
+};
+
+class PlanTotals {
+public:
+    PlanTotals(const MachineConfig& machine, const AxisCounts& start);
+
+    /// `begins`: of the moves that begin in the frame.
+    void take(const PathFrame& frame, const std::vector<MoveBegin>& begins);
+    /// The machine rests.
+    void end_leg();
+
+    Ticks duration() const { return duration_; }
+    const std::vector<AxisPlan>& axes() const { return axes_; }
+
+private:
+    struct Axis {
+        std::int64_t count = 0;  // where the last move began
+        double speed = 0;        // steps per tick, at the end of the last piece
+        Position at;
+    };
+
+    void note_begins(const PathFrame& frame, const std::vector<MoveBegin>& begins);
+    void note_pieces(const AxisTrack& track, std::size_t axis);
+    void note_place(std::size_t axis, std::int64_t count);
+    void note_jump(std::size_t axis, double change, bool is_between_moves);
+
+    const MachineConfig& machine_;
+    std::vector<AxisPlan> axes_;
+    std::vector<Axis> now_;
+    Ticks duration_;
+    std::int64_t begun_ = -1;     // the last block whose move began in this leg
+    std::vector<Ticks> corners_;  // where moves begin in the frame, ascending
+    bool ends_move_ = true;       // a move begins with the next frame, as far as the last one tells
+};
+
+}  // namespace lockstep

@@ -1,0 +1,56 @@
+#include "clients/planning/program_text.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lockstep {
+
+ProgramText::ProgramText(LineReader lines, const GcodeSetup& setup)
+    : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()) {}
+
+std::optional<Block> ProgramText::block(std::uint32_t number) const {
+    if (ends_before(number) || number < first_) { return std::nullopt; }
+    const auto passed = std::min<std::size_t>(number - first_, blocks_.size());
+    blocks_.erase(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(passed));
+    first_ = number;
+    return blocks_.front();
+}
+
+bool ProgramText::ends_before(std::uint32_t number) const {
+    while (errors_.empty() && number >= first_ + blocks_.size() && read_line()) {}
+    return number >= first_ + blocks_.size();
+}
+
+const Diagnostics& ProgramText::errors() {
+    while (!errors_.empty() && errors_.size() < kMaxGcodeErrors && read_line()) { blocks_.clear(); }
+    return errors_;
+}
+
+/// False: there is no more.
+bool ProgramText::read_line() const {
+    if (is_over_) { return false; }
+    const auto next = lines_.next();
+    if (!next) {
+        errors_.push_back({.line = line_ + 1, .column = 1, .message = next.error()});
+        is_over_ = true;
+        return false;
+    }
+    if (next->state == LineReader::State::Waits) { return true; }
+    const bool is_end = next->state == LineReader::State::Ends;
+    const auto done = is_end ? gcode_.finish() : gcode_.take(next->line, ++line_);
+    if (!done) { report(done.error()); }
+    for (Block& block : gcode_.take_blocks()) {
+        if (errors_.empty()) { blocks_.push_back(std::move(block)); }
+    }
+    std::ranges::move(gcode_.take_notes(), std::back_inserter(notes_));
+    is_over_ = is_end || gcode_.is_ended();
+    return !is_over_;
+}
+
+/// An error that every later line would bring again is reported once.
+void ProgramText::report(const GcodeError& error) const {
+    if (error.repeats && std::exchange(has_repeated_, true)) { return; }
+    errors_.push_back({.line = error.line, .column = error.column, .message = error.message});
+}
+
+}  // namespace lockstep

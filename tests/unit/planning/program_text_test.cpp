@@ -1,0 +1,103 @@
+// A file that is planned as it is read has the same plan as one that is held as a whole.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "clients/planning/plan_summary.hpp"
+#include "clients/planning/program_text.hpp"
+#include "services/documents/program_file.hpp"
+#include "services/files/text_file.hpp"
+#include "tests/temporary_directory.hpp"
+#include "tests/unit/verification/recorded_machine.hpp"
+
+namespace lockstep {
+namespace {
+
+using test::example;
+
+class PlannedAsItIsRead : public testing::Test {
+protected:
+    std::shared_ptr<ProgramText> read(const std::string& text) {
+        EXPECT_TRUE(write_text_file(file_, text));
+        return std::make_shared<ProgramText>(LineReader::open(file_.string()).value(),
+                                             program_setup(file_, machine_, parked_mm(machine_)));
+    }
+    std::expected<ProgramPlan, PlanError> plan(const std::shared_ptr<ProgramText>& text) const {
+        return plan_blocks(machine_, text->head(), text);
+    }
+
+    TemporaryDirectory directory_;
+    std::filesystem::path file_ = directory_.path() / "program.gcode";
+    MachineConfig machine_ = example("three-axis");
+};
+
+void expect_same(const ProgramPlan& streamed, const ProgramPlan& whole) {
+    EXPECT_EQ(streamed.moves, whole.moves);
+    EXPECT_EQ(streamed.pauses, whole.pauses);
+    EXPECT_EQ(streamed.duration, whole.duration);
+    EXPECT_EQ(streamed.length_mm, whole.length_mm);
+    for (std::size_t i = 0; i < whole.axes.size(); ++i) {
+        EXPECT_EQ(streamed.axes[i].steps, whole.axes[i].steps);
+        EXPECT_EQ(streamed.axes[i].min_mm, whole.axes[i].min_mm);
+        EXPECT_EQ(streamed.axes[i].max_mm, whole.axes[i].max_mm);
+        EXPECT_EQ(streamed.axes[i].peak_jump_mm_s, whole.axes[i].peak_jump_mm_s);
+    }
+}
+
+TEST_F(PlannedAsItIsRead, IsAsPlannedAsAWhole) {
+    for (const char* name : {"plate", "pocket", "contour", "drilling"}) {
+        SCOPED_TRACE(name);
+        const std::string text = read_text_file("deploy/examples/" + std::string(name) + ".gcode").value();
+        const auto streamed = plan(read(text));
+        const auto whole = load_gcode_file(file_, machine_, parked_mm(machine_));
+        ASSERT_TRUE(streamed && whole);
+        expect_same(*streamed, plan_program(machine_, *whole).value());
+    }
+}
+
+TEST_F(PlannedAsItIsRead, LegByLeg) {
+    const std::string text = "G0 X20\nG4 P0.5\nM0\nM0\nG0 X10 Y30\nM0\n";
+    const auto streamed = plan(read(text));
+    const auto whole = load_gcode_file(file_, machine_, parked_mm(machine_));
+    ASSERT_TRUE(streamed && whole);
+    EXPECT_EQ(streamed->pauses, 3);
+    expect_same(*streamed, plan_program(machine_, *whole).value());
+}
+
+TEST_F(PlannedAsItIsRead, NamesWhatIsWrongLineByLine) {
+    std::string text;
+    for (int line = 1; line <= 100; ++line) { text += line % 10 == 7 ? "G1 X9999 F600\n" : "G1 X20 F600\n"; }
+    const auto program = read(text);
+    (void)plan(program);
+    ASSERT_EQ(program->errors().size(), 10U);
+    EXPECT_EQ(program->errors()[0].line, 7);
+    EXPECT_EQ(program->errors()[9].line, 97);
+    EXPECT_THAT(program->errors()[0].message, testing::HasSubstr("travel"));
+}
+
+TEST_F(PlannedAsItIsRead, StopsAtTwentyErrors) {
+    std::string text;
+    for (int line = 1; line <= 100; ++line) { text += line % 2 == 0 ? "G1 X9999 F600\n" : "G1 X9998 F600\n"; }
+    const auto program = read(text);
+    (void)plan(program);
+    EXPECT_EQ(program->errors().size(), kMaxGcodeErrors);
+}
+
+/// A text of which all is at hand may call a subroutine that stands behind the call.
+TEST_F(PlannedAsItIsRead, RefusesASubroutineBehindItsCall) {
+    const auto program = read("o1 call\nM0\no1 sub\nG0 X20\no1 endsub\nM2\n");
+    (void)plan(program);
+    ASSERT_FALSE(program->errors().empty());
+    EXPECT_EQ(program->errors()[0].line, 1);
+}
+
+TEST_F(PlannedAsItIsRead, CountsLinesAndKeepsNotes) {
+    const auto program = read("G21\n(MSG, hello)\nG0 X20\nM2\nG0 X99999\n");
+    ASSERT_TRUE(plan(program));
+    EXPECT_TRUE(program->errors().empty());
+    EXPECT_EQ(program->lines(), 4);
+    ASSERT_EQ(program->notes().size(), 1U);
+    EXPECT_EQ(program->notes()[0].line, 2);
+}
+
+}  // namespace
+}  // namespace lockstep
