@@ -1,6 +1,5 @@
 #include "clients/grbl/machine_link.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "clients/session/control/store_values.hpp"
@@ -21,15 +20,13 @@ Answer answer_of(const Reply& reply) {
 
 Command command_of(const Request& request) {
     switch (request.kind) {
-        case Request::Kind::Hold: return {.kind = CommandKind::Hold};
-        case Request::Kind::Resume: return {.kind = CommandKind::Resume};
         case Request::Kind::Reset: return {.kind = CommandKind::Reset};
         case Request::Kind::Home: return {.kind = CommandKind::Home, .axes = request.axes};
         case Request::Kind::Override:
             return {.kind = CommandKind::Override,
                     .feed_percent = request.overrides.feed_percent,
                     .rapid_percent = request.overrides.rapid_percent};
-        default: return {.kind = CommandKind::Stop};
+        default: return {};
     }
 }
 
@@ -37,15 +34,15 @@ Command command_of(const Request& request) {
 
 void MachineLink::carry_out(Request&& request, Grbl& grbl) {
     switch (request.kind) {
-        case Request::Kind::Hold:
-        case Request::Kind::Resume:
-        case Request::Kind::Stop:
+        case Request::Kind::Hold: return lines_.hold(monotonic_now());
+        case Request::Kind::Resume: return lines_.resume(monotonic_now());
+        case Request::Kind::Stop: return lines_.stop(monotonic_now());
         case Request::Kind::Override: return send(command_of(request), 0);
         case Request::Kind::CancelJog: return jog_.release();
         case Request::Kind::Reset:
         case Request::Kind::Home: return send(command_of(request), request.number);
         case Request::Kind::SetValues: return set_values(request, grbl);
-        case Request::Kind::RunLine: return grbl.answer(request.number, sink_.take(request.line));
+        case Request::Kind::RunLine: lines_.take(request.number, std::move(request.line)); return pass_lines(grbl);
         case Request::Kind::Jog:
             jog_.press(request.jogs);
             new_jog_ = request.number;
@@ -60,6 +57,12 @@ void MachineLink::release() {
     new_jog_.reset();
     has_jog_ = false;
     for (Open& open : open_) { open.number = 0; }
+    lines_.leave();
+    for (const nanoseconds begin = monotonic_now(); !lines_.has_left() && monotonic_now() - begin < kPatience;) {
+        session_.receive(5ms);
+        lines_.pass(session_.state()->state, rests(), monotonic_now());
+    }
+    session_.close_stream();
 }
 
 void MachineLink::send(Command command, std::uint64_t number) {
@@ -69,6 +72,7 @@ void MachineLink::send(Command command, std::uint64_t number) {
 
 void MachineLink::pass(nanoseconds time, Grbl& grbl) {
     jog_.pass(monotonic_now() + time);
+    pass_lines(grbl);
     grbl.see(view());
     auto open = std::exchange(open_, {});
     for (Open& one : open) {
@@ -135,30 +139,30 @@ bool MachineLink::rests() const {
     return true;
 }
 
-MachineView MachineLink::view() {
-    MachineView view;
-    const auto& state = session_.state();
-    view.is_received = state && !session_.is_silent();
-    if (!state) { return view; }
-    view.phase = state->state.phase;
-    view.fault = static_cast<FaultCode>(state->state.fault);
-    view.line = state->state.line;
-    view.overrides = state->state.overrides;
-    double squares = 0;
-    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
-        const AxisConfig& config = session_.config().axes[i];
-        const auto& axis = session_.axis(i);
-        view.is_received = view.is_received && session_.axis_present(i);
-        view.axes.push_back(axis ? AxisPlace{to_mm(config, static_cast<double>(axis->state.position.count())),
-                                             axis->state.homed, axis->state.at_rest}
-                                 : AxisPlace{});
-        const double per_tick = axis ? axis->state.velocity.steps_per_tick() : 0;
-        const double mm_min = per_tick * session_.config().ticks_per_second() / config.steps_per_mm * 60;
-        squares += mm_min * mm_min;
+void MachineLink::pass_lines(Grbl& grbl) {
+    if (!session_.state()) { return; }
+    lines_.pass(session_.state()->state, rests(), monotonic_now());
+    if (const auto why = lines_.take_loss()) { grbl.abort(*why); }
+    for (const LineRunner::Answered& answered : lines_.take_answers()) {
+        grbl.answer(answered.request, answered.answer);
     }
-    view.feed_mm_min = std::sqrt(squares);
+}
+
+MachineView MachineLink::view() {
+    const auto& state = session_.state();
+    if (!state) { return {}; }
+    std::vector<const AxisState*> axes;
+    bool is_received = !session_.is_silent();
+    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
+        const auto& axis = session_.axis(i);
+        axes.push_back(axis ? &axis->state : nullptr);
+        is_received = is_received && session_.axis_present(i);
+    }
+    MachineView view = view_of(session_.config(), state->state, axes);
+    view.is_received = is_received;
     if (const auto values = session_.newest_values()) { values_ = values->values; }
     view.values = values_;
+    lines_.report(state->state, view);
     return view;
 }
 

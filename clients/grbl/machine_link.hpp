@@ -5,21 +5,36 @@
 #include <optional>
 #include <vector>
 
-#include "clients/grbl/line_sink.hpp"
+#include "clients/grbl/lines/line_runner.hpp"
 #include "clients/grbl/protocol/grbl.hpp"
 #include "clients/session/control/jog_link.hpp"
 #include "clients/session/session.hpp"
 
 namespace lockstep::grbl {
 
+/// A session as the messages of programs.
+class SessionPort : public MachinePort {
+public:
+    explicit SessionPort(Session& session) : session_(session) {}
+    ProgramSender& open(const ProgramHead& head) override { return session_.open_stream(head); }
+    void close() override { session_.close_stream(); }
+    void begin(Command& command) override { session_.begin(command); }
+    void repeat(const Command& command) override { session_.repeat(command); }
+    const Reply* reply_to(const Command& command) override { return session_.reply_to(command); }
+
+private:
+    Session& session_;
+};
+
 class MachineLink {
 public:
-    MachineLink(Session& session, LineSink& sink) : session_(session), jog_(session), sink_(sink) {}
+    explicit MachineLink(Session& session)
+        : session_(session), jog_(session), port_(session), lines_(session.config(), port_) {}
 
     void carry_out(Request&& request, Grbl& grbl);
     /// Receives messages for so long, renews the jog, and tells the connection what has changed.
     void pass(std::chrono::nanoseconds time, Grbl& grbl);
-    /// Nobody listens any more: the jog is released, and answers are of no interest.
+    /// Nobody listens any more: the jog is released, what was accepted is run, and answers are of no interest.
     void release();
 
 private:
@@ -35,13 +50,15 @@ private:
     bool follow(Open& open, Grbl& grbl);
     bool has_ended(const Open& open, Grbl& grbl) const;
     void follow_jog(Grbl& grbl);
+    void pass_lines(Grbl& grbl);
     void set_values(const Request& request, Grbl& grbl);
     bool rests() const;
     MachineView view();
 
     Session& session_;
     JogLink jog_;
-    LineSink& sink_;
+    SessionPort port_;
+    LineRunner lines_;
     std::vector<Open> open_;
     std::optional<std::uint64_t> new_jog_;  // its request
     bool has_jog_ = false;

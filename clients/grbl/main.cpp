@@ -22,10 +22,16 @@ struct Options {
     std::string terminal;
 };
 
+/// An answer may lead to the next request.
+void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
+    for (auto requests = protocol.take_requests(); !requests.empty(); requests = protocol.take_requests()) {
+        for (grbl::Request& request : requests) { link.carry_out(std::move(request), protocol); }
+    }
+}
+
 /// One sender at a time: it is served until it leaves, or a signal comes.
 void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Session& session, const StopSignal& stop) {
-    grbl::NoLines lines;
-    grbl::MachineLink link(session, lines);
+    grbl::MachineLink link(session);
     grbl::Grbl protocol(session.config(), LOCKSTEP_VERSION);
     link.pass(50ms, protocol);
     protocol.greet();
@@ -33,7 +39,7 @@ void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Ses
         const auto bytes = grbl::read_from(sender, 2ms);
         if (!bytes) { break; }
         protocol.receive(*bytes);
-        for (grbl::Request& request : protocol.take_requests()) { link.carry_out(std::move(request), protocol); }
+        carry_out(link, protocol);
         link.pass(2ms, protocol);
         if (!grbl::write_to(sender, protocol.take_output())) { break; }
         if (const auto second = grbl::accept_from(listener)) {

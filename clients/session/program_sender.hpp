@@ -47,6 +47,8 @@ public:
     bool is_ended() const { return is_ended_; }
     /// The coordinator has taken all of it.
     bool is_done() const { return is_ended_ && parts_.empty(); }
+    /// Blocks that the coordinator has not taken.
+    bool has_unsent() const { return waiting_ > 0; }
     /// The coordinator takes no more of it.
     const std::optional<Reply>& refusal() const { return refusal_; }
 

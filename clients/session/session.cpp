@@ -270,12 +270,22 @@ std::expected<std::uint64_t, Failure> Session::send(const Program& program, cons
 std::expected<std::uint64_t, Failure> Session::stream(const ProgramHead& head,
                                                       const std::optional<gcode::ProgramValues>& values, Feed feed,
                                                       const StopSignal* stop) {
-    const std::uint64_t id = new_identity() | 1;  // never 0, which means none
-    sender_.emplace(client_, ++programs_, id, head, values);
+    const std::uint64_t id = open_stream(head, values).program();
     feed_ = std::move(feed);
     const auto begun = await_parts([this] { return sender_->parts_taken() > 0; }, stop);
     if (!begun) { return std::unexpected(begun.error()); }
     return id;
+}
+
+ProgramSender& Session::open_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values) {
+    const std::uint64_t id = new_identity() | 1;  // never 0, which means none
+    feed_ = {};
+    return sender_.emplace(client_, ++programs_, id, head, values);
+}
+
+void Session::close_stream() {
+    feed_ = {};
+    sender_.reset();
 }
 
 /// Until `done` holds.

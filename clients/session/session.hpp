@@ -96,6 +96,11 @@ public:
     std::expected<std::uint64_t, Failure> stream(const ProgramHead& head,
                                                  const std::optional<gcode::ProgramValues>& values, Feed feed,
                                                  const StopSignal* stop = nullptr);
+    /// As stream(), but waits for nothing: the caller appends to the sender and sees from it what the coordinator has
+    /// taken. Valid until another program is sent, or close_stream().
+    ProgramSender& open_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values = {});
+    /// No more is sent of the program.
+    void close_stream();
     /// Of the program sent last; null: none was.
     const ProgramSender* sender() const { return sender_ ? &*sender_ : nullptr; }
 

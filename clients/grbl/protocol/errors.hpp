@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/faults.hpp"
 
@@ -17,9 +18,12 @@ enum class Error : int {
     TravelExceeded = 15,
     BadJog = 16,
     Unsupported = 20,
+    SameModalGroup = 21,
     NoFeed = 22,
+    TwoAxisCommands = 24,
     RepeatedWord = 25,
     NoAxisWords = 26,
+    BadTarget = 33,
 };
 
 /// A line that was refused: the number, and a sentence for a person.
@@ -28,17 +32,23 @@ struct Refused {
     std::string text;
 };
 
-/// grbl knows few alarms: 1 a limit switch, 2 a target outside travel, 6 homing that was reset, 8 and 9 homing that
-/// failed, 3 everything else that ends a motion.
+/// The number of a message of the G-code parser. Most of grbl's numbers are about words that it does not know.
+Error error_of(std::string_view message);
+
+/// grbl's alarms: 1 a limit switch, 2 a target outside travel, 3 a reset in motion, and everything else that ends a
+/// motion, 8 and 9 homing that failed.
+inline constexpr int kTravelAlarm = 2;
+inline constexpr int kAbortAlarm = 3;
+
 constexpr int alarm_of(FaultCode fault) {
     switch (fault) {
         case FaultCode::LimitHit: return 1;
         case FaultCode::OutsideTravel:
-        case FaultCode::FrameOutsideTravel: return 2;
+        case FaultCode::FrameOutsideTravel: return kTravelAlarm;
         case FaultCode::HomeSwitchStuck:
         case FaultCode::HomeSwitchUnsteady: return 8;
         case FaultCode::HomeSwitchNotFound: return 9;
-        default: return 3;
+        default: return kAbortAlarm;
     }
 }
 

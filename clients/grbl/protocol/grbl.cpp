@@ -1,18 +1,13 @@
 #include "clients/grbl/protocol/grbl.hpp"
 
-#include "clients/grbl/protocol/jog_line.hpp"
-
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
+#include <string_view>
 
 namespace lockstep::grbl {
 namespace {
 
 constexpr const char* kGreeting = "Grbl 1.1h ['$' for help]";
-constexpr const char* kHelp = "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]";
-
 // Real-time bytes.
 constexpr unsigned char kSoftReset = 0x18;
 constexpr unsigned char kDoor = 0x84;
@@ -33,14 +28,6 @@ std::string capitals(std::string_view text) {
         result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     }
     return result;
-}
-
-/// A message is one line, whatever is in it.
-std::string message(const std::string& text) {
-    std::string line = "[MSG:" + text + "]";
-    std::ranges::replace_if(
-        line, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return line;
 }
 
 }  // namespace
@@ -71,10 +58,11 @@ void Grbl::see(const MachineView& view) {
     const bool had_fault = view_.is_received && view_.phase == MachinePhase::Fault;
     const bool has_fault = view.is_received && view.phase == MachinePhase::Fault;
     view_ = view;
+    if (waits_for_ && waits_for_line_) { view_.lines = std::max<std::size_t>(view_.lines, 1); }
     if (has_fault && !had_fault) {
         say("ALARM:" + std::to_string(alarm_of(view.fault)));
         const FaultText* text = find_fault(view.fault);
-        if (text != nullptr) { say(message(std::string(text->name) + ": " + std::string(text->cause))); }
+        if (text != nullptr) { say_message(std::string(text->name) + ": " + std::string(text->cause)); }
         modes_.is_unlocked = false;
     }
     advance();
@@ -83,6 +71,7 @@ void Grbl::see(const MachineView& view) {
 void Grbl::answer(std::uint64_t number, const Answer& answer) {
     if (waits_for_ != number) { return; }
     waits_for_.reset();
+    waits_for_line_ = false;
     const std::string before = std::exchange(before_ok_, {});
     if (answer.is_done) {
         if (!before.empty()) { say(before); }
@@ -148,20 +137,33 @@ void Grbl::soft_reset() {
     if (has_jog_) { (void)ask(Request::Kind::CancelJog); }
     const bool moves =
         before == State::Run || before == State::Hold || before == State::HoldEnding || before == State::Home;
-    if (moves) { (void)ask(Request::Kind::Stop); }
+    if (moves) { stop(); }
     modes_ = {.is_unlocked = modes_.is_unlocked};
     lines_.reset();
     waits_for_.reset();
+    waits_for_line_ = false;
     before_ok_.clear();
     next_jog_.reset();
+    next_line_.reset();
+    planned_mm_.clear();
     greet();
+}
+
+/// Until the machine rests nothing is known of its place.
+void Grbl::stop() {
+    (void)ask(Request::Kind::Stop);
+    view_.is_stopping = true;
+    view_.lines = 0;
 }
 
 void Grbl::advance() {
     while (!waits_for_) {
         if (next_jog_ && has_jog_) { return; }
+        if (next_line_ && (view_.lines > 0 || !is_settled())) { return; }
         if (next_jog_) {
             do_line(*std::exchange(next_jog_, std::nullopt));
+        } else if (next_line_) {
+            do_line(*std::exchange(next_line_, std::nullopt));
         } else if (bytes_.has_line()) {
             do_line(bytes_.next_line());
         } else {
@@ -178,35 +180,7 @@ void Grbl::do_line(const ReceivedLine& line) {
         return;
     }
     if (text.empty()) { return ok(); }
-    text.front() == '$' ? do_system(std::string_view(text).substr(1)) : do_gcode(line.text);
-}
-
-void Grbl::do_system(std::string_view text) {
-    if (text.empty()) {
-        say(kHelp);
-        return ok();
-    }
-    if (text == "$") { return print_settings(); }
-    if (text == "#") { return print_parameters(); }
-    if (text == "G") {
-        say("[GC:" + lines_.modes_text() + "]");
-        return ok();
-    }
-    if (text == "I") { return print_build(); }
-    if (text.starts_with("N")) { return do_startup_block(text.substr(1)); }
-    if (text == "X") { return unlock(); }
-    if (text == "C") { return toggle_check(); }
-    if (text.starts_with("J=")) { return do_jog(text.substr(2)); }
-    if (text == "J") { return refuse(Error::BadJog, "write $J= and the axes"); }
-    if (text.starts_with("RST=")) { return restore(text.substr(4)); }
-    if (text.front() == 'H') { return do_home(text.substr(1)); }
-    if (text == "SLP") {
-        if (!is_quiet()) { return refuse(Error::NotIdle); }
-        modes_.is_asleep = true;
-        say("[MSG:Sleeping]");
-        return ok();
-    }
-    write_setting(text);
+    text.front() == '$' ? do_system(std::string_view(text).substr(1)) : do_gcode(line);
 }
 
 /// A jog that has begun is one, before the machine's state shows it.
@@ -220,159 +194,16 @@ bool Grbl::is_quiet() const {
     return (now == State::Idle || now == State::Alarm) && !has_jog_;
 }
 
-void Grbl::do_gcode(const std::string& text) {
-    const State now = state();
-    if (now == State::Alarm || now == State::Sleep || has_jog_) {
-        return refuse(Error::Locked, has_jog_ ? "a jog is in progress" : "");
-    }
-    const auto effect = lines_.take(text, view_);
-    if (!effect) { return refuse(effect.error().error, effect.error().text); }
-    if (effect->moves) {
-        if (now == State::Check) { return ok(); }
-        Request& request = ask(Request::Kind::RunLine);
-        request.line = text;
-        waits_for_ = request.number;
-        return;
-    }
-    if (effect->ends_program) { say("[MSG:Pgm End]"); }
-    if (!effect->values || now == State::Check) { return ok(); }
-    Request& request = ask(Request::Kind::SetValues);
-    request.values = *effect->values;
-    waits_for_ = request.number;
-}
-
-void Grbl::do_jog(std::string_view text) {
-    if (state() != State::Idle) { return refuse(Error::NotIdle); }
-    const JogModes modes{lines_.inches(), lines_.relative(), lines_.offset_mm(view_.values)};
-    auto jogs = read_jog(text, machine_, view_.axes, modes);
-    if (!jogs) { return refuse(jogs.error().error, jogs.error().text); }
-    if (jogs->empty()) { return ok(); }
-    has_jog_ = true;
-    Request& request = ask(Request::Kind::Jog);
-    request.jogs = std::move(*jogs);
-    waits_for_ = request.number;
-}
-
-void Grbl::do_home(std::string_view axis) {
-    if (!is_quiet()) { return refuse(Error::NotIdle); }
-    AxisSet axes = 0;
-    if (!axis.empty()) {
-        const auto found = std::ranges::find(machine_.axes, axis, &AxisConfig::name);
-        if (found == machine_.axes.end()) { return refuse(Error::UnknownCommand, "the machine has no such axis"); }
-        axes = axis_bit(static_cast<std::size_t>(found - machine_.axes.begin()));
-    }
-    Request& request = ask(Request::Kind::Home);
-    request.axes = axes;
-    waits_for_ = request.number;
-}
-
-/// In Fault it is a reset. An axis that is not homed cannot be moved by programs all the same.
-void Grbl::unlock() {
-    if (state() != State::Alarm) { return ok(); }
-    modes_.is_unlocked = true;
-    if (view_.phase == MachinePhase::Fault) {
-        waits_for_ = ask(Request::Kind::Reset).number;
-        before_ok_ = "[MSG:Caution: Unlocked]";
-        return;
-    }
-    say("[MSG:Caution: Unlocked]");
-    ok();
-}
-
-void Grbl::toggle_check() {
-    if (modes_.is_checking) {
-        say("[MSG:Disabled]");
-        ok();
-        return soft_reset();
-    }
-    if (state() != State::Idle || has_jog_) { return refuse(Error::NotIdle); }
-    modes_.is_checking = true;
-    say("[MSG:Enabled]");
-    ok();
-}
-
-void Grbl::restore(std::string_view what) {
-    if (!is_quiet()) { return refuse(Error::NotIdle); }
-    if (what != "$" && what != "#" && what != "*") { return refuse(Error::UnknownCommand); }
-    if (what != "#") { options_ = {}; }
-    if (what == "$") {
-        say("[MSG:Restoring defaults]");
-        return ok();
-    }
-    Request& request = ask(Request::Kind::SetValues);
-    request.values = {.tools = view_.values.tools};
-    waits_for_ = request.number;
-    before_ok_ = "[MSG:Restoring defaults]";
-}
-
-void Grbl::do_startup_block(std::string_view text) {
-    if (text.empty()) {
-        say("$N0=");
-        say("$N1=");
-        return ok();
-    }
-    if (text == "0=" || text == "1=") { return ok(); }
-    refuse(Error::UnknownCommand, "no blocks are run at the start");
-}
-
-void Grbl::write_setting(std::string_view text) {
-    const std::size_t sign = text.find('=');
-    int number = 0;
-    const auto read = std::from_chars(text.data(), text.data() + std::min(sign, text.size()), number);
-    const bool is_number = read.ec == std::errc{} && read.ptr == text.data() + sign;
-    if (sign == std::string_view::npos || !is_number) { return refuse(Error::UnknownCommand); }
-    const std::string_view word = text.substr(sign + 1);
-    double value = 0;
-    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value, std::chars_format::fixed);
-    if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size() || !std::isfinite(value)) {
-        return refuse(Error::BadNumber);
-    }
-    const auto written = grbl::write_setting(machine_, number, value, options_);
-    written ? ok() : refuse(Error::UnknownCommand, written.error());
-}
-
-void Grbl::print_settings() {
-    for (const Setting& setting : settings_of(machine_, options_)) {
-        say("$" + std::to_string(setting.number) + "=" + setting.value);
-    }
-    ok();
-}
-
-void Grbl::print_parameters() {
-    const auto places_of = [&](const gcode::Point& point) {
-        std::vector<double> places;
-        for (const AxisConfig& axis : machine_.axes) {
-            const std::size_t letter =
-                axis.name.size() == 1 ? gcode::kAxisLetters.find(axis.name[0]) : gcode::kAxisLetters.npos;
-            places.push_back(letter == gcode::kAxisLetters.npos ? 0 : point[letter]);
-        }
-        return places_text(places, options_.inches);
-    };
-    std::vector<double> park;
-    for (const AxisConfig& axis : machine_.axes) { park.push_back(axis.homing.park_mm); }
-    const gcode::KeptValues& values = view_.values;
-    for (int i = 0; i < 6; ++i) {
-        say("[G" + std::to_string(54 + i) + ":" + places_of(values.systems[static_cast<std::size_t>(i)].origin) + "]");
-    }
-    const auto home_of = [&](const std::optional<gcode::Point>& place) {
-        return place ? places_of(*place) : places_text(park, options_.inches);
-    };
-    say("[G28:" + home_of(values.home) + "]");
-    say("[G30:" + home_of(values.second_home) + "]");
-    say("[G92:" + places_of(values.g92_applies ? values.g92 : gcode::Point{}) + "]");
-    say(std::string("[TLO:") + (options_.inches ? "0.0000]" : "0.000]"));
-    say("[PRB:" + places_of({}) + ":0]");
-    ok();
-}
-
-void Grbl::print_build() {
-    say("[VER:1.1h.20190830:Lockstep " + version_ + "]");
-    say("[OPT:NH,15," + std::to_string(kMaxWaiting) + "]");
-    ok();
+/// It is one line, whatever is in it.
+void Grbl::say_message(const std::string& text) {
+    std::string line = "[MSG:" + text + "]";
+    std::ranges::replace_if(
+        line, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    say(line);
 }
 
 void Grbl::refuse(Error error, const std::string& text) {
-    if (!text.empty()) { say(message(text)); }
+    if (!text.empty()) { say_message(text); }
     say("error:" + std::to_string(static_cast<int>(error)));
 }
 

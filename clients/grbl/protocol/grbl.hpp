@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "clients/grbl/protocol/line_modes.hpp"
+#include "clients/grbl/protocol/gcode_lines.hpp"
 #include "clients/grbl/protocol/received_bytes.hpp"
 #include "clients/grbl/protocol/request.hpp"
 #include "clients/grbl/protocol/settings.hpp"
@@ -31,6 +31,8 @@ public:
     void answer(std::uint64_t number, const Answer& answer);
     /// The jog that was answered before is over.
     void end_jog();
+    /// Lines that were accepted will not be run: an alarm.
+    void abort(const std::string& why);
 
     std::string take_output() { return std::exchange(output_, {}); }
     std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
@@ -39,12 +41,18 @@ private:
     void do_real_time(unsigned char byte);
     void soft_reset();
     void hold();
+    void stop();
     void turn(const Overrides& overrides);
 
     void advance();
     void do_line(const ReceivedLine& line);
     void do_system(std::string_view text);
-    void do_gcode(const std::string& text);
+    void do_gcode(const ReceivedLine& line);
+    void do_effect(LineEffect&& effect, bool is_check);
+    void refuse_gcode(const Refused& refused);
+    bool is_settled() const;
+    std::vector<double> place_mm() const;
+    void raise_alarm(int number, const std::string& why);
     void do_jog(std::string_view text);
     void do_home(std::string_view axis);
     void unlock();
@@ -57,6 +65,7 @@ private:
     void print_build();
 
     void say(const std::string& line) { output_ += line + "\r\n"; }
+    void say_message(const std::string& text);
     void ok() { say("ok"); }
     void refuse(Error error, const std::string& text = {});
     Request& ask(Request::Kind kind);
@@ -70,14 +79,17 @@ private:
     Modes modes_;
     ReportOptions options_;
     StatusReport report_;
-    LineModes lines_;
+    GcodeLines lines_;
     std::string output_;
     std::vector<Request> requests_;
     std::uint64_t number_ = 0;                // of the last request
     std::optional<std::uint64_t> waits_for_;  // the answer to a line depends on it
+    bool waits_for_line_ = false;             // that is to be run
     std::string before_ok_;                   // what comes before the ok then
     bool has_jog_ = false;
-    std::optional<ReceivedLine> next_jog_;  // waits for the end of the one before
+    std::optional<ReceivedLine> next_jog_;   // waits for the end of the one before
+    std::optional<ReceivedLine> next_line_;  // waits until the machine has run those before it
+    std::vector<double> planned_mm_;         // where the accepted lines lead, while there are any, and in check mode
 };
 
 }  // namespace lockstep::grbl

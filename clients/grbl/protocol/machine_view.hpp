@@ -7,6 +7,7 @@
 
 #include "core/faults.hpp"
 #include "core/gcode/kept_values.hpp"
+#include "core/machine.hpp"
 #include "core/overrides.hpp"
 #include "core/protocol/messages.hpp"
 
@@ -25,9 +26,13 @@ struct MachineView {
     FaultCode fault = FaultCode::None;
     std::vector<AxisPlace> axes;  // by the configuration
     double feed_mm_min = 0;       // of the axes together, now
-    std::int32_t line = 0;        // of the program in motion; 0: none
+    std::int32_t line = 0;        // of the program in motion, or the N word of the sender's line; 0: none
     Overrides overrides;
     gcode::KeptValues values;
+    // Of the sender's lines that were accepted:
+    std::size_t lines = 0;     // not run yet
+    bool is_held = false;      // they wait for a resume, before the machine has begun with them
+    bool is_stopping = false;  // they were dropped, and the machine is not known to rest yet
 
     bool is_at_rest() const {
         for (const AxisPlace& axis : axes) {
@@ -42,5 +47,8 @@ struct MachineView {
         return true;
     }
 };
+
+/// `axes`: the newest state of each; null: none was received. The rest of the view is the caller's.
+MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes);
 
 }  // namespace lockstep::grbl

@@ -7,9 +7,23 @@
 #include "core/faults.hpp"
 #include "core/gcode/kept_values.hpp"
 #include "core/overrides.hpp"
+#include "core/program.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep::grbl {
+
+/// So many lines at least are accepted before they are run: the machine's look-ahead takes that many, however long they
+/// are. Senders read it as the size of grbl's planner.
+inline constexpr std::size_t kPlannerLines = 128;
+
+/// A line of G-code that takes time.
+struct LineToRun {
+    std::vector<Block> blocks;
+    std::vector<double> from_mm;      // of each axis, where it begins
+    double seconds = 0;               // that it takes, about
+    std::int32_t sender_line = 0;     // its N word; 0: none
+    bool is_answered_behind = false;  // when it was run; else when it is accepted
+};
 
 struct Request {
     enum class Kind : std::uint8_t {
@@ -22,7 +36,7 @@ struct Request {
         Home,       // `axes`; answered at its end
         Jog,        // `jogs`; answered when it has begun
         SetValues,  // to `values`
-        RunLine     // of G-code that moves: `line`
+        RunLine     // `line`; answered when it is accepted, or was run where it says so
     };
     Kind kind = Kind::Stop;
     std::uint64_t number = 0;
@@ -30,7 +44,7 @@ struct Request {
     Overrides overrides;
     std::vector<JogAxis> jogs;
     gcode::KeptValues values;
-    std::string line;
+    LineToRun line;
 };
 
 struct Answer {

@@ -1,7 +1,10 @@
 #include "clients/grbl/protocol/status_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "clients/grbl/protocol/request.hpp"
 
 namespace lockstep::grbl {
 namespace {
@@ -9,7 +12,6 @@ namespace {
 constexpr double kInch_mm = 25.4;
 constexpr int kEvery = 30;  // WCO comes in one of so many reports at rest
 constexpr int kEveryMoving = 10;
-constexpr int kBlocks = 15;  // grbl's planner has so many; this one has no such limit
 
 const char* name_of(State state) {
     switch (state) {
@@ -52,10 +54,12 @@ bool is_at_rest(State state) { return state == State::Idle || state == State::Al
 State state_of(const MachineView& view, const Modes& modes) {
     if (!view.is_received) { return State::Alarm; }
     const State state = state_of(view.phase);
+    if (state == State::Run && view.is_held) { return State::HoldEnding; }
     if (state != State::Idle) { return state; }
+    if (view.lines > 0) { return view.is_held ? State::Hold : State::Run; }
     if (!view.is_at_rest()) { return State::Run; }  // what the axes report is older than the machine's state
     if (modes.is_asleep) { return State::Sleep; }
-    if (!view.is_homed() && !modes.is_unlocked) { return State::Alarm; }
+    if (modes.is_aborted || (!view.is_homed() && !modes.is_unlocked)) { return State::Alarm; }
     return modes.is_checking ? State::Check : State::Idle;
 }
 
@@ -76,7 +80,10 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     }
     std::string text = std::string("<") + name_of(state) + (has_machine_places ? "|MPos:" : "|WPos:") +
                        places_text(places, options.inches);
-    if ((options.mask & 2) != 0) { text += "|Bf:" + std::to_string(kBlocks) + "," + std::to_string(room); }
+    if ((options.mask & 2) != 0) {
+        text +=
+            "|Bf:" + std::to_string(kPlannerLines - std::min(kPlannerLines, view.lines)) + "," + std::to_string(room);
+    }
     if (view.line > 0 && state == State::Run) { text += "|Ln:" + std::to_string(view.line); }
     text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + ",0";
     if (offset_mm != offset_mm_) { offsets_due_ = 0; }

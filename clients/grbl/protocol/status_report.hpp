@@ -14,6 +14,7 @@ struct Modes {
     bool is_checking = false;  // $C
     bool is_asleep = false;    // $SLP
     bool is_unlocked = false;  // $X: an unhomed machine is no alarm
+    bool is_aborted = false;   // lines were lost: an alarm until a person has seen it
 };
 
 State state_of(const MachineView& view, const Modes& modes);

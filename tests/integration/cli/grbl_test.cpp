@@ -135,9 +135,35 @@ TEST_F(GrblSender, HomesJogsAndSetsTheWorkZero) {
     EXPECT_TRUE(sender.answers("$J=X1000 F3000", "error:15"));
     EXPECT_TRUE(sender.answers("$100", "error:3"));
     EXPECT_TRUE(sender.answers("$$", "$100=80.000"));
-    EXPECT_TRUE(sender.answers("G1 X1 F100", "error:9")) << "lines that move are refused";
+    EXPECT_TRUE(sender.answers("G1 X0 F3000", "ok"));
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == before + 800 && status().phase() == "Idle"; }));
     sender.send("\x91");
     EXPECT_TRUE(eventually([&] { return status().feed_override_percent() == 110; }));
+}
+
+TEST_F(GrblSender, StreamsLinesHoldsResumesAndResets) {
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    Sender sender = connected();
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));
+    for (int k = 0; k < 100; ++k) {
+        ASSERT_TRUE(
+            sender.answers("G1 X" + std::to_string(20 + k) + " Y" + std::to_string(20 + k % 2) + " F3000", "ok"));
+    }
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Run"); }));
+    sender.send("!");
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Hold:0"); }));
+    EXPECT_EQ(status().phase(), "Holding");
+    sender.send("~");
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == 119 * 80 && status().phase() == "Idle"; }));
+    ASSERT_TRUE(sender.answers("G0 X10", "ok"));
+    EXPECT_TRUE(eventually([&] { return status().phase() == "Running" && steps_of_x() < 119 * 80; }));
+    sender.send("\x18");
+    EXPECT_TRUE(sender.receives("Grbl 1.1h"));
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));
+    EXPECT_GT(steps_of_x(), 10 * 80);
+    ASSERT_TRUE(sender.answers("G4 P0.1", "ok"));
+    ASSERT_TRUE(sender.answers("G0 X30", "ok"));
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == 30 * 80 && status().phase() == "Idle"; }));
 }
 
 TEST_F(GrblSender, LeavesAndItsJogBrakes) {

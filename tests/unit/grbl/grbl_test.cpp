@@ -1,8 +1,5 @@
 // A sender and a machine by hand: what grbl's protocol answers, and what it asks of the machine.
-#include "clients/grbl/protocol/grbl.hpp"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/unit/grbl/hand_sender.hpp"
 
 #include <random>
 
@@ -11,74 +8,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
-
-using Kind = Request::Kind;
-
-MachineConfig mill() {
-    MachineConfig machine{.name = "mill"};
-    for (const char* name : {"X", "Y", "Z"}) {
-        AxisConfig axis{.name = name,
-                        .steps_per_mm = 100,
-                        .start_velocity_mm_s = 5,
-                        .max_velocity_mm_s = 50,
-                        .max_accel_mm_s2 = 500,
-                        .max_decel_mm_s2 = 500,
-                        .position_min_mm = 0,
-                        .position_max_mm = 200};
-        axis.homing = {.search_velocity_mm_s = 5, .latch_velocity_mm_s = 1, .pulloff_mm = 2, .park_mm = 5};
-        machine.axes.push_back(axis);
-    }
-    return machine;
-}
-
-class Sender : public testing::Test {
-protected:
-    Sender() {
-        view.is_received = true;
-        view.phase = MachinePhase::Idle;
-        view.axes = {{10, true}, {20, true}, {30, true}};
-        grbl.see(view);
-        grbl.greet();
-        (void)grbl.take_output();
-    }
-    /// The lines that come back.
-    std::vector<std::string> send(std::string_view bytes) {
-        grbl.receive(bytes);
-        return lines();
-    }
-    std::vector<std::string> lines() {
-        std::vector<std::string> found;
-        const std::string output = grbl.take_output();
-        for (std::size_t at = 0; at < output.size();) {
-            const std::size_t end = output.find("\r\n", at);
-            EXPECT_NE(end, std::string::npos) << "every line has its end";
-            found.push_back(output.substr(at, end - at));
-            at = end + 2;
-        }
-        return found;
-    }
-    std::vector<Kind> asked() {
-        std::vector<Kind> kinds;
-        requests = grbl.take_requests();
-        for (const Request& request : requests) { kinds.push_back(request.kind); }
-        return kinds;
-    }
-    void change(MachinePhase phase, FaultCode fault = FaultCode::None) {
-        view.phase = phase;
-        view.fault = fault;
-        grbl.see(view);
-    }
-    std::string status() {
-        const auto found = send("?");
-        return found.empty() ? "" : found.back();
-    }
-
-    MachineView view;
-    Grbl grbl{mill(), "1.0"};
-    std::vector<Request> requests;
-};
 
 TEST_F(Sender, IsGreeted) {
     grbl.greet();
@@ -95,7 +25,7 @@ TEST_F(Sender, GetsOneAnswerForEachLine) {
     EXPECT_THAT(send("$\n"), ElementsAre(StartsWith("[HLP:"), "ok"));
     EXPECT_THAT(send("$Q\n$12\n$\x01\n"), ElementsAre("error:3", "error:3", "error:3"));
     EXPECT_THAT(send(" $ g \n"), ElementsAre("[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]", "ok"));
-    EXPECT_THAT(send("$I\n"), ElementsAre(StartsWith("[VER:1.1h."), StartsWith("[OPT:NH,15,4096"), "ok"));
+    EXPECT_THAT(send("$I\n"), ElementsAre(StartsWith("[VER:1.1h."), StartsWith("[OPT:NH,128,4096"), "ok"));
     EXPECT_THAT(send("$N\n$N0=\n$N0=G20\n"), ElementsAre("$N0=", "$N1=", "ok", "ok", StartsWith("[MSG:"), "error:3"));
 }
 
@@ -116,7 +46,7 @@ TEST_F(Sender, LearnsWhereTheMachineIs) {
     change(MachinePhase::Running);
     EXPECT_EQ(status(), "<Run|MPos:10.000,20.000,30.000|Ln:7|FS:600,0|WCO:1.000,2.000,3.000>");
     EXPECT_THAT(send("$10=2\n$13=1\n"), ElementsAre("ok", "ok"));
-    EXPECT_THAT(status(), StartsWith("<Run|WPos:0.3543,0.7087,1.0630|Bf:15,4096|Ln:7|FS:24,0"));
+    EXPECT_THAT(status(), StartsWith("<Run|WPos:0.3543,0.7087,1.0630|Bf:128,4096|Ln:7|FS:24,0"));
     EXPECT_THAT(send("?????"), testing::SizeIs(1)) << "a flood is one question";
 }
 
@@ -147,28 +77,6 @@ TEST_F(Sender, ReadsTheMachinesSettingsAndMayChangeOnlyItsOwn) {
     EXPECT_THAT(send("$32=1\n"), ElementsAre("[MSG:$32 is always 0 here]", "error:3"));
     EXPECT_THAT(send("$99=1\n$10=x\n$10=\n$=1\n"),
                 ElementsAre("[MSG:there is no $99]", "error:3", "error:2", "error:2", "error:3"));
-}
-
-TEST_F(Sender, SetsModesAndOffsetsByLinesThatMoveNothing) {
-    EXPECT_THAT(send("G20 G91 G55 F10\n"), ElementsAre("ok"));
-    EXPECT_THAT(send("$G\n")[0], HasSubstr("G55 G17 G20 G91 G94 M5 M9 T0 F10 S0"));
-    EXPECT_THAT(send("G21 G10 L20 P1 X0 Y5\n"), ElementsAre()) << "until the machine has stored it";
-    ASSERT_THAT(asked(), ElementsAre(Kind::SetValues));
-    EXPECT_EQ(requests[0].values.systems[0].origin, (gcode::Point{10, 15, 0}));
-    grbl.answer(requests[0].number, {.is_done = true});
-    EXPECT_THAT(lines(), ElementsAre("ok"));
-    EXPECT_THAT(send("G999\n"), ElementsAre(StartsWith("[MSG:"), "error:20"));
-    EXPECT_THAT(send("M2\n$G\n"), ElementsAre("[MSG:Pgm End]", "ok", HasSubstr("G54 G17 G21 G90"), "ok"));
-}
-
-TEST_F(Sender, HasLinesThatMoveRunOneAfterTheOther) {
-    EXPECT_THAT(send("G1 X12 F100\nG1 X13\n$G\n"), ElementsAre());
-    ASSERT_THAT(asked(), ElementsAre(Kind::RunLine));
-    EXPECT_EQ(requests[0].line, "G1 X12 F100");
-    grbl.answer(requests[0].number, {.why = FaultCode::OutsideTravel, .text = "too far"});
-    EXPECT_THAT(lines(),
-                ElementsAre("[MSG:too far]", "error:15", StartsWith("[MSG:"), "error:20", StartsWith("[GC:"), "ok"))
-        << "the second line has no feed";
 }
 
 TEST_F(Sender, ReadsTheOffsets) {
@@ -322,14 +230,6 @@ TEST_F(Sender, IsToldOfAFaultOnceAndUnlocksIt) {
     view.axes[0].homed = false;
     change(MachinePhase::Idle);
     EXPECT_THAT(status(), StartsWith("<Idle|")) << "unlocked";
-}
-
-TEST_F(Sender, MayCheckAProgramWithoutMotion) {
-    EXPECT_THAT(send("$C\nG1 X5 F100\nG2 X1\n"),
-                ElementsAre("[MSG:Enabled]", "ok", "ok", StartsWith("[MSG:"), "error:20"));
-    EXPECT_THAT(status(), StartsWith("<Check|"));
-    EXPECT_THAT(send("$C\n"), ElementsAre("[MSG:Disabled]", "ok", "", StartsWith("Grbl")));
-    EXPECT_THAT(asked(), ElementsAre());
 }
 
 TEST_F(Sender, SleepsUntilAReset) {

@@ -1,0 +1,37 @@
+// A command that was sent, and is repeated until its reply comes.
+#pragma once
+
+#include <chrono>
+
+#include "clients/grbl/lines/machine_port.hpp"
+
+namespace lockstep::grbl {
+
+class AskedCommand {
+public:
+    AskedCommand(Command command, MachinePort& port, std::chrono::nanoseconds now) : command_(command), sent_(now) {
+        port.begin(command_);
+        repeated_ = now;
+    }
+
+    /// Null: it has not come yet.
+    const Reply* reply(MachinePort& port, std::chrono::nanoseconds now) {
+        const Reply* reply = port.reply_to(command_);
+        if (reply == nullptr && now - repeated_ >= kRepeatAfter) {
+            port.repeat(command_);
+            repeated_ = now;
+        }
+        return reply;
+    }
+    bool is_overdue(std::chrono::nanoseconds now) const { return now - sent_ > kPatience; }
+
+    static constexpr std::chrono::milliseconds kRepeatAfter{250};
+    static constexpr std::chrono::seconds kPatience{10};  // a coordinator may be replaced meanwhile
+
+private:
+    Command command_;
+    std::chrono::nanoseconds sent_;
+    std::chrono::nanoseconds repeated_{};
+};
+
+}  // namespace lockstep::grbl

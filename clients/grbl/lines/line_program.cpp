@@ -1,0 +1,82 @@
+#include "clients/grbl/lines/line_program.hpp"
+
+#include <utility>
+
+namespace lockstep::grbl {
+namespace {
+
+ProgramHead head_of(const MachineConfig& machine, std::vector<double> from_mm) {
+    ProgramHead head{.name = "lines of a sender", .axes = {}, .start_mm = std::move(from_mm)};
+    for (const AxisConfig& axis : machine.axes) { head.axes.push_back(axis.name); }
+    return head;
+}
+
+}  // namespace
+
+LineProgram::LineProgram(const MachineConfig& machine, std::vector<double> from_mm, MachinePort& port)
+    : port_(port),
+      sender_(port.open(head_of(machine, std::move(from_mm)))),
+      is_run_whole_(machine.coordination == StepMethod::Lai) {}
+
+LineProgram::Outcome LineProgram::pass(const MachineState& state, bool is_held, std::chrono::nanoseconds now) {
+    send(now);
+    if (const auto& refusal = sender_.refusal()) { return lose(refusal->text); }
+    if (job_ == 0) { return begin(is_held, now); }
+    return follow(state);
+}
+
+void LineProgram::send(std::chrono::nanoseconds now) {
+    for (std::size_t room = sender_.free_blocks(); room > 0 && !blocks_.empty(); --room) {
+        sender_.append(blocks_.front());
+        blocks_.pop_front();
+        sent_.reset();
+    }
+    if (now - flushed_ >= kFlushAfter) {
+        sender_.flush();
+        flushed_ = now;
+    }
+    if (is_ended_ && blocks_.empty()) { sender_.end(); }
+    if (!blocks_.empty() || sender_.has_unsent()) {
+        sent_.reset();
+    } else if (!sent_) {
+        sent_ = now;
+    }
+}
+
+bool LineProgram::may_run(const MachineState& state) const {
+    return run_ && !is_refused_ && (job_ == 0 || is_job_of(state));
+}
+
+bool LineProgram::is_sent_since(std::chrono::nanoseconds age, std::chrono::nanoseconds now) const {
+    return sent_ && now - *sent_ >= age;
+}
+
+LineProgram::Outcome LineProgram::begin(bool is_held, std::chrono::nanoseconds now) {
+    if (!run_) {
+        const bool is_known = is_run_whole_ ? sender_.is_done() : sender_.parts_taken() > 0;
+        if (!is_held && is_known) {
+            run_.emplace(Command{.kind = CommandKind::Run, .program = sender_.program()}, port_, now);
+        }
+        return Outcome::Goes;
+    }
+    const Reply* reply = run_->reply(port_, now);
+    if (reply == nullptr) { return run_->is_overdue(now) ? lose("the coordinator does not answer") : Outcome::Goes; }
+    is_refused_ = reply->status == ReplyStatus::Refused;
+    if (is_refused_) { return lose(reply->text); }
+    job_ = reply->job;
+    return Outcome::Goes;
+}
+
+LineProgram::Outcome LineProgram::follow(const MachineState& state) {
+    if (state.job > job_) { return lose("another client's job has followed before the end of these lines"); }
+    if (state.job < job_ || !state.outcome) { return Outcome::Goes; }
+    if (state.outcome == JobOutcome::Done) { return Outcome::Done; }
+    return lose("the lines that were accepted are dropped: the machine was stopped");
+}
+
+LineProgram::Outcome LineProgram::lose(std::string why) {
+    why_ = std::move(why);
+    return Outcome::Lost;
+}
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,50 @@
+// A sender's lines that were accepted and are not run yet: how many, and about how long they take.
+//
+// It takes kPlannerLines, and more while they are short: the machine goes only as fast as it can stop within what it
+// knows.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "clients/grbl/protocol/request.hpp"
+
+namespace lockstep::grbl {
+
+class LineQueue {
+public:
+    static constexpr std::size_t kMostLines = 4096;
+    static constexpr std::size_t kMostBlocks = 200'000;  // of arcs
+    static constexpr double kSeconds = 3;
+
+    bool has_room() const;
+    /// Returns the line's number, rising from 1: that of its blocks. `request`: answered when it was run; 0: none is.
+    std::int32_t add(const LineToRun& line, std::uint64_t request);
+    /// The machine runs this line: those before it are done. Returns the requests to answer.
+    std::vector<std::uint64_t> pass_to(std::int32_t number);
+    /// All up to this one are done.
+    std::vector<std::uint64_t> pass(std::int32_t number) { return pass_to(number + 1); }
+    /// They are not run. Returns the requests that wait for them.
+    std::vector<std::uint64_t> drop();
+
+    std::size_t size() const { return lines_.size(); }
+    /// What the sender calls this line: its N word, or else its number.
+    std::int32_t sender_line(std::int32_t number) const;
+
+private:
+    struct Line {
+        std::int32_t number = 0;
+        std::int32_t sender_line = 0;
+        double seconds = 0;
+        std::size_t blocks = 0;
+        std::uint64_t request = 0;
+    };
+    std::deque<Line> lines_;
+    std::int32_t last_ = 0;
+    double seconds_ = 0;
+    std::size_t blocks_ = 0;
+};
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,191 @@
+#include "clients/grbl/protocol/gcode_lines.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <variant>
+
+#include "core/gcode/interpreter.hpp"
+#include "core/gcode/program_builder.hpp"
+#include "services/documents/program_file.hpp"
+
+namespace lockstep::grbl {
+namespace {
+
+/// The place among kAxisLetters of an axis that G-code can name.
+std::optional<std::size_t> letter_of(const AxisConfig& axis) {
+    const std::size_t place = axis.name.size() == 1 ? gcode::kAxisLetters.find(axis.name[0]) : gcode::kAxisLetters.npos;
+    return place == gcode::kAxisLetters.npos ? std::nullopt : std::optional(place);
+}
+
+gcode::Point park_of(const MachineConfig& machine) {
+    gcode::Point park{};
+    for (const AxisConfig& axis : machine.axes) {
+        if (const auto letter = letter_of(axis)) { park[*letter] = axis.homing.park_mm; }
+    }
+    return park;
+}
+
+/// Nothing to run, and nothing that a machine without a spindle could miss.
+bool is_without_effect(const gcode::Action& action) {
+    const auto* event = std::get_if<gcode::Event>(&action);
+    if (event == nullptr) { return false; }
+    switch (event->kind) {
+        case gcode::EventKind::End:
+        case gcode::EventKind::SpindleSpeed:
+        case gcode::EventKind::SpindleStop:
+        case gcode::EventKind::CoolantOff:
+        case gcode::EventKind::PathMode:
+        case gcode::EventKind::ToolSelect: return true;
+        default: return false;
+    }
+}
+
+/// Behind blanks and a slash. Numbers beyond nine digits are of no use to anybody.
+std::int32_t sender_line_of(std::string_view line) {
+    const std::size_t begin = line.find_first_not_of(" \t/");
+    if (begin == line.npos || (line[begin] != 'N' && line[begin] != 'n')) { return 0; }
+    std::int32_t number = 0;
+    const auto read = std::from_chars(line.data() + begin + 1, line.data() + line.size(), number);
+    return read.ec == std::errc{} && number > 0 ? number : 0;
+}
+
+Refused refused(const GcodeError& error) { return {error_of(error.message), error.message}; }
+
+std::string motion_text(int motion) {
+    if (motion < 0) { return "G80"; }
+    return "G" + std::to_string(motion / 10) + (motion % 10 == 0 ? "" : "." + std::to_string(motion % 10));
+}
+
+std::string system_text(std::size_t system) {
+    return system < 6 ? "G" + std::to_string(54 + system) : "G59." + std::to_string(system - 5);
+}
+
+std::string number(double value) {
+    char text[400];
+    std::snprintf(text, sizeof text, "%.0f", value);
+    return text;
+}
+
+}  // namespace
+
+GcodeLines::GcodeLines(const MachineConfig& machine)
+    : machine_(machine), setup_(gcode_setup(machine, std::vector<double>(machine.axes.size()), "lines of a sender")) {
+    reset();
+}
+
+void GcodeLines::reset() {
+    modal_ = {};
+    modal_.motion = 0;  // grbl begins with G0
+    tool_offset_ = {};
+}
+
+void GcodeLines::commit(const LineEffect& effect) {
+    if (effect.ends_program) { return reset(); }
+    modal_ = effect.modal;
+    tool_offset_ = effect.tool_offset;
+}
+
+gcode::State GcodeLines::state_at(const std::vector<double>& place_mm, const gcode::KeptValues& values) const {
+    gcode::State state;
+    state.modal = modal_;
+    for (std::size_t i = 0; i < machine_.axes.size() && i < place_mm.size(); ++i) {
+        if (const auto letter = letter_of(machine_.axes[i])) { state.machine[*letter] = place_mm[i]; }
+    }
+    gcode::set_kept_values(state, values, park_of(machine_));
+    gcode::begin(state);
+    state.offsets.tool = tool_offset_;
+    gcode::begin_system(state, modal_.system);
+    return state;
+}
+
+std::expected<LineEffect, Refused> GcodeLines::read(std::string_view line, const std::vector<double>& place_mm,
+                                                    const gcode::KeptValues& values) const {
+    const gcode::State before = state_at(place_mm, values);
+    GcodeSetup setup = setup_;
+    setup.values = values;
+    for (std::size_t i = 0; i < setup.axes.size() && i < place_mm.size(); ++i) { setup.axes[i].start_mm = place_mm[i]; }
+    gcode::ProgramBuilder builder(setup);
+    LineEffect effect;
+    gcode::Interpreter* reading = nullptr;
+    const auto take = [&](const gcode::Action& action, int) {
+        const auto* event = std::get_if<gcode::Event>(&action);
+        effect.ends_program = effect.ends_program || (event != nullptr && event->kind == gcode::EventKind::End);
+        if (!is_without_effect(action)) { builder.take(action, 1, *reading); }
+    };
+    gcode::Interpreter interpreter(gcode::interpreter_setup(setup), before, take);
+    reading = &interpreter;
+    const auto taken = interpreter.take(line, 1);
+    if (const auto errors = builder.take_errors(); !errors.empty()) { return std::unexpected(refused(errors.front())); }
+    if (!taken) { return std::unexpected(refused(taken.error())); }
+    if (const auto slow = gcode::slow_feed(interpreter)) { return std::unexpected(refused(*slow)); }
+    if (const auto closed = interpreter.finish(); !closed) { return std::unexpected(refused(closed.error())); }
+    const gcode::State& after = interpreter.state();
+    if (after.modal.side != gcode::Side::None) {
+        return std::unexpected(Refused{Error::Unsupported,
+                                       "cutter compensation needs the lines that follow; run a "
+                                       "file: lockstep run FILE"});
+    }
+    effect.modal = after.modal;
+    effect.tool_offset = after.offsets.tool;
+    effect.sender_line = sender_line_of(line);
+    effect.blocks = builder.take_blocks();
+    for (GcodeNote& note : builder.take_notes()) { effect.notes.push_back(std::move(note.text)); }
+    effect.place_mm = place_mm;
+    for (const Block& block : effect.blocks) {
+        if (const auto* move = std::get_if<LinearMove>(&block.action)) { effect.place_mm = move->target_mm; }
+        effect.rests_behind = effect.rests_behind || !std::holds_alternative<LinearMove>(block.action);
+    }
+    effect.seconds = seconds_of(effect.blocks, place_mm);
+    const gcode::KeptValues left = gcode::kept_values(after, park_of(machine_));
+    if (!(left == gcode::kept_values(before, park_of(machine_)))) { effect.values = left; }
+    if (effect.values && !effect.blocks.empty()) {
+        return std::unexpected(Refused{Error::TwoAxisCommands, "a line that sets offsets cannot move axes too"});
+    }
+    effect.rests_before = effect.values || effect.ends_program || modal_.system != effect.modal.system ||
+                          tool_offset_ != effect.tool_offset;
+    return effect;
+}
+
+/// At the feed, as far as the axes go so fast; without their ramps.
+double GcodeLines::seconds_of(const std::vector<Block>& blocks, const std::vector<double>& from_mm) const {
+    double seconds = 0;
+    std::vector<double> at = from_mm;
+    for (const Block& block : blocks) {
+        if (const auto* dwell = std::get_if<Dwell>(&block.action)) { seconds += dwell->seconds; }
+        const auto* move = std::get_if<LinearMove>(&block.action);
+        if (move == nullptr) { continue; }
+        double squares = 0;
+        double least = 0;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            const double way = std::abs(move->target_mm[i] - at[i]);
+            squares += way * way;
+            least = std::max(least, way / machine_.axes[i].max_velocity_mm_s);
+        }
+        seconds += move->rapid ? least : std::max(least, std::sqrt(squares) / move->feed_mm_s);
+        at = move->target_mm;
+    }
+    return seconds;
+}
+
+std::string GcodeLines::modes_text() const {
+    constexpr const char* kPlanes[] = {"G17", "G18", "G19"};
+    const double feed = modal_.inches ? modal_.feed_linear / 25.4 : modal_.feed_linear;
+    return motion_text(modal_.motion) + " " + system_text(modal_.system) + " " +
+           kPlanes[static_cast<std::size_t>(modal_.plane)] + (modal_.inches ? " G20" : " G21") +
+           (modal_.relative ? " G91" : " G90") + (modal_.feed_mode == gcode::FeedMode::InverseTime ? " G93" : " G94") +
+           " M5 M9 T0 F" + number(feed) + " S" + number(modal_.spindle_speed);
+}
+
+std::vector<double> GcodeLines::offset_mm(const gcode::KeptValues& values) const {
+    const gcode::Point zero = gcode::to_machine(state_at({}, values).offsets, {});
+    std::vector<double> offset;
+    for (const AxisConfig& axis : machine_.axes) {
+        const auto letter = letter_of(axis);
+        offset.push_back(letter ? zero[*letter] : 0);
+    }
+    return offset;
+}
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,124 @@
+// Grbl: lines that move axes.
+#include <algorithm>
+#include <utility>
+
+#include "clients/grbl/protocol/grbl.hpp"
+#include "clients/grbl/protocol/jog_line.hpp"
+
+namespace lockstep::grbl {
+
+/// Where the next line begins.
+std::vector<double> Grbl::place_mm() const {
+    if (!planned_mm_.empty() && (view_.lines > 0 || modes_.is_checking)) { return planned_mm_; }
+    std::vector<double> place;
+    for (const AxisPlace& axis : view_.axes) { place.push_back(axis.mm); }
+    return place;
+}
+
+/// The place of the next line is known: by the lines before it, or because the machine rests.
+bool Grbl::is_settled() const {
+    if (view_.is_stopping || view_.phase == MachinePhase::Stopping) { return false; }
+    return view_.lines > 0 || view_.phase != MachinePhase::Idle || view_.is_at_rest();
+}
+
+void Grbl::do_gcode(const ReceivedLine& line) {
+    const State now = state();
+    if (now == State::Alarm || now == State::Sleep || has_jog_ || modes_.is_aborted) {
+        return refuse(Error::Locked, has_jog_ ? "a jog is in progress" : "");
+    }
+    if (!is_settled()) {
+        next_line_ = line;
+        return;
+    }
+    auto effect = lines_.read(line.text, place_mm(), view_.values);
+    if (!effect) { return refuse_gcode(effect.error()); }
+    const bool is_check = now == State::Check;
+    if (!is_check && effect->rests_before && view_.lines > 0) {
+        next_line_ = line;
+        return;
+    }
+    const bool takes_machine = effect->values || !effect->blocks.empty();
+    if (!is_check && takes_machine && view_.lines == 0 && view_.phase != MachinePhase::Idle) {
+        return refuse(Error::Locked, "another client's job is in progress");
+    }
+    do_effect(*std::move(effect), is_check);
+}
+
+void Grbl::do_effect(LineEffect&& effect, bool is_check) {
+    lines_.commit(effect);
+    for (const std::string& note : effect.notes) { say_message(note); }
+    const std::string end = effect.ends_program ? "[MSG:Pgm End]" : "";
+    if (!is_check && effect.values) {
+        Request& request = ask(Request::Kind::SetValues);
+        request.values = *std::move(effect.values);
+        waits_for_ = request.number;
+        before_ok_ = end;
+        return;
+    }
+    if (is_check || effect.blocks.empty()) {
+        if (is_check) { planned_mm_ = std::move(effect.place_mm); }
+        if (!end.empty()) { say(end); }
+        return ok();
+    }
+    Request& request = ask(Request::Kind::RunLine);
+    request.line = {.blocks = std::move(effect.blocks),
+                    .from_mm = place_mm(),
+                    .seconds = effect.seconds,
+                    .sender_line = effect.sender_line,
+                    .is_answered_behind = effect.rests_behind || effect.ends_program};
+    planned_mm_ = std::move(effect.place_mm);
+    ++view_.lines;
+    waits_for_ = request.number;
+    waits_for_line_ = true;
+    before_ok_ = end;
+}
+
+/// A target outside the travel stops the machine and is an alarm, as with grbl's soft limits: the lines behind it mean
+/// another place.
+void Grbl::refuse_gcode(const Refused& refused) {
+    if (refused.error == Error::TravelExceeded && !modes_.is_checking) {
+        if (view_.lines > 0) { stop(); }
+        raise_alarm(kTravelAlarm, refused.text);
+        return refuse(refused.error);
+    }
+    refuse(refused.error, refused.text);
+}
+
+void Grbl::abort(const std::string& why) {
+    raise_alarm(kAbortAlarm, why);
+    advance();
+}
+
+void Grbl::raise_alarm(int number, const std::string& why) {
+    say("ALARM:" + std::to_string(number));
+    say_message(why);
+    modes_.is_aborted = true;
+}
+
+void Grbl::do_jog(std::string_view text) {
+    if (state() != State::Idle) { return refuse(Error::NotIdle); }
+    const JogModes modes{lines_.inches(), lines_.relative(), lines_.offset_mm(view_.values)};
+    auto jogs = read_jog(text, machine_, view_.axes, modes);
+    if (!jogs) { return refuse(jogs.error().error, jogs.error().text); }
+    if (jogs->empty()) { return ok(); }
+    has_jog_ = true;
+    Request& request = ask(Request::Kind::Jog);
+    request.jogs = std::move(*jogs);
+    waits_for_ = request.number;
+}
+
+void Grbl::do_home(std::string_view axis) {
+    if (!is_quiet()) { return refuse(Error::NotIdle); }
+    modes_.is_aborted = false;
+    AxisSet axes = 0;
+    if (!axis.empty()) {
+        const auto found = std::ranges::find(machine_.axes, axis, &AxisConfig::name);
+        if (found == machine_.axes.end()) { return refuse(Error::UnknownCommand, "the machine has no such axis"); }
+        axes = axis_bit(static_cast<std::size_t>(found - machine_.axes.begin()));
+    }
+    Request& request = ask(Request::Kind::Home);
+    request.axes = axes;
+    waits_for_ = request.number;
+}
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,32 @@
+#include "clients/grbl/protocol/machine_view.hpp"
+
+#include <cmath>
+
+namespace lockstep::grbl {
+
+MachineView view_of(const MachineConfig& machine, const MachineState& state,
+                    const std::vector<const AxisState*>& axes) {
+    MachineView view;
+    view.is_received = true;
+    view.phase = state.phase;
+    view.fault = static_cast<FaultCode>(state.fault);
+    view.line = state.line;
+    view.overrides = state.overrides;
+    double squares = 0;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const AxisConfig& config = machine.axes[i];
+        if (axes[i] == nullptr) {
+            view.is_received = false;
+            view.axes.push_back({});
+            continue;
+        }
+        const AxisState& axis = *axes[i];
+        view.axes.push_back({to_mm(config, static_cast<double>(axis.position.count())), axis.homed, axis.at_rest});
+        const double mm_min = axis.velocity.steps_per_tick() * machine.ticks_per_second() / config.steps_per_mm * 60;
+        squares += mm_min * mm_min;
+    }
+    view.feed_mm_min = std::sqrt(squares);
+    return view;
+}
+
+}  // namespace lockstep::grbl

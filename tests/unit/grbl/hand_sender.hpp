@@ -1,0 +1,80 @@
+// A sender and a machine by hand.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "clients/grbl/protocol/grbl.hpp"
+
+namespace lockstep::grbl {
+
+using Kind = Request::Kind;
+
+inline MachineConfig mill() {
+    MachineConfig machine{.name = "mill"};
+    for (const char* name : {"X", "Y", "Z"}) {
+        AxisConfig axis{.name = name,
+                        .steps_per_mm = 100,
+                        .start_velocity_mm_s = 5,
+                        .max_velocity_mm_s = 50,
+                        .max_accel_mm_s2 = 500,
+                        .max_decel_mm_s2 = 500,
+                        .position_min_mm = 0,
+                        .position_max_mm = 200};
+        axis.homing = {.search_velocity_mm_s = 5, .latch_velocity_mm_s = 1, .pulloff_mm = 2, .park_mm = 5};
+        machine.axes.push_back(axis);
+    }
+    return machine;
+}
+
+class Sender : public testing::Test {
+protected:
+    Sender() {
+        view.is_received = true;
+        view.phase = MachinePhase::Idle;
+        view.axes = {{10, true}, {20, true}, {30, true}};
+        grbl.see(view);
+        grbl.greet();
+        (void)grbl.take_output();
+    }
+    /// The lines that come back.
+    std::vector<std::string> send(std::string_view bytes) {
+        grbl.receive(bytes);
+        return lines();
+    }
+    std::vector<std::string> lines() {
+        std::vector<std::string> found;
+        const std::string output = grbl.take_output();
+        for (std::size_t at = 0; at < output.size();) {
+            const std::size_t end = output.find("\r\n", at);
+            EXPECT_NE(end, std::string::npos) << "every line has its end";
+            found.push_back(output.substr(at, end - at));
+            at = end + 2;
+        }
+        return found;
+    }
+    std::vector<Kind> asked() {
+        std::vector<Kind> kinds;
+        requests = grbl.take_requests();
+        for (const Request& request : requests) { kinds.push_back(request.kind); }
+        return kinds;
+    }
+    void change(MachinePhase phase, FaultCode fault = FaultCode::None) {
+        view.phase = phase;
+        view.fault = fault;
+        grbl.see(view);
+    }
+    std::string status() {
+        const auto found = send("?");
+        return found.empty() ? "" : found.back();
+    }
+
+    MachineView view;
+    Grbl grbl{mill(), "1.0"};
+    std::vector<Request> requests;
+};
+
+}  // namespace lockstep::grbl

@@ -1,0 +1,140 @@
+// A sender of grbl's protocol and a machine in virtual time.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "clients/grbl/lines/line_runner.hpp"
+#include "clients/grbl/protocol/grbl.hpp"
+#include "services/coordinator/program_inbox.hpp"
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep::grbl {
+
+/// The messages of a client over the virtual network.
+class VirtualPort : public MachinePort {
+public:
+    VirtualPort(VirtualMachine& machine, Identity client) : machine_(machine), client_(client) {}
+
+    ProgramSender& open(const ProgramHead& head) override {
+        ++programs_;
+        return sender_.emplace(client_, programs_, client_ * 1000 + programs_, head);
+    }
+    void close() override { sender_.reset(); }
+    void begin(Command& command) override {
+        command.client = client_;
+        command.sequence = ++sequence_;
+        machine_.send(command);
+    }
+    void repeat(const Command& command) override { machine_.send(command); }
+    const Reply* reply_to(const Command& command) override {
+        for (const Reply& reply : machine_.replies()) {
+            if (reply.client == client_ && reply.sequence == command.sequence) { return &reply; }
+        }
+        return nullptr;
+    }
+
+    /// Sends what is due of the program, and takes the replies.
+    void pump(std::chrono::nanoseconds now) {
+        for (; seen_ < machine_.replies().size(); ++seen_) {
+            Reply reply = machine_.replies()[seen_];
+            const auto chunk = chunks_.find(reply.sequence);
+            if (!sender_ || chunk == chunks_.end() || reply.client == client_) { continue; }
+            reply.client = client_;
+            reply.sequence = chunk->second;
+            (void)sender_->take_answer(reply);
+        }
+        if (!sender_) { return; }
+        for (const ProgramChunk& chunk : sender_->due(now)) {
+            auto part = inbox_.read(chunk);
+            ASSERT_TRUE(part);
+            chunks_[machine_.send(*std::move(part))] = chunk.sequence;
+        }
+    }
+
+private:
+    VirtualMachine& machine_;
+    Identity client_;
+    std::uint64_t sequence_ = 0;
+    std::uint32_t programs_ = 0;
+    std::optional<ProgramSender> sender_;
+    ProgramInbox inbox_;
+    std::map<std::uint64_t, std::uint64_t> chunks_;  // the program's numbers, by those of the network
+    std::size_t seen_ = 0;                           // replies
+};
+
+/// As lockstep-grbl joins them.
+class VirtualSender {
+public:
+    explicit VirtualSender(VirtualMachine& machine, Identity client = 70)
+        : machine_(machine), port_(machine, client), lines_(machine.machine(), port_), grbl_(machine.machine(), "1") {
+        pass();
+        grbl_.greet();
+    }
+
+    void send(const std::string& bytes) { grbl_.receive(bytes); }
+    void pass() {
+        const std::chrono::nanoseconds now{machine_.now().value * 1000};
+        port_.pump(now);
+        carry_out();
+        lines_.pass(*machine_.state(), rests(), now);
+        if (const auto why = lines_.take_loss()) { grbl_.abort(*why); }
+        answer();
+        MachineView view = view_of(machine_.machine(), *machine_.state(), axes());
+        lines_.report(*machine_.state(), view);
+        grbl_.see(view);
+        carry_out();
+        text_ += grbl_.take_output();
+    }
+    /// What came back since the last call.
+    std::string take_text() { return std::exchange(text_, {}); }
+    const std::string& text() const { return text_; }
+    /// The sender's process ends.
+    void leave() { lines_.leave(); }
+
+private:
+    std::vector<const AxisState*> axes() const {
+        std::vector<const AxisState*> axes;
+        for (const auto& axis : machine_.axis_states()) { axes.push_back(axis ? &*axis : nullptr); }
+        return axes;
+    }
+    bool rests() const {
+        return std::ranges::all_of(axes(), [](const AxisState* axis) { return axis != nullptr && axis->at_rest; });
+    }
+    void answer() {
+        for (const auto& answered : lines_.take_answers()) { grbl_.answer(answered.request, answered.answer); }
+    }
+    void carry_out() {
+        const std::chrono::nanoseconds now{machine_.now().value * 1000};
+        for (auto requests = grbl_.take_requests(); !requests.empty(); requests = grbl_.take_requests()) {
+            for (Request& request : requests) { carry_out(request, now); }
+        }
+    }
+    void carry_out(Request& request, std::chrono::nanoseconds now) {
+        switch (request.kind) {
+            case Request::Kind::Hold: return lines_.hold(now);
+            case Request::Kind::Resume: return lines_.resume(now);
+            case Request::Kind::Stop: return lines_.stop(now);
+            case Request::Kind::Override: (void)machine_.turn(request.overrides); return;
+            case Request::Kind::Reset: (void)machine_.command(CommandKind::Reset); break;
+            case Request::Kind::RunLine:
+                lines_.take(request.number, std::move(request.line));
+                lines_.pass(*machine_.state(), rests(), now);
+                return answer();
+            default: break;
+        }
+        grbl_.answer(request.number, {.is_done = true});
+    }
+
+    VirtualMachine& machine_;
+    VirtualPort port_;
+    LineRunner lines_;
+    Grbl grbl_;
+    std::string text_;
+};
+
+}  // namespace lockstep::grbl
