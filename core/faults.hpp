@@ -121,7 +121,9 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
       "make room on the coordinator's disk; go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
-      "see the sender's message; go on from its line: lockstep run FILE --from-line LINE", {})
+      "see the sender's message; go on from its line: lockstep run FILE --from-line LINE", {}) \
+    X(WriterHeld, 150, "writer-held", "another writer has the machine: the other clients watch, hold and stop it", \
+      "wait until the writer gives it back; or take it over: give the command again with --take", {})
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

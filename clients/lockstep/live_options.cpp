@@ -14,6 +14,11 @@ void add_live_options(CLI::App& verb, LiveOptions& options) {
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
 }
 
+void add_take(CLI::App& verb, LiveOptions& options) {
+    verb.add_flag("--take", options.take,
+                  "take the machine over from another writer, whom lockstep status names; its job in motion goes on");
+}
+
 CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
     CLI::Option* asked = verb.add_flag(
         "--all", all.asked, "on every host that the machine's file names: on the others over ssh, all at once");

@@ -16,9 +16,13 @@ struct AllHosts;
 struct LiveOptions {
     std::string machine_file;
     bool json = false;
+    bool take = false;  // of verbs with add_take()
 };
 
 void add_live_options(CLI::App& verb, LiveOptions& options);
+
+/// --take: for a verb that moves or changes the machine.
+void add_take(CLI::App& verb, LiveOptions& options);
 
 /// --all and --ssh.
 CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);

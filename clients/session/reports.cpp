@@ -1,5 +1,9 @@
 #include "clients/session/reports.hpp"
 
+#include <algorithm>
+#include <array>
+#include <ctime>
+
 #include "clients/session/health_report.hpp"
 #include "clients/text/format.hpp"
 #include "services/flight/incident_file.hpp"
@@ -16,6 +20,25 @@ bool is_of_an_axis(FaultCode fault) {
 
 bool is_in_motion(MachinePhase phase) { return phase == MachinePhase::Running || phase == MachinePhase::Stopping; }
 
+std::string utc_text(std::chrono::system_clock::time_point time) {
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    std::array<char, 32> text{};
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+proto::WriterReport writer_report(const MachineState& state, const MachineConfig& machine) {
+    proto::WriterReport report;
+    report.set_name(state.lease->writer.name);
+    report.set_host(state.lease->writer.host);
+    const auto ticks = static_cast<double>((state.tick - state.lease->since).value);
+    report.set_held_s(std::max(0.0, ticks / machine.ticks_per_second()));
+    const auto held = std::chrono::milliseconds(static_cast<std::int64_t>(report.held_s() * 1000));
+    report.set_since(utc_text(std::chrono::system_clock::now() - held));
+    return report;
+}
+
 void fill(proto::StatusReport& report, const MachineState& state, const MachineConfig& machine) {
     report.set_phase(std::string(name_of(state.phase)));
     if (auto fault = fault_of(state, machine)) { *report.mutable_fault() = *std::move(fault); }
@@ -26,6 +49,7 @@ void fill(proto::StatusReport& report, const MachineState& state, const MachineC
         *report.mutable_ended_early() = fault_report(static_cast<FaultCode>(state.job_fault), "");
         report.set_line(state.line);
     }
+    if (state.lease) { *report.mutable_writer() = writer_report(state, machine); }
     if (!is_in_motion(state.phase)) { return; }
     report.set_waits_for_program(state.lacks_blocks);
     if (state.line > 0) { report.set_line(state.line); }

@@ -46,6 +46,7 @@ Session::Session(const ChosenMachine& machine, Bus bus)
     : machine_(machine),
       bus_(std::move(bus)),
       client_(new_identity()),
+      lease_(client_, {.name = "client", .host = host_name()}),
       axes_(machine.config.axes.size()),
       healths_(axes_.size()) {}
 
@@ -114,6 +115,7 @@ void Session::await_healths(nanoseconds patience) {
 }
 
 void Session::receive(nanoseconds at_most) {
+    keep_lease();
     feed_and_send();
     (void)viewer_bus().arrivals->wait_for(at_most);
     take_messages();
@@ -142,7 +144,7 @@ void Session::take_messages() {
     });
     if (!std::holds_alternative<ClientBus>(bus_)) { return; }
     client_bus().replies.take([&](Reply&& reply) {
-        if (reply.client != client_) { return; }
+        if (reply.client != client_ || lease_.take_answer(reply)) { return; }
         const bool is_of_program = sender_ && sender_->take_answer(reply);
         if (is_of_program) { answered_ = now; }
         if (!is_of_program) { replies_[reply.sequence] = std::move(reply); }
@@ -210,6 +212,7 @@ Failure Session::silent() const {
 std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {
     command.client = client_;
     command.sequence = ++sequence_;
+    command.writer.id = lease_.writer().id;
     nanoseconds deadline = monotonic_now() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
     nanoseconds repeat_at{};
     while (!replies_.contains(command.sequence)) {
@@ -231,6 +234,7 @@ void Session::begin(Command& command) {
     replies_.erase(command.sequence);
     command.client = client_;
     command.sequence = ++sequence_;
+    command.writer.id = lease_.writer().id;
     repeat(command);
 }
 
@@ -303,7 +307,10 @@ std::expected<void, Failure> Session::await_parts(const std::function<bool()>& d
 void Session::feed_and_send() {
     if (!sender_) { return; }
     if (feed_ && !sender_->is_ended() && sender_->free_blocks() > 0) { feed_(*sender_); }
-    for (const ProgramChunk& chunk : sender_->due(monotonic_now())) { (void)client_bus().chunks.write(chunk); }
+    for (ProgramChunk& chunk : sender_->due(monotonic_now())) {
+        chunk.writer = lease_.writer().id;
+        (void)client_bus().chunks.write(chunk);
+    }
 }
 
 std::expected<RevisedValues, Failure> Session::values() {

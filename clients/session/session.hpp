@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clients/session/chosen_machine.hpp"
+#include "clients/session/lease/lease_keeper.hpp"
 #include "clients/session/program_sender.hpp"
 #include "clients/text/failure.hpp"
 #include "core/gcode/kept_values.hpp"
@@ -80,6 +81,24 @@ public:
     /// Gives the command this client's next number and sends it, for a command that is repeated while it holds.
     void begin(Command& command);
     void repeat(const Command& command) { (void)client_bus().commands.write(command); }
+    // One writer at a time moves and changes the machine: its commands are accepted while it holds the lease. While
+    // nobody does, those of every client are.
+    /// Who commands here, from now on; give the lease first. An identity of 0: this client alone is the writer.
+    void write_as(LeaseHolder writer) { lease_.write_as(std::move(writer)); }
+    /// Waits for the lease; the reply refuses it where another writer has it. receive() keeps it until give_lease(),
+    /// or until another takes it over. `takes_over`: from another writer, too. Error: as command().
+    std::expected<Reply, Failure> take_lease(bool takes_over = false, const StopSignal* stop = nullptr);
+    /// The same without waiting; lease_reply() has the answer once it has come.
+    void ask_for_lease(bool takes_over = false);
+    const std::optional<Reply>& lease_reply() const { return lease_.answer(); }
+    /// Repeats what is due. receive() calls it: a client that does not receive for kLeaseSilence_ms loses the lease.
+    void keep_lease();
+    /// Waits at most so long until the coordinator has answered. Without the lease nothing is sent.
+    void give_lease(std::chrono::nanoseconds patience = {});
+    bool holds_lease() const { return lease_.is_held(); }
+    /// The writer that the coordinator publishes, this one or another. Null: nobody, or nothing is received yet.
+    const HeldLease* writer() const { return state_ && state_->state.lease ? &*state_->state.lease : nullptr; }
+
     /// The newest reply to it. Null: none has come yet.
     const Reply* reply_to(const Command& command) const;
     /// Sends an emergency stop to coordinator and axes: axes stop by themselves. Nothing: no coordinator replied in
@@ -133,6 +152,7 @@ private:
     ChosenMachine machine_;
     Bus bus_;
     Identity client_;
+    LeaseKeeper lease_;
     std::uint64_t sequence_ = 0;
     std::optional<Received<MachineState>> state_;  // the owner's
     std::optional<Received<MachineState>> standby_;

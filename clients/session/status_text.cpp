@@ -94,6 +94,14 @@ std::string process_lines(const proto::StatusReport& status) {
                       [](const Health& health) { return health.lost_log_lines(); });
 }
 
+/// Nothing while every client may give commands.
+std::string writer_line(const proto::StatusReport& status) {
+    const std::string writer = writer_text(status);
+    if (writer.empty()) { return ""; }
+    const std::string held = ", for " + duration_text(status.writer().held_s()) + ", since " + status.writer().since();
+    return wrapped("writer: " + writer + held, 80, "  ") + "\n";
+}
+
 /// A directory is not broken over lines, so that it can be copied.
 std::string incidents_text(const proto::Incidents& incidents) {
     return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
@@ -113,6 +121,7 @@ std::string status_text(const proto::StatusReport& status) {
     std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
+    text += writer_line(status);
     text += clock_line(status) + unproved_lines(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
     if (status.has_ended_early()) {
@@ -128,6 +137,11 @@ std::string status_text(const proto::StatusReport& status) {
     text += process_lines(status);
     if (status.has_incidents()) { text += incidents_text(status.incidents()); }
     return text;
+}
+
+std::string writer_text(const proto::StatusReport& status) {
+    if (!status.has_writer()) { return ""; }
+    return status.writer().name() + " on " + status.writer().host();
 }
 
 std::string overrides_text(const proto::StatusReport& status) {

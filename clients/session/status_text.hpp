@@ -12,6 +12,8 @@ std::string status_text(const proto::StatusReport& status);
 
 /// "received 4 ms ago", of the coordinator, and whether a standby is.
 std::string age_text(const proto::StatusReport& status);
+/// "anna on bench"; empty if there is no writer.
+std::string writer_text(const proto::StatusReport& status);
 /// "feed 60 %, rapid 100 %"; empty if all is as programmed.
 std::string overrides_text(const proto::StatusReport& status);
 /// One line: "[######              ]  30 %  line 12  4.2 s left".

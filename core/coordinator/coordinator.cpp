@@ -15,6 +15,7 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
       ownership_(identity, machine.timing),
       axes_(machine),
       orders_(machine.axes.size()),
+      lease_(machine),
       programs_(machine, std::move(make_rows)),
       jobs_(machine, config_hash, begin_steps, standby) {}
 
@@ -75,17 +76,21 @@ void Coordinator::change_owner(CoordinatorLoop& loop) {
     }
 }
 
-/// Overrides remain. The job that the last owner had begun is gone on with, or ended, wherever the axes came to rest.
+/// Overrides remain, and the writer. The job that the last owner had begun is gone on with, or ended, wherever the axes
+/// came to rest.
 void Coordinator::take_over(CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::Claimed, FaultCode::None, loop.term.number});
     orders_.restart();
     loop.enter(MachinePhase::Waiting);
-    jobs_.take_over(ownership_.other_owner(), loop);
+    const auto& other = ownership_.other_owner();
+    lease_.adopt(other ? other->lease : std::nullopt, loop.slot);
+    jobs_.take_over(other, loop);
 }
 
 void Coordinator::stand_down(CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::StoodDown, FaultCode::None, loop.term.number});
     jobs_.stand_down();
+    lease_.drop();
     condition_.clear_fault();
     orders_.withdraw_all();
     loop.enter(MachinePhase::Standby);
@@ -100,26 +105,28 @@ void Coordinator::stand_by(CoordinatorLoop& loop) {
 }
 
 /// The command was for another owner. If it is repeated after a takeover nobody knows whether it was begun, so it is
-/// refused then; an emergency stop may be done twice.
+/// refused then; an emergency stop may be done twice, and a lease be taken.
 void Coordinator::refuse_as_standby(const Command& command, Slot now) {
     if (is_interrupt(command.kind)) { jobs_.note_interrupt(now); }
-    if (inbox_.answer_to(command) != nullptr || command.kind == CommandKind::EmergencyStop) { return; }
+    const bool may_repeat = command.kind == CommandKind::EmergencyStop || is_about_lease(command.kind);
+    if (may_repeat || inbox_.answer_to(command) != nullptr) { return; }
     inbox_.note(reply_of_new_owner(command));
 }
 
 void Coordinator::own(CoordinatorLoop& loop) {
     // After a long stall it publishes nothing before every axis has reported again which owner it follows.
+    const Slot missed = gate_.missed(loop.slot);
     if (axes_.is_unsettled(loop.slot)) {
-        (void)gate_.enter(loop.slot);
+        if (gate_.enter(loop.slot)) { lease_.tend(loop.slot, missed); }
         return;
     }
     if (condition_.phase() == MachinePhase::Idle && axes_.without_device()) { loop.enter(MachinePhase::Waiting); }
     for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
     for (const Command& command : inbox_.take()) { answer(command, loop); }
     jobs_.advance_jogs(loop);
-    const Slot missed = gate_.missed(loop.slot);
     if (!gate_.enter(loop.slot)) { return; }
     programs_.tend(loop.slot, missed);
+    lease_.tend(loop.slot, missed);
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
     jobs_.note_progress(loop);
@@ -151,10 +158,12 @@ void Coordinator::lose_axis(std::size_t axis, CoordinatorLoop& loop) {
 }
 
 void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
+    if (answer_about_lease(command, loop)) { return; }
     if (const Reply* last = inbox_.answer_to(command)) {
         if (command.sequence != last->sequence) { return; }
         loop.out.replies.push_back(*last);
-        const bool is_over = command.kind == CommandKind::Jog && !jobs_.renew_jog(command, loop);
+        const bool is_over =
+            command.kind == CommandKind::Jog && (!lease_.check(command, loop.now) || !jobs_.renew_jog(command, loop));
         if (is_over) { loop.out.replies.back().job = 0; }
         return;
     }
@@ -163,7 +172,18 @@ void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
     inbox_.note(loop.out.replies.back());
 }
 
+/// Each time it comes: a client repeats it to keep the lease.
+bool Coordinator::answer_about_lease(const Command& command, CoordinatorLoop& loop) {
+    if (!is_about_lease(command.kind)) { return false; }
+    CommandResult result;
+    if (command.kind == CommandKind::TakeLease) { result = lease_.take(command, loop.now, loop.slot); }
+    if (command.kind == CommandKind::GiveLease) { lease_.give(command.client); }
+    loop.out.replies.push_back(reply_to(command, result, 0));
+    return true;
+}
+
 CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& loop) {
+    if (auto may = lease_.check(command, loop.now); !may) { return may; }
     switch (command.kind) {
         case CommandKind::Home: return jobs_.home(command, loop);
         case CommandKind::Move:
@@ -176,6 +196,8 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
         case CommandKind::MoveOwn: return jobs_.move_own(command, loop);
         case CommandKind::Override: return jobs_.turn(command, loop);
         case CommandKind::Jog: return jobs_.jog(command, loop);
+        case CommandKind::TakeLease:
+        case CommandKind::GiveLease: break;  // answered before
     }
     return refuse(FaultCode::NothingToDo, "unknown command");
 }
@@ -220,7 +242,8 @@ MachineState Coordinator::state(const CoordinatorLoop& loop) const {
                        .fault = static_cast<std::uint16_t>(condition_.fault()),
                        .fault_axis = static_cast<std::uint32_t>(condition_.fault_axis()),
                        .axes_present = axes_.present(loop.slot),
-                       .config_hash = config_hash_};
+                       .config_hash = config_hash_,
+                       .lease = lease_.held()};
     jobs_.report(state, loop);
     return state;
 }

@@ -7,6 +7,7 @@
 #include "core/coordinator/command_inbox.hpp"
 #include "core/coordinator/jobs/job_runner.hpp"
 #include "core/coordinator/ownership.hpp"
+#include "core/coordinator/writer_lease.hpp"
 #include "core/protocol/slot_gate.hpp"
 
 namespace lockstep {
@@ -30,6 +31,9 @@ public:
     /// In motion, held, or inherited by a takeover.
     bool has_job() const { return jobs_.has_any(); }
     bool owns_machine() const { return ownership_.owns(); }
+    /// Whether this writer may send programs and edits now. A standby refuses nothing: its owner does.
+    CommandResult check_writer(std::uint64_t writer, Tick now) const { return lease_.check(writer, now); }
+    const std::optional<HeldLease>& lease() const { return lease_.held(); }
     /// Its own where it owns the machine; else the highest that is known.
     Term term() const { return ownership_.term(); }
 
@@ -50,6 +54,7 @@ private:
     void watch_axis(std::size_t axis, CoordinatorLoop& loop);
     void lose_axis(std::size_t axis, CoordinatorLoop& loop);
     void answer(const Command& command, CoordinatorLoop& loop);
+    bool answer_about_lease(const Command& command, CoordinatorLoop& loop);
     CommandResult carry_out(const Command& command, CoordinatorLoop& loop);
     CommandResult reset(CoordinatorLoop& loop);
     CommandResult stop_at_once(CoordinatorLoop& loop);
@@ -66,6 +71,7 @@ private:
     AxisRoster axes_;
     AxisOrders orders_;
     CommandInbox inbox_;
+    WriterLease lease_;
     ProgramStore programs_;
     MachineCondition condition_;
     JobRunner jobs_;

@@ -13,6 +13,7 @@
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
 #include "core/program.hpp"
+#include "core/protocol/lease_holder.hpp"
 #include "core/protocol/process_counts.hpp"
 #include "core/protocol/record_counts.hpp"
 #include "core/static_vector.hpp"
@@ -195,6 +196,7 @@ struct MachineState {
     Overrides overrides;       // of what is planned from now on
     AxisSet axes_present = 0;  // those that are heard
     std::uint64_t config_hash = 0;
+    std::optional<HeldLease> lease;  // the writer's; nothing: every client may give commands
     // What another needs to go on with the job, while one is in motion:
     JobKind job_kind = JobKind::Run;
     std::uint64_t program = 0;     // Command::program of the job; 0: none is in motion
@@ -207,7 +209,8 @@ struct MachineState {
 };
 
 /// Override: feed and rapid of coordinated moves, from the next frame that is not made yet. Jog: the axes move while
-/// the client repeats the command; each repetition renews it for MachineConfig::jog_hold_ticks.
+/// the client repeats the command; each repetition renews it for MachineConfig::jog_hold_ticks. TakeLease: the client
+/// becomes the writer, or one of its clients, and repeats the command to stay so. GiveLease: it is no more.
 enum class CommandKind : std::uint8_t {
     Home,
     Move,
@@ -219,7 +222,9 @@ enum class CommandKind : std::uint8_t {
     Reset,
     MoveOwn,
     Override,
-    Jog
+    Jog,
+    TakeLease,
+    GiveLease
 };
 
 /// One axis of a jog.
@@ -241,6 +246,8 @@ struct Command {
     int feed_percent = 0;       // Override; 0: as it is
     int rapid_percent = 0;      // Override; 0: as it is
     std::vector<JogAxis> jogs;  // Jog: all axes that the client jogs from now on; none: it releases them
+    LeaseHolder writer;         // who commands; its name and host only in TakeLease
+    bool takes_over = false;    // TakeLease: from another writer, too
     bool operator==(const Command&) const = default;
 };
 
@@ -254,6 +261,7 @@ struct ProgramChunk {
     std::uint32_t count = 0;          // how many parts there are; 0: more follow
     double share = 0;                 // of the program that has been sent with this part; 0: not known
     std::vector<std::uint8_t> bytes;  // none, and more follow: it is no part, but asks how many were taken
+    std::uint64_t writer = 0;         // LeaseHolder::id of its sender
     bool operator==(const ProgramChunk&) const = default;
 };
 

@@ -87,6 +87,7 @@ public:
         recorder_.note(now);
         for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
+        log_writer();
         tend_network(now);
         report_waiting(now);
         log_unauthenticated_peers(monotonic_now());
@@ -127,6 +128,16 @@ private:
             parts_.push_back(*std::move(part));
             in_step_.push_back(std::move(waiting_.front()));
         }
+    }
+
+    /// Programs, and edits of the machine's values, are the writer's. A program's first part decides: its sender goes
+    /// on sending it after another writer has taken the machine over.
+    CommandResult accept(const ProgramChunk& chunk, const ProgramDocument& part) {
+        if (chunk.index == 0) {
+            if (auto may = coordinator_.check_writer(chunk.writer, looped_); !may) { return may; }
+        }
+        const auto accepted = values_.accept(chunk, part, {coordinator_.owns_machine(), coordinator_.has_job()});
+        return accepted ? CommandResult{} : refuse(FaultCode::BadProgram, accepted.error());
     }
 
     void record_taken(Tick now, const std::vector<TakenPart>& taken) {
@@ -216,6 +227,13 @@ private:
         }
     }
 
+    void log_writer() {
+        const auto& lease = coordinator_.lease();
+        if (lease == logged_lease_) { return; }
+        logged_lease_ = lease;
+        log_info(lease ? "the writer is " + lease->writer.name + " on " + lease->writer.host : "there is no writer");
+    }
+
     /// Every few seconds: reports missing axes, configurations that differ, and refused messages.
     void report_waiting(Tick now) {
         const Ticks period{5'000'000'000 / machine_.tick_ns};
@@ -259,14 +277,13 @@ private:
     UserSignal user_signal_;  // a person requests the notes of the last seconds
     JobRecorder recorder_;
     ValuesStore values_;
-    ProgramInbox inbox_{[this](const ProgramChunk& chunk, const ProgramDocument& part) {
-        return values_.accept(chunk, part, {coordinator_.owns_machine(), coordinator_.has_job()});
-    }};
+    ProgramInbox inbox_{[this](const ProgramChunk& chunk, const ProgramDocument& part) { return accept(chunk, part); }};
     std::deque<ProgramChunk> waiting_;
     std::vector<ProgramPart> parts_;     // for the next step
     std::vector<ProgramChunk> in_step_;  // that they were read from
     std::atomic<Tick> looped_;           // when the loop last ran
     Tick reported_ = clock_.now();
+    std::optional<HeldLease> logged_lease_;
     AxisSet received_axes_ = 0;
     std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes received
     std::uint64_t config_hash_ = config_hash(machine_);

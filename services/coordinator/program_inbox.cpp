@@ -8,20 +8,20 @@
 namespace lockstep {
 namespace {
 
-Reply reply_to(const ProgramChunk& chunk, const std::expected<void, std::string>& accepted) {
+Reply reply_to(const ProgramChunk& chunk, const CommandResult& accepted) {
     Reply reply{.client = chunk.client, .sequence = chunk.sequence};
     if (accepted) {
         reply.parts = 1;  // an edit
         return reply;
     }
     reply.status = ReplyStatus::Refused;
-    reply.fault = static_cast<std::uint16_t>(FaultCode::BadProgram);
-    reply.text = accepted.error();
+    reply.fault = static_cast<std::uint16_t>(accepted.error().why);
+    reply.text = accepted.error().text;
     return reply;
 }
 
 std::unexpected<Reply> refuse(const ProgramChunk& chunk, std::string why) {
-    return std::unexpected(reply_to(chunk, std::unexpected(std::move(why))));
+    return std::unexpected(reply_to(chunk, refuse(FaultCode::BadProgram, std::move(why))));
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ std::expected<ProgramPart, Reply> ProgramInbox::read(const ProgramChunk& chunk) 
     const auto axes = chunk.index == 0 ? std::nullopt : std::optional(known->axes);
     auto document = program_document_from_bytes(chunk.bytes, axes);
     if (!document) { return refuse(chunk, document.error()); }
-    std::expected<void, std::string> accepted;
+    CommandResult accepted;
     if (check_ && (known == nullptr || chunk.index > 0)) { accepted = check_(chunk, *document); }
     const bool is_edit = document->values && document->values->at_once;
     if (known == nullptr) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "core/coordinator/state/refusal.hpp"
 #include "core/protocol/messages.hpp"
 #include "services/documents/program_document.hpp"
 
@@ -17,8 +18,7 @@ class ProgramInbox {
 public:
     /// Of a chunk that is read: whether its program is accepted, where it is the first one, and the values that the
     /// program leaves. Error: why it is refused.
-    using Check =
-        std::function<std::expected<void, std::string>(const ProgramChunk& chunk, const ProgramDocument& part)>;
+    using Check = std::function<CommandResult(const ProgramChunk& chunk, const ProgramDocument& part)>;
     explicit ProgramInbox(Check check = {}) : check_(std::move(check)) {}
 
     /// Error: the reply to a chunk that is refused, or that is an edit of the machine's values and so nothing to run.
@@ -30,7 +30,7 @@ private:
         std::uint64_t program = 0;
         std::size_t axes = 0;
         bool is_edit = false;
-        std::expected<void, std::string> accepted;
+        CommandResult accepted;
     };
     const Known* find(const ProgramChunk& chunk) const;
 

@@ -4,6 +4,7 @@
 
 #include "clients/lockstep/job/final_positions.hpp"
 #include "clients/lockstep/job/job_watch.hpp"
+#include "clients/session/control/lease_turn.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
@@ -166,6 +167,9 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     const HangUp hang_up;
     proto::RunReport report = new_report(job);
     const std::uint64_t lost = lost_records(status_report(session));
+    const LeaseTurn turn(session, job.take, &stop);
+    if (!turn.answer()) { return output.fail(turn.answer().error()); }
+    if (turn.is_refused()) { return refused(job, *turn.answer(), report, output); }
     const auto reply = begin(session, job, stop);
     if (!reply) { return output.fail(reply.error()); }
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }

@@ -22,6 +22,7 @@ struct Job {
     Ticks ticks = {};                                 // own move: how long it lasts; 0: as fast as allowed
     std::optional<double> planned_s = {};
     bool detach = false;  // ends when the job has begun
+    bool take = false;    // the lease from another writer, too
 };
 
 /// Begins the job, shows its progress, waits for its end, reports. SIGINT and SIGTERM first stop the machine on its

@@ -33,7 +33,12 @@ ExitCode home(const HomeOptions& options) {
     if (!axes) { return output.fail(axes.error()); }
     auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
-    const Job job{.command = CommandKind::Home, .kind = "home", .name = {}, .axes = *axes, .detach = options.detach};
+    const Job job{.command = CommandKind::Home,
+                  .kind = "home",
+                  .name = {},
+                  .axes = *axes,
+                  .detach = options.detach,
+                  .take = options.take};
     return run_job(*session, job, output);
 }
 
@@ -44,6 +49,7 @@ void add_home(CLI::App& app, Action& action) {
     const auto options = std::make_shared<HomeOptions>();
     verb->add_option("axes", options->axes, "the axes' names; all where none is named");
     add_detach(*verb, options->detach);
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(
         "Ctrl-C, a closed terminal (SIGHUP), lockstep stop and lockstep hold end homing at rest: axes without\n"

@@ -6,6 +6,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/command_effect.hpp"
+#include "clients/session/control/lease_turn.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
@@ -37,6 +38,11 @@ constexpr std::array kInterrupts{
     Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", ""},
 };
 
+/// They only make the machine safer.
+bool is_everybodys(const Interrupt& interrupt) {
+    return interrupt.command != CommandKind::Resume && interrupt.command != CommandKind::Reset;
+}
+
 constexpr std::chrono::seconds kStopPatience{3};
 
 /// A hold ends homing, which cannot be resumed.
@@ -66,6 +72,10 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
+    std::optional<LeaseTurn> turn;
+    if (!is_everybodys(interrupt)) { turn.emplace(*session, options.take); }
+    if (turn && !turn->answer()) { return output.fail(turn->answer().error()); }
+    if (turn && turn->is_refused()) { return print_refusal(*turn->answer(), output); }
     const auto reply = session->command({.kind = interrupt.command});
     if (!reply) { return output.fail(reply.error()); }
     return report_outcome(*session, interrupt, *reply, output);
@@ -112,6 +122,7 @@ void add_interrupts(CLI::App& app, Action& action) {
     for (const Interrupt& interrupt : kInterrupts) {
         CLI::App* verb = app.add_subcommand(interrupt.name, interrupt.what);
         const auto options = std::make_shared<LiveOptions>();
+        if (!is_everybodys(interrupt)) { add_take(*verb, *options); }
         add_live_options(*verb, *options);
         verb->footer(footer(std::string("  lockstep ") + interrupt.name + "\n"));
         verb->callback([&action, &interrupt, options] {

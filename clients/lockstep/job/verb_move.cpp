@@ -16,8 +16,8 @@ struct MoveVerbOptions : LiveOptions {
     bool detach = false;
 };
 
-ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm, bool detach,
-                       Output& output) {
+ExitCode move_together(Session& session, const Program& program, const std::vector<double>& start_mm,
+                       const MoveVerbOptions& options, Output& output) {
     const auto planned_s = planned_seconds(session, program, start_mm);
     if (!planned_s) { return output.fail(planned_s.error()); }
     const Job job{.command = CommandKind::Move,
@@ -25,7 +25,8 @@ ExitCode move_together(Session& session, const Program& program, const std::vect
                   .name = program.name,
                   .program = program,
                   .planned_s = *planned_s,
-                  .detach = detach};
+                  .detach = options.detach,
+                  .take = options.take};
     return run_job(session, job, output);
 }
 
@@ -36,7 +37,8 @@ ExitCode move_own(Session& session, const MoveVerbOptions& options, const Progra
                   .program = program,
                   .ticks = ticks_of(session.config(), options.move),
                   .planned_s = options.move.in_s,
-                  .detach = options.detach};
+                  .detach = options.detach,
+                  .take = options.take};
     return run_job(session, job, output);
 }
 
@@ -56,7 +58,7 @@ ExitCode move(const MoveVerbOptions& options) {
     auto program = move_program(machine->config, *start_mm, options.move);
     if (!program) { return output.fail(bad_input(program.error())); }
     return options.move.own ? move_own(*session, options, *program, output)
-                            : move_together(*session, *program, *start_mm, options.detach, output);
+                            : move_together(*session, *program, *start_mm, options, output);
 }
 
 }  // namespace
@@ -73,6 +75,7 @@ void add_move(CLI::App& app, Action& action) {
                    "each axis on its own, by the method its configuration names; they arrive when they arrive");
     verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
     add_detach(*verb, options->detach);
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(kInterrupted + footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
                                        "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"

@@ -3,6 +3,7 @@
 
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/session/control/lease_turn.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -33,6 +34,9 @@ ExitCode turn(const OverrideOptions& options) {
     if (options.feed_percent != 0) { overrides.feed_percent = options.feed_percent; }
     if (options.rapid_percent != 0) { overrides.rapid_percent = options.rapid_percent; }
     if (options.feed_percent != 0 || options.rapid_percent != 0) {
+        const LeaseTurn turn(*session, options.take);
+        if (!turn.answer()) { return output.fail(turn.answer().error()); }
+        if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
         const auto reply = session->command({.kind = CommandKind::Override,
                                              .feed_percent = options.feed_percent,
                                              .rapid_percent = options.rapid_percent});
@@ -59,6 +63,7 @@ void add_override(CLI::App& app, Action& action) {
     const CLI::Range range(Overrides::kLeast, Overrides::kMost);
     verb->add_option("--feed", options->feed_percent, "of programmed feeds")->check(range);
     verb->add_option("--rapid", options->rapid_percent, "of what the axes allow; above 100 is as 100")->check(range);
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep override --feed 60\n  lockstep override --feed 100 --rapid 25\n"));
     verb->callback([&action, options] { action = [options] { return turn(*options); }; });

@@ -153,7 +153,8 @@ ExitCode run_stream(const RunOptions& options) {
                   .kind = "run",
                   .name = stream.head().name,
                   .stream = &stream,
-                  .detach = options.detach};
+                  .detach = options.detach,
+                  .take = options.take};
     return run_job(*session, job, output);
 }
 
@@ -180,7 +181,8 @@ ExitCode run(const RunOptions& options) {
                   .program = std::move(chosen->program),
                   .values = std::move(chosen->values),
                   .planned_s = *planned_s,
-                  .detach = options.detach};
+                  .detach = options.detach,
+                  .take = options.take};
     if (options.dry_run) { return report_dry_run(job, chosen->approach, output); }
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
     return run_job(*session, job, output);
@@ -221,6 +223,7 @@ void add_run(CLI::App& app, Action& action) {
     verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
     verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
                    "pass over words for devices that the machine does not have, instead of refusing them");
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
                                        "  lockstep run plate.gcode --from-line 120 --dry-run\n"

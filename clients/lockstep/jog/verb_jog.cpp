@@ -10,6 +10,8 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/control/jog_link.hpp"
+#include "clients/session/control/lease_turn.hpp"
+#include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -139,6 +141,9 @@ ExitCode jog(const JogVerbOptions& options) {
     if (session->config_differs()) {
         output.warn("the coordinator runs another configuration than this command reads");
     }
+    const LeaseTurn turn(*session, options.take);
+    if (!turn.answer()) { return output.fail(turn.answer().error()); }
+    if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
     if (!jogs->empty()) { return jog_by_words(*session, options.jog, *jogs, output); }
     session->await_axes();
     return jog_by_keys(*session, output);
@@ -157,6 +162,7 @@ void add_jog(CLI::App& app, Action& action) {
     verb->add_option("--speed", options->jog.speed_mm_s, "mm/s of each axis; 10, or what the axis can do");
     verb->add_option("--distance", options->jog.distance_mm,
                      "mm of each axis; to the end of its travel where not given");
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(
         footer("  lockstep jog\n  lockstep jog X+\n  lockstep jog X+ Y- --speed 25\n"

@@ -91,6 +91,12 @@ std::string job_row(const proto::StatusReport& status, Ink ink) {
     return progress_bar(status);
 }
 
+std::string conditions_row(const proto::StatusReport& status, Ink ink) {
+    const std::string overrides = overrides_text(status);
+    const std::string writer = writer_text(status);
+    return painted(writer.empty() ? overrides : spread(overrides, "writer: " + writer), kWarning, ink);
+}
+
 }  // namespace
 
 SlackScale slack_scale(const ProtocolTiming& timing) {
@@ -102,8 +108,8 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
     const std::string phase = status.phase().empty() ? "unknown" : status.phase();
     const std::string job = status.has_job() ? ", job " + std::to_string(status.job()) : "";
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
-    std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" +
-                       painted(overrides_text(status), kWarning, ink) + "\n" + painted(title_row(), kFaint, ink) + "\n";
+    std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" + conditions_row(status, ink) +
+                       "\n" + painted(title_row(), kFaint, ink) + "\n";
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis, scale, ink) + "\n"; }
     const auto alarms = alarms_of(status, scale);
     text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");
@@ -119,6 +125,7 @@ std::string watch_line(const proto::StatusReport& status, const SlackScale& scal
         const auto& health = axis.health();
         if (health.has_setpoint_slack_ms()) { text += " slack " + fixed(health.setpoint_slack_ms().min(), 0) + " ms"; }
     }
+    if (status.has_writer()) { text += "; writer " + writer_text(status); }
     for (const std::string& alarm : alarms_of(status, scale)) { text += "; " + alarm; }
     return text;
 }

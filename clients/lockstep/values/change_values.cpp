@@ -1,6 +1,8 @@
 #include "clients/lockstep/values/change_values.hpp"
 
+#include "clients/session/control/lease_turn.hpp"
 #include "clients/session/control/store_values.hpp"
+#include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
@@ -44,6 +46,9 @@ ExitCode change_values_here(const LiveOptions& options, ValuesText text, const C
     if (!values) { return output.fail(values.error()); }
     gcode::KeptValues wanted = values->values;
     if (const auto changed = change(*session, wanted); !changed) { return output.fail(bad_input(changed.error())); }
+    const LeaseTurn turn(*session, options.take);
+    if (!turn.answer()) { return output.fail(turn.answer().error()); }
+    if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
     if (const auto stored = store_values(*session, *values, wanted); !stored) { return output.fail(stored.error()); }
     return print(*session, *values, text, output);
 }

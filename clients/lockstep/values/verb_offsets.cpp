@@ -21,6 +21,7 @@ void add_set(CLI::App& offsets, Action& action) {
     verb->add_option("words", options->words,
                      "the origin in machine coordinates, mm or degrees: X=10 Y=20; R=30: turned by 30 degrees about Z")
         ->required();
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(
         footer("  lockstep offsets set G54 X=10 Y=20\n  lockstep offsets set G55 X=100 R=30\n"
@@ -38,6 +39,7 @@ void add_clear(CLI::App& offsets, Action& action) {
     const auto options = std::make_shared<OffsetOptions>();
     CLI::App* verb = offsets.add_subcommand("clear", "to the machine's zero; G28 and G30 to the park position");
     verb->add_option("name", options->name, "G54 to G59, G59.1 to G59.3, G92, G28 or G30; or all")->required();
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep offsets clear G54\n  lockstep offsets clear all\n"));
     verb->callback([&action, options] {

@@ -26,6 +26,7 @@ void add_set(CLI::App& tools, Action& action) {
                      "axes and their offsets in mm, Z=25.4: the tool's length; D=6: its diameter; P=2: its pocket; "
                      "Q=1 to 9: the orientation of a lathe tool")
         ->required();
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep tools set 1 Z=25.4 D=6\n  lockstep tools set 1 Z=25.38\n"));
     verb->callback([&action, options] {
@@ -41,6 +42,7 @@ void add_remove(CLI::App& tools, Action& action) {
     const auto options = std::make_shared<ToolOptions>();
     CLI::App* verb = tools.add_subcommand("remove", "take a tool out of the table");
     add_number(*verb, *options);
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep tools remove 1\n"));
     verb->callback([&action, options] {

@@ -45,6 +45,7 @@ void add_touch(CLI::App& app, Action& action) {
     verb->add_option("words", options->words, "X=0 Z=-0.1; axes that are not named keep their zero")->required();
     verb->add_option("--system", options->system, "G54 to G59, G59.1 to G59.3; programs begin with G54")
         ->capture_default_str();
+    add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep touch X=0 Y=0\n  lockstep touch Z=0.1 --system G55\n"));
     verb->callback([&action, options] {

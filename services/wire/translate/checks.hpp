@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace lockstep {
 
@@ -34,6 +35,16 @@ public:
     void same(const char* field, std::size_t count, std::size_t expected) { within(field, count, expected, expected); }
     void finite(const char* field, double value) {
         if (!std::isfinite(value)) { refuse(field, "not finite"); }
+    }
+
+    /// UTF-8 without control characters: neither ASCII's nor those from U+0080 to U+009F.
+    void printable(const char* field, std::string_view text) {
+        bool is_behind_c2 = false;
+        for (const char character : text) {
+            const auto byte = static_cast<unsigned char>(character);
+            if (byte < 0x20 || byte == 0x7F || (is_behind_c2 && byte < 0xA0)) { refuse(field, "not printable"); }
+            is_behind_c2 = byte == 0xC2;
+        }
     }
 
     /// Core's enumerator for a value on the wire; both have the same order: 0 ... last.

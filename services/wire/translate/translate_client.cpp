@@ -4,11 +4,12 @@
 #include "services/wire/dds/cut_text.hpp"
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
+#include "services/wire/translate/writer_text.hpp"
 
 namespace lockstep {
 namespace {
 
-static_assert(lockstep_wire_COMMAND_JOG == static_cast<int>(CommandKind::Jog));
+static_assert(lockstep_wire_COMMAND_GIVE_LEASE == static_cast<int>(CommandKind::GiveLease));
 static_assert(lockstep_wire_REPLY_REFUSED == static_cast<int>(ReplyStatus::Refused));
 
 }  // namespace
@@ -24,7 +25,13 @@ CommandMessage to_wire(const Command& command) {
             .ticks = command.ticks.value,
             .feed_percent = static_cast<std::uint16_t>(command.feed_percent),
             .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent),
-            .jogs = {}};
+            .jogs = {},
+            .writer = command.writer.id,
+            .writer_name = {},
+            .writer_host = {},
+            .takes_over = command.takes_over};
+    write_text(command.writer.name, wire.writer_name);
+    write_text(command.writer.host, wire.writer_host);
     for (const JogAxis& jog : command.jogs) {
         message.jog_storage.push_back({.axis = jog.axis, .speed_mm_s = jog.speed_mm_s, .distance_mm = jog.distance_mm});
     }
@@ -35,10 +42,12 @@ CommandMessage to_wire(const Command& command) {
 
 FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     Checks check("command");
-    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::Jog);
+    const CommandKind kind = check.choice("kind", wire.kind, CommandKind::GiveLease);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
     check.within<std::size_t>("the number of jogs", wire.jogs._length, 0, lockstep_wire_MAX_JOGS);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
+    LeaseHolder writer{wire.writer, read_text("writer_name", wire.writer_name, check),
+                       read_text("writer_host", wire.writer_host, check)};
     std::vector<JogAxis> jogs;
     for (const auto& jog : std::span(wire.jogs._buffer, wire.jogs._length)) {
         check.within<std::size_t>("a jog's axis", jog.axis, 0, kMaxAxes - 1);
@@ -55,7 +64,9 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
                    .ticks = {wire.ticks},
                    .feed_percent = wire.feed_percent,
                    .rapid_percent = wire.rapid_percent,
-                   .jogs = std::move(jogs)};
+                   .jogs = std::move(jogs),
+                   .writer = std::move(writer),
+                   .takes_over = wire.takes_over};
 }
 
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {
@@ -66,6 +77,7 @@ lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {
             .index = chunk.index,
             .count = chunk.count,
             .share = chunk.share,
+            .writer = chunk.writer,
             .bytes = {._maximum = size,
                       ._length = size,
                       ._buffer = const_cast<std::uint8_t*>(chunk.bytes.data()),  // DDS only reads it
@@ -85,7 +97,8 @@ FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire) {
                         .index = wire.index,
                         .count = wire.count,
                         .share = wire.share,
-                        .bytes = {wire.bytes._buffer, wire.bytes._buffer + wire.bytes._length}};
+                        .bytes = {wire.bytes._buffer, wire.bytes._buffer + wire.bytes._length},
+                        .writer = wire.writer};
 }
 
 lockstep_wire_Reply to_wire(const Reply& reply) {

@@ -2,6 +2,7 @@
 
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
+#include "services/wire/translate/writer_text.hpp"
 
 namespace lockstep {
 
@@ -22,6 +23,14 @@ lockstep_wire_FrameRest rest_to_wire(const FrameRest& rest) {
 FrameRest rest_from_wire(const lockstep_wire_FrameRest& wire) {
     const Int128 along = Int128{wire.along_high} * kOneStep + Int128{wire.along_low};
     return {wire.frame, {wire.block, {along}}, wire.last, wire.digest};
+}
+
+std::optional<HeldLease> lease_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+    check.far("writer_since", wire.writer_since);
+    HeldLease lease{{wire.writer, read_text("writer_name", wire.writer_name, check),
+                     read_text("writer_host", wire.writer_host, check)},
+                    {wire.writer_since}};
+    return wire.has_writer ? std::optional(std::move(lease)) : std::nullopt;
 }
 
 }  // namespace
@@ -54,6 +63,11 @@ MachineStateMessage to_wire(const MachineState& state) {
             .rapid_percent = static_cast<std::uint16_t>(state.overrides.rapid_percent),
             .axes_present = state.axes_present,
             .config_hash = state.config_hash,
+            .has_writer = state.lease.has_value(),
+            .writer = state.lease ? state.lease->writer.id : 0,
+            .writer_name = {},
+            .writer_host = {},
+            .writer_since = state.lease ? state.lease->since.value : 0,
             .is_run = state.job_kind == JobKind::Run,
             .program = state.program,
             .rests = {},
@@ -62,6 +76,10 @@ MachineStateMessage to_wire(const MachineState& state) {
             .lost_records = state.lost_records,
             .reopened = state.process.reopened,
             .lost_log_lines = state.process.lost_log_lines};
+    if (state.lease) {
+        write_text(state.lease->writer.name, wire.writer_name);
+        write_text(state.lease->writer.host, wire.writer_host);
+    }
     for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
     const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
     wire.rests = {._maximum = size, ._length = size, ._buffer = message.rest_storage.data(), ._release = false};
@@ -80,6 +98,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Jogging);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
+    const std::optional<HeldLease> lease = lease_from_wire(wire, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     MachineState state{.term = {wire.term, wire.coordinator},
                        .stamp = wire.stamp,
@@ -101,6 +120,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
                        .overrides = {wire.feed_percent, wire.rapid_percent},
                        .axes_present = wire.axes_present,
                        .config_hash = wire.config_hash,
+                       .lease = lease,
                        .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
                        .program = wire.program,
                        .rests = {},

@@ -68,10 +68,13 @@ TEST(ProgramInbox, BytesThatAreNoProgramAreRefused) {
 }
 
 TEST(ProgramInbox, ARefusedProgramStaysRefused) {
-    ProgramInbox inbox([](const ProgramChunk&, const ProgramDocument&) {
-        return std::expected<void, std::string>(std::unexpected(std::string("no")));
-    });
-    for (int n = 0; n < 2; ++n) { EXPECT_EQ(inbox.read(chunk(0, 0, some_program())).error().text, "no"); }
+    ProgramInbox inbox(
+        [](const ProgramChunk&, const ProgramDocument&) { return CommandResult(refuse(FaultCode::WriterHeld, "no")); });
+    for (int n = 0; n < 2; ++n) {
+        const auto refused = inbox.read(chunk(0, 0, some_program()));
+        EXPECT_EQ(refused.error().text, "no");
+        EXPECT_EQ(refused.error().fault, static_cast<std::uint16_t>(FaultCode::WriterHeld));
+    }
 }
 
 TEST(ProgramInbox, AnEditOfTheMachinesValuesIsNoProgramToRun) {
@@ -79,7 +82,7 @@ TEST(ProgramInbox, AnEditOfTheMachinesValuesIsNoProgramToRun) {
     int checks = 0;
     ProgramInbox inbox([&](const ProgramChunk&, const ProgramDocument& document) {
         checks += document.values && document.values->at_once ? 1 : 0;
-        return std::expected<void, std::string>{};
+        return CommandResult{};
     });
     const ProgramChunk whole =
         chunk(0, 1, program_bytes({.name = "edit", .axes = {"X"}, .start_mm = {0}, .blocks = {}}, edit));

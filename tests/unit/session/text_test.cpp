@@ -44,6 +44,16 @@ TEST(StatusText, ShowsPositionAndSpeedOfEachAxis) {
     EXPECT_THAT(status_text(running()), HasSubstr("Y                             -              -   not received -\n"));
 }
 
+TEST(StatusText, NamesTheWriterAndSinceWhen) {
+    proto::StatusReport status = running();
+    EXPECT_THAT(status_text(status), Not(HasSubstr("writer")));
+    status.mutable_writer()->set_name("anna");
+    status.mutable_writer()->set_host("bench");
+    status.mutable_writer()->set_held_s(65);
+    status.mutable_writer()->set_since("2026-01-31T14:03:12Z");
+    EXPECT_THAT(status_text(status), HasSubstr("writer: anna on bench, for 1 min 05 s, since 2026-01-31T14:03:12Z\n"));
+}
+
 TEST(StatusText, ShowsDegreesOfARotaryAxis) {
     proto::StatusReport status = running();
     status.mutable_axes(0)->set_name("C");

@@ -171,13 +171,27 @@ TEST(HostileCommands, AreRefused) {
         change(static_cast<lockstep_wire_Command&>(wire));
         expect_refused(static_cast<const lockstep_wire_Command&>(wire), field);
     };
-    refused("kind", [](auto& w) { overwrite(w.kind, 11); });
+    refused("kind", [](auto& w) { overwrite(w.kind, 13); });
     refused("ticks", [](auto& w) { w.ticks = -1; });
     refused("the number of jogs", [](auto& w) { w.jogs._length = lockstep_wire_MAX_JOGS + 1; });
     refused("a jog's axis", [](auto& w) { w.jogs._buffer[0].axis = kMaxAxes; });
     refused("a jog's speed_mm_s", [](auto& w) { w.jogs._buffer[0].speed_mm_s = std::nan(""); });
     refused("a jog's distance_mm",
             [](auto& w) { w.jogs._buffer[0].distance_mm = std::numeric_limits<double>::infinity(); });
+    refused("writer_name", [](auto& w) { std::memset(w.writer_name, 'n', sizeof w.writer_name); });
+    refused("writer_name", [](auto& w) { std::strcpy(w.writer_name, "\x1b[2Janna"); });
+    refused("writer_host", [](auto& w) {
+        std::strcpy(w.writer_host,
+                    "bench\xc2\x9b"
+                    "2J");
+    });
+}
+
+TEST(HostileMachineState, AWritersNameCannotCommandATerminal) {
+    auto wire = to_wire(MachineState{.lease = HeldLease{{7, "J\xc3\xbcrgen", "bench"}, {}}});
+    EXPECT_TRUE(from_wire(static_cast<const lockstep_wire_MachineState&>(wire)));
+    std::strcpy(wire.writer_name, "anna\n");
+    expect_refused(static_cast<const lockstep_wire_MachineState&>(wire), "writer_name");
 }
 
 TEST(HostileChunk, IsRefused) {

@@ -108,12 +108,19 @@ MachineState RandomMessages::machine_state() {
             .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
             .axes_present = bits(),
             .config_hash = bits(),
+            .lease = coin() ? std::optional(HeldLease{writer(), {far()}}) : std::nullopt,
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = bits(),
             .rests = rests(),
             .published = {.job_events = bits(), .program_parts = bits()},
             .lost_records = bits(),
             .process = {.reopened = bits(), .lost_log_lines = bits()}};
+}
+
+LeaseHolder RandomMessages::writer() {
+    return {.id = bits(),
+            .name = std::string(index(kMaxWriterBytes + 1), 'n'),
+            .host = std::string(index(kMaxWriterBytes + 1), 'h')};
 }
 
 std::vector<JogAxis> RandomMessages::jogs() {
@@ -128,18 +135,21 @@ std::vector<JogAxis> RandomMessages::jogs() {
 Command RandomMessages::command() {
     return {.client = bits(),
             .sequence = bits(),
-            .kind = static_cast<CommandKind>(index(11)),
+            .kind = static_cast<CommandKind>(index(13)),
             .axes = bits(),
             .program = bits(),
             .ticks = {between(0, INT32_MAX)},
             .feed_percent = static_cast<int>(between(0, UINT16_MAX)),
             .rapid_percent = static_cast<int>(between(0, UINT16_MAX)),
-            .jogs = jogs()};
+            .jogs = jogs(),
+            .writer = writer(),
+            .takes_over = coin()};
 }
 
 ProgramChunk RandomMessages::chunk() {
     const std::uint32_t count = 1 + index(4096);
     ProgramChunk chunk{.client = bits(), .sequence = bits(), .program = bits(), .index = index(count), .count = count};
+    chunk.writer = bits();
     chunk.share = static_cast<double>(index(1000)) / 1000;
     chunk.bytes.resize(index(32768 + 1));
     for (auto& byte : chunk.bytes) { byte = static_cast<std::uint8_t>(bits()); }

@@ -1,0 +1,88 @@
+#include "core/coordinator/writer_lease.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace lockstep {
+namespace {
+
+std::string duration_text(std::int64_t seconds) {
+    constexpr std::int64_t kMinute = 60;
+    constexpr std::int64_t kHour = 60 * kMinute;
+    if (seconds < 2 * kMinute) { return std::to_string(seconds) + " s"; }
+    if (seconds < 2 * kHour) { return std::to_string(seconds / kMinute) + " min"; }
+    return std::to_string(seconds / kHour) + " h";
+}
+
+/// False: it only makes the machine safer.
+bool needs_lease(const Command& command) {
+    switch (command.kind) {
+        case CommandKind::Hold:
+        case CommandKind::Stop:
+        case CommandKind::EmergencyStop: return false;
+        case CommandKind::Jog: return !command.jogs.empty();
+        default: return true;
+    }
+}
+
+}  // namespace
+
+bool is_about_lease(CommandKind kind) { return kind == CommandKind::TakeLease || kind == CommandKind::GiveLease; }
+
+WriterLease::WriterLease(const MachineConfig& machine)
+    : ticks_per_second_(machine.ticks_per_second()), silence_(kLeaseSilence_ms * 1000 / machine.timing.slot_us + 1) {}
+
+CommandResult WriterLease::take(const Command& command, Tick now, Slot slot) {
+    const LeaseHolder& writer = command.writer;
+    if (writer.id == 0) { return refuse(FaultCode::BadProgram, "a lease needs a writer's identity"); }
+    const bool is_mine = held_ && held_->writer.id == writer.id;
+    if (!is_mine) {
+        if (held_ && !command.takes_over) { return check(writer.id, now); }
+        held_ = HeldLease{writer, now};
+        members_.clear();
+    }
+    note(command.client, slot);
+    return {};
+}
+
+/// The one received longest ago gives way to a new one.
+void WriterLease::note(Identity client, Slot slot) {
+    std::erase_if(members_, [&](const Member& member) { return member.client == client || member.client == 0; });
+    if (members_.size() == kMostMembers) { members_.erase(members_.begin()); }
+    members_.push_back({client, slot});
+}
+
+void WriterLease::give(Identity client) {
+    std::erase_if(members_, [&](const Member& member) { return member.client == client; });
+    if (members_.empty()) { held_.reset(); }
+}
+
+CommandResult WriterLease::check(const Command& command, Tick now) const {
+    return needs_lease(command) ? check(command.writer.id, now) : CommandResult{};
+}
+
+CommandResult WriterLease::check(std::uint64_t writer, Tick now) const {
+    if (!held_ || held_->writer.id == writer) { return {}; }
+    return refuse(FaultCode::WriterHeld, text_of(*held_, now));
+}
+
+std::string WriterLease::text_of(const HeldLease& lease, Tick now) const {
+    const auto seconds = static_cast<std::int64_t>(static_cast<double>((now - lease.since).value) / ticks_per_second_);
+    return lease.writer.name + " on " + lease.writer.host + " has been the machine's writer for " +
+           duration_text(std::max<std::int64_t>(0, seconds)) +
+           "; wait until it gives the machine back, or take it over with --take";
+}
+
+void WriterLease::tend(Slot slot, Slot missed) {
+    for (Member& member : members_) { member.received = std::min(slot, member.received + missed); }
+    std::erase_if(members_, [&](const Member& member) { return slot - member.received > silence_; });
+    if (members_.empty()) { held_.reset(); }
+}
+
+void WriterLease::adopt(const std::optional<HeldLease>& lease, Slot slot) {
+    held_ = lease;
+    members_.clear();
+    if (held_) { members_.push_back({0, slot}); }
+}
+
+}  // namespace lockstep

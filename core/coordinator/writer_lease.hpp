@@ -1,0 +1,54 @@
+// The writer's lease: one writer at a time gives commands that move the machine or change it. The others watch; holds
+// and stops are everybody's. While there is no writer, every client may give commands.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/coordinator/state/refusal.hpp"
+#include "core/machine.hpp"
+#include "core/protocol/lease_holder.hpp"
+
+namespace lockstep {
+
+/// TakeLease or GiveLease.
+bool is_about_lease(CommandKind kind);
+
+class WriterLease {
+public:
+    explicit WriterLease(const MachineConfig& machine);
+
+    /// A TakeLease, also when it comes again: begins the lease, joins its writer's clients, or keeps it.
+    CommandResult take(const Command& command, Tick now, Slot slot);
+    /// The lease ends with the last of its writer's clients.
+    void give(Identity client);
+    /// Whether its client may give the command: it is the writer's, or only makes the machine safer.
+    CommandResult check(const Command& command, Tick now) const;
+    /// Whether this writer may send programs.
+    CommandResult check(std::uint64_t writer, Tick now) const;
+    /// Once a slot: clients that are silent for kLeaseSilence_ms are gone. `missed`: slots before this one in which
+    /// this process was stalled.
+    void tend(Slot slot, Slot missed);
+    /// After a takeover: the lease of the last owner goes on, if its writer keeps it.
+    void adopt(const std::optional<HeldLease>& lease, Slot slot);
+    void drop() { adopt({}, 0); }
+
+    const std::optional<HeldLease>& held() const { return held_; }
+
+private:
+    struct Member {
+        Identity client = 0;  // 0: one that was not received yet, after a takeover
+        Slot received = 0;
+    };
+    static constexpr std::size_t kMostMembers = 32;
+
+    void note(Identity client, Slot slot);
+    std::string text_of(const HeldLease& lease, Tick now) const;
+
+    double ticks_per_second_;
+    Slot silence_;
+    std::optional<HeldLease> held_;
+    std::vector<Member> members_;  // its writer's clients, the one received longest ago first
+};
+
+}  // namespace lockstep

@@ -1,0 +1,34 @@
+// A writer's name and host on the wire: bounded texts that other people's terminals print.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "core/protocol/lease_holder.hpp"
+#include "services/wire/dds/cut_text.hpp"
+#include "services/wire/translate/checks.hpp"
+
+namespace lockstep {
+
+/// A text that is too long is cut between two characters.
+template <std::size_t N>
+void write_text(std::string_view text, char (&wire)[N]) {
+    static_assert(N == kMaxWriterBytes + 1);
+    const std::string cut = cut_text(text, kMaxWriterBytes);
+    std::fill_n(wire, N, '\0');
+    std::memcpy(wire, cut.data(), cut.size());
+}
+
+/// Refuses a text without an end, and one with control characters: they could command a terminal.
+template <std::size_t N>
+std::string read_text(const char* field, const char (&wire)[N], Checks& check) {
+    const std::string text(wire, strnlen(wire, N));
+    check.within<std::size_t>(field, text.size(), 0, kMaxWriterBytes);
+    check.printable(field, text);
+    return text;
+}
+
+}  // namespace lockstep
