@@ -70,6 +70,16 @@ std::optional<Descriptor> accept_from(const Descriptor& listener) {
     return connection;
 }
 
+std::string peer_of(const Descriptor& connection) {
+    sockaddr_in place{};
+    socklen_t size = sizeof place;
+    char text[INET_ADDRSTRLEN] = {};
+    const bool is_known = getpeername(connection.get(), reinterpret_cast<sockaddr*>(&place), &size) == 0 &&
+                          place.sin_family == AF_INET &&
+                          inet_ntop(AF_INET, &place.sin_addr, text, sizeof text) != nullptr;
+    return is_known ? text : "";
+}
+
 /// The other end is opened once, so that it is raw, and that its hang-up can be seen.
 std::expected<Terminal, std::string> Terminal::open(const std::string& link) {
     Descriptor master(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));

@@ -28,6 +28,8 @@ private:
 std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port);
 /// A connection that waits; nothing: none does.
 std::optional<Descriptor> accept_from(const Descriptor& listener);
+/// The address of the other side; empty: it is not known.
+std::string peer_of(const Descriptor& connection);
 
 /// A pseudo-terminal, with a symbolic link to it that is removed with the object.
 class Terminal {

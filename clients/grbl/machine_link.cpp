@@ -32,7 +32,18 @@ Command command_of(const Request& request) {
 
 }  // namespace
 
+/// Holds, stops and releases are everybody's.
+bool MachineLink::claim(const Request& request, Grbl& grbl) {
+    using Kind = Request::Kind;
+    if (request.kind == Kind::Hold || request.kind == Kind::Stop || request.kind == Kind::CancelJog) { return true; }
+    const auto refusal = lease_.claim();
+    if (!refusal) { return true; }
+    if (request.number != 0) { grbl.answer(request.number, answer_of(*refusal)); }
+    return false;
+}
+
 void MachineLink::carry_out(Request&& request, Grbl& grbl) {
+    if (!claim(request, grbl)) { return; }
     switch (request.kind) {
         case Request::Kind::Hold: return lines_.hold(monotonic_now());
         case Request::Kind::Resume: return lines_.resume(monotonic_now());
@@ -63,6 +74,7 @@ void MachineLink::release() {
         lines_.pass(session_.state()->state, rests(), monotonic_now());
     }
     session_.close_stream();
+    lease_.give();
 }
 
 void MachineLink::send(Command command, std::uint64_t number) {
@@ -79,6 +91,16 @@ void MachineLink::pass(nanoseconds time, Grbl& grbl) {
         if (!follow(one, grbl)) { open_.push_back(one); }
     }
     follow_jog(grbl);
+    pass_lease(grbl);
+}
+
+/// Where another has taken the machine over, it runs what it has of the sender's lines, and the others are dropped.
+void MachineLink::pass_lease(Grbl& grbl) {
+    const bool has_work = !open_.empty() || has_jog_ || !lines_.is_idle();
+    const auto lost = lease_.pass(has_work, monotonic_now());
+    if (!lost || !has_work) { return; }
+    lines_.leave();
+    grbl.abort(*lost);
 }
 
 bool MachineLink::follow(Open& open, Grbl& grbl) {

@@ -7,6 +7,7 @@
 
 #include "clients/grbl/lines/line_runner.hpp"
 #include "clients/grbl/protocol/grbl.hpp"
+#include "clients/grbl/sender_lease.hpp"
 #include "clients/session/control/jog_link.hpp"
 #include "clients/session/session.hpp"
 
@@ -28,8 +29,13 @@ private:
 
 class MachineLink {
 public:
-    explicit MachineLink(Session& session)
-        : session_(session), jog_(session), port_(session), lines_(session.config(), port_) {}
+    /// `takes_over`: the sender's work takes the machine from another writer, too.
+    MachineLink(Session& session, bool takes_over)
+        : session_(session),
+          lease_(session, takes_over),
+          jog_(session),
+          port_(session),
+          lines_(session.config(), port_) {}
 
     void carry_out(Request&& request, Grbl& grbl);
     /// Receives messages for so long, renews the jog, and tells the connection what has changed.
@@ -45,6 +51,9 @@ private:
         std::chrono::nanoseconds sent{};
         std::uint64_t job = 0;  // once it is accepted, where the request is answered at its end
     };
+    /// False: another writer has the machine, and the request was answered with that.
+    bool claim(const Request& request, Grbl& grbl);
+    void pass_lease(Grbl& grbl);
     void send(Command command, std::uint64_t number);
     /// True: it is over.
     bool follow(Open& open, Grbl& grbl);
@@ -56,6 +65,7 @@ private:
     MachineView view();
 
     Session& session_;
+    SenderLease lease_;
     JogLink jog_;
     SessionPort port_;
     LineRunner lines_;

@@ -8,6 +8,7 @@
 #include "clients/grbl/machine_link.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
+#include "services/network/host_name.hpp"
 #include "services/runtime/stop_signal.hpp"
 
 namespace {
@@ -20,7 +21,11 @@ struct Options {
     std::string address = "127.0.0.1";
     std::uint16_t port = 2301;
     std::string terminal;
+    bool take = false;
 };
+
+/// `place`: where the sender's bytes come from, its address or the terminal.
+LeaseHolder writer_at(const std::string& place) { return {.name = "the grbl sender at " + place, .host = host_name()}; }
 
 /// An answer may lead to the next request.
 void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
@@ -30,8 +35,9 @@ void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
 }
 
 /// One sender at a time: it is served until it leaves, or a signal comes.
-void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Session& session, const StopSignal& stop) {
-    grbl::MachineLink link(session);
+void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Session& session, const Options& options,
+           const StopSignal& stop) {
+    grbl::MachineLink link(session, options.take);
     grbl::Grbl protocol(session.config(), LOCKSTEP_VERSION);
     link.pass(50ms, protocol);
     protocol.greet();
@@ -49,11 +55,18 @@ void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Ses
     link.release();
 }
 
-int serve_all(const grbl::Descriptor& listener, const std::optional<grbl::Terminal>& terminal, Session& session) {
+int serve_all(const grbl::Descriptor& listener, const std::optional<grbl::Terminal>& terminal, Session& session,
+              const Options& options) {
     const StopSignal stop;
     while (!stop.requested()) {
-        if (const auto sender = grbl::accept_from(listener)) { serve(*sender, listener, session, stop); }
-        if (terminal && terminal->is_used()) { serve(terminal->descriptor(), listener, session, stop); }
+        if (const auto sender = grbl::accept_from(listener)) {
+            session.write_as(writer_at(grbl::peer_of(*sender)));
+            serve(*sender, listener, session, options, stop);
+        }
+        if (terminal && terminal->is_used()) {
+            session.write_as(writer_at(options.terminal));
+            serve(terminal->descriptor(), listener, session, options, stop);
+        }
         session.receive(20ms);
     }
     return kExitDone;
@@ -77,7 +90,7 @@ int run(const Options& options) {
     output.print("machine '" + machine->config.name + "' takes grbl's protocol at " + options.address + ", port " +
                  std::to_string(options.port) + (terminal ? ", and at " + options.terminal : ""));
     std::cout << std::flush;
-    return serve_all(*listener, terminal, *session);
+    return serve_all(*listener, terminal, *session, options);
 }
 
 }  // namespace
@@ -95,6 +108,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--port", options.port, "the TCP port")->capture_default_str();
     app.add_option("--pty", options.terminal, "also make a pseudo-terminal, and this symbolic link to it");
+    app.add_flag("--take", options.take,
+                 "a sender's work takes the machine over from another writer, whom lockstep status names; else it is "
+                 "refused");
     app.footer(
         "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2302 --pty /tmp/grbl\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");

@@ -42,6 +42,9 @@ public:
     /// And the machine has all of it.
     bool has_left() const { return !program_ || program_->is_sent(); }
 
+    /// No line is to be run, or is running.
+    bool is_idle() const { return !program_ && !has_lines() && later_.empty(); }
+
     struct Answered {
         std::uint64_t request = 0;
         Answer answer;

@@ -186,6 +186,37 @@ TEST_F(GrblSender, LeavesAndItsJogBrakes) {
     EXPECT_LT(steps_of_x(), 180 * 80);
 }
 
+TEST_F(GrblSender, HasTheMachineForItselfWhileItWorks) {
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    Sender sender = connected();
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));
+    EXPECT_FALSE(status().has_writer()) << "it has asked for nothing yet";
+    ASSERT_TRUE(sender.answers("$J=G91 X150 F600", "ok"));
+    EXPECT_EQ(status().writer().name(), "the grbl sender at 127.0.0.1");
+    const Ran refused = run_lockstep({"override", "--feed", "50"});
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("the grbl sender at 127.0.0.1 on "));
+    EXPECT_EQ(run_lockstep({"override", "--feed", "50", "--take"}).code, 0);
+    EXPECT_TRUE(sender.receives("ALARM:3"));
+    EXPECT_TRUE(becomes("Idle")) << "the jog brakes";
+}
+
+TEST_F(GrblSender, IsRefusedWhileAnotherHasTheMachine) {
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    Sender sender = connected();
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));
+    Command key(LOCKSTEP_COMMAND, {"jog", "X+", "--speed", "5"});
+    ASSERT_TRUE(becomes("Jogging"));
+    EXPECT_TRUE(sender.answers("G10 L20 P1 X0", "has been the machine's writer for"));
+    EXPECT_TRUE(sender.receives("error:9"));
+    sender.send("!");
+    EXPECT_TRUE(becomes("Idle")) << "a hold is everybody's, and ends the jog";
+    (void)key.wait();
+    EXPECT_TRUE(sender.answers("G10 L20 P1 X0", "ok"));
+    EXPECT_TRUE(sender.answers("G0 X1", "ok"));
+    EXPECT_TRUE(eventually([&] { return !status().has_writer(); })) << "it has rested for a while";
+}
+
 TEST_F(GrblSender, MayUseATerminalAndComeAgain) {
     ASSERT_TRUE(eventually([&] { return ::access(terminal_.c_str(), R_OK | W_OK) == 0; }));
     for (int i = 0; i < 2; ++i) {
