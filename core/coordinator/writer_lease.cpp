@@ -14,6 +14,8 @@ std::string duration_text(std::int64_t seconds) {
     return std::to_string(seconds / kHour) + " h";
 }
 
+std::string name_of(const LeaseHolder& writer) { return writer.name + " on " + writer.host; }
+
 /// False: it only makes the machine safer.
 bool needs_lease(const Command& command) {
     switch (command.kind) {
@@ -35,21 +37,34 @@ WriterLease::WriterLease(const MachineConfig& machine)
 CommandResult WriterLease::take(const Command& command, Tick now, Slot slot) {
     const LeaseHolder& writer = command.writer;
     if (writer.id == 0) { return refuse(FaultCode::BadProgram, "a lease needs a writer's identity"); }
+    if (auto may = check_loser(command); !may) { return may; }
     const bool is_mine = held_ && held_->writer.id == writer.id;
-    if (!is_mine) {
-        if (held_ && !command.takes_over) { return check(writer.id, now); }
-        held_ = HeldLease{writer, now};
-        members_.clear();
-    }
-    note(command.client, slot);
+    if (held_ && !is_mine && !command.takes_over) { return check(writer.id, now); }
+    if (!is_mine) { pass_to(writer, now); }
+    note(command, slot);
     return {};
 }
 
+CommandResult WriterLease::check_loser(const Command& command) const {
+    const Loser* loser = losers_.find(command.client);
+    if (loser == nullptr || command.sequence > loser->sequence) { return {}; }
+    return refuse(FaultCode::WriterHeld, loser->text);
+}
+
+void WriterLease::pass_to(const LeaseHolder& writer, Tick now) {
+    for (const Member& member : members_) {
+        losers_.note(member.client, {member.sequence, name_of(writer) + " has taken the machine over"});
+    }
+    held_ = HeldLease{writer, now};
+    members_.clear();
+}
+
 /// The one received longest ago gives way to a new one.
-void WriterLease::note(Identity client, Slot slot) {
+void WriterLease::note(const Command& command, Slot slot) {
+    const Identity client = command.client;
     std::erase_if(members_, [&](const Member& member) { return member.client == client || member.client == 0; });
     if (members_.size() == kMostMembers) { members_.erase(members_.begin()); }
-    members_.push_back({client, slot});
+    members_.push_back({client, slot, command.sequence});
 }
 
 void WriterLease::give(Identity client) {
@@ -68,7 +83,7 @@ CommandResult WriterLease::check(std::uint64_t writer, Tick now) const {
 
 std::string WriterLease::text_of(const HeldLease& lease, Tick now) const {
     const auto seconds = static_cast<std::int64_t>(static_cast<double>((now - lease.since).value) / ticks_per_second_);
-    return lease.writer.name + " on " + lease.writer.host + " has been the machine's writer for " +
+    return name_of(lease.writer) + " has been the machine's writer for " +
            duration_text(std::max<std::int64_t>(0, seconds)) +
            "; wait until it gives the machine back, or take it over with --take";
 }
@@ -82,7 +97,7 @@ void WriterLease::tend(Slot slot, Slot missed) {
 void WriterLease::adopt(const std::optional<HeldLease>& lease, Slot slot) {
     held_ = lease;
     members_.clear();
-    if (held_) { members_.push_back({0, slot}); }
+    if (held_) { members_.push_back({0, slot, 0}); }
 }
 
 }  // namespace lockstep

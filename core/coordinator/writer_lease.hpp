@@ -7,6 +7,7 @@
 
 #include "core/coordinator/state/refusal.hpp"
 #include "core/machine.hpp"
+#include "core/protocol/client_memory.hpp"
 #include "core/protocol/lease_holder.hpp"
 
 namespace lockstep {
@@ -18,7 +19,8 @@ class WriterLease {
 public:
     explicit WriterLease(const MachineConfig& machine);
 
-    /// A TakeLease, also when it comes again: begins the lease, joins its writer's clients, or keeps it.
+    /// A TakeLease, also when it comes again: begins the lease, joins its writer's clients, or keeps it. A client from
+    /// which another writer has taken the lease keeps it no more: only a new request can get it.
     CommandResult take(const Command& command, Tick now, Slot slot);
     /// The lease ends with the last of its writer's clients.
     void give(Identity client);
@@ -39,15 +41,24 @@ private:
     struct Member {
         Identity client = 0;  // 0: one that was not received yet, after a takeover
         Slot received = 0;
+        std::uint64_t sequence = 0;  // of its request
     };
-    static constexpr std::size_t kMostMembers = 32;
+    /// A client that has lost the lease to another writer.
+    struct Loser {
+        std::uint64_t sequence = 0;  // of its last request
+        std::string text;            // who has taken the machine over
+    };
+    static constexpr std::size_t kMostMembers = ClientMemory<Loser>::kClients;
 
-    void note(Identity client, Slot slot);
+    CommandResult check_loser(const Command& command) const;
+    void pass_to(const LeaseHolder& writer, Tick now);
+    void note(const Command& command, Slot slot);
     std::string text_of(const HeldLease& lease, Tick now) const;
 
     double ticks_per_second_;
     Slot silence_;
     std::optional<HeldLease> held_;
+    ClientMemory<Loser> losers_;
     std::vector<Member> members_;  // its writer's clients, the one received longest ago first
 };
 

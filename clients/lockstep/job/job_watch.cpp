@@ -1,5 +1,7 @@
 #include "clients/lockstep/job/job_watch.hpp"
 
+#include <utility>
+
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "services/runtime/clock.hpp"
@@ -36,6 +38,7 @@ std::expected<JobResult, Failure> JobWatch::wait() {
         if (hang_up_.came() && rests && state.job == number_) { return JobResult::Held; }
         if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
         if (rest_asked_ && monotonic_now() - *rest_asked_ > kRestPatience) { return std::unexpected(restless()); }
+        print_lost_lease();
         if (state.job == number_) { print_phase(state); }
     }
 }
@@ -76,6 +79,12 @@ std::expected<void, Failure> JobWatch::send_stop() {
     if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
     return std::unexpected(
         failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
+}
+
+void JobWatch::print_lost_lease() {
+    if (!std::exchange(has_lease_, session_.holds_lease()) || has_lease_) { return; }
+    const auto& why = session_.lease_reply();
+    if (why) { output_.print(why->text + "; the job goes on, and can be held or stopped from here"); }
 }
 
 void JobWatch::print_phase(const MachineState& state) {

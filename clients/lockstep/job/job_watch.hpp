@@ -31,6 +31,7 @@ private:
     std::expected<void, Failure> follow_signals();
     std::expected<void, Failure> send_hold();
     std::expected<void, Failure> send_stop();
+    void print_lost_lease();
     void print_phase(const MachineState& state);
     void print_progress();
 
@@ -42,6 +43,7 @@ private:
     const HangUp& hang_up_;
     Term asked_;
     Term runs_it_;  // of the owner last received as running it
+    bool has_lease_ = true;
     bool hold_sent_ = false;
     bool stop_sent_ = false;
     std::optional<std::chrono::nanoseconds> rest_asked_;  // when the last of both was sent

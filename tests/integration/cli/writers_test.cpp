@@ -62,6 +62,8 @@ TEST_F(Writers, TheSecondOneIsRefusedAndHoldsAndTakesTheMachineOver) {
     EXPECT_THAT(run_lockstep({"status"}).out, Not(HasSubstr("writer:"))) << "bert's command has ended";
     const Ran done = job.wait();
     EXPECT_EQ(done.code, 0) << done.out << done.err;
+    EXPECT_THAT(done.out, HasSubstr("bert on "));
+    EXPECT_THAT(done.out, HasSubstr(" has taken the machine over; the job goes on"));
     EXPECT_EQ(run_lockstep({"move", "X=10"}).code, 0);
 }
 

@@ -53,6 +53,7 @@ TEST(WriterLeases, AreAsAModelSaysForRandomClients) {
         WriterLease lease(machine);
         Model model;
         Slot now = 1000;
+        std::uint64_t asked = 0;
         for (int step = 0; step < 200; ++step) {
             const Slot pause = random() % 8 == 0 ? static_cast<Slot>(random() % (2 * kSilence)) : random() % 300;
             for (const Slot end = now + pause; now < end;) { lease.tend(++now, 0); }
@@ -65,7 +66,8 @@ TEST(WriterLeases, AreAsAModelSaysForRandomClients) {
                 lease.give(client);
                 model.give(client);
             } else {
-                Command command{.client = client, .kind = CommandKind::TakeLease, .takes_over = takes_over};
+                Command command{
+                    .client = client, .sequence = ++asked, .kind = CommandKind::TakeLease, .takes_over = takes_over};
                 command.writer = {.id = writer_of(client), .name = "w", .host = "h"};
                 const bool is_taken = lease.take(command, Tick{now * 1000}, now).has_value();
                 ASSERT_EQ(is_taken, model.take(client, writer_of(client), takes_over, now));

@@ -89,6 +89,21 @@ TEST_F(Lease, AnotherWriterGetsItOnlyByTakingItOver) {
     EXPECT_EQ(holder(), "bert");
 }
 
+TEST_F(Lease, AClientThatHasLostItToAnotherGetsItOnlyByANewRequest) {
+    ASSERT_EQ(take(anna(), 1), FaultCode::None);
+    ASSERT_EQ(take(bert(), 2, true), FaultCode::None);
+    lease.give(2);
+    Command command = asking(anna(), 1, CommandKind::TakeLease);
+    const auto refused = lease.take(command, Tick{slot * 1000}, slot);
+    ASSERT_FALSE(refused) << "it repeats its request to keep what it has lost";
+    EXPECT_EQ(refused.error().why, FaultCode::WriterHeld);
+    EXPECT_EQ(refused.error().text, "bert on office has taken the machine over");
+    EXPECT_EQ(holder(), "nobody");
+    ++command.sequence;
+    EXPECT_TRUE(lease.take(command, Tick{slot * 1000}, slot));
+    EXPECT_EQ(holder(), "anna");
+}
+
 TEST_F(Lease, SilenceEndsItAndRepetitionKeepsIt) {
     ASSERT_EQ(take(anna(), 1), FaultCode::None);
     const Tick since = lease.held()->since;
