@@ -84,8 +84,7 @@ CommandResult WriterLease::check(std::uint64_t writer, Tick now) const {
 std::string WriterLease::text_of(const HeldLease& lease, Tick now) const {
     const auto seconds = static_cast<std::int64_t>(static_cast<double>((now - lease.since).value) / ticks_per_second_);
     return name_of(lease.writer) + " has been the machine's writer for " +
-           duration_text(std::max<std::int64_t>(0, seconds)) +
-           "; wait until it gives the machine back, or take it over with --take";
+           duration_text(std::max<std::int64_t>(0, seconds));
 }
 
 void WriterLease::tend(Slot slot, Slot missed) {
