@@ -85,6 +85,17 @@ TEST(Watch, ShowsOverrides) {
     EXPECT_EQ(watch_text(status, kScale, Ink::Plain), watch_text(cutting(), kScale, Ink::Plain));
 }
 
+TEST(Watch, NamesTheWriter) {
+    proto::StatusReport status = cutting();
+    status.mutable_writer()->set_name("anna");
+    status.mutable_writer()->set_host("bench");
+    EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("  writer: anna on bench\naxis "));
+    EXPECT_THAT(watch_line(status, kScale), HasSubstr("; writer anna on bench"));
+    status.set_feed_override_percent(60);
+    status.set_rapid_override_percent(100);
+    EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("left\nfeed 60 %, rapid 100 %    "));
+}
+
 TEST(Watch, ShowsFaultsAndRemedies) {
     proto::StatusReport status = cutting();
     status.set_phase("Fault");
