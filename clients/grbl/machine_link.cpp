@@ -36,7 +36,7 @@ Command command_of(const Request& request) {
 bool MachineLink::claim(const Request& request, Grbl& grbl) {
     using Kind = Request::Kind;
     if (request.kind == Kind::Hold || request.kind == Kind::Stop || request.kind == Kind::CancelJog) { return true; }
-    const auto refusal = lease_.claim();
+    const auto refusal = lease_.claim(monotonic_now());
     if (!refusal) { return true; }
     if (request.number != 0) { grbl.answer(request.number, answer_of(*refusal)); }
     return false;

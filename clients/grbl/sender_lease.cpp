@@ -4,7 +4,8 @@
 
 namespace lockstep::grbl {
 
-std::optional<Reply> SenderLease::claim() {
+std::optional<Reply> SenderLease::claim(std::chrono::nanoseconds now) {
+    worked_ = now;
     if (session_.holds_lease() || session_.is_silent()) { return std::nullopt; }
     const auto reply = session_.take_lease(takes_over_);
     is_held_ = session_.holds_lease();

@@ -16,7 +16,7 @@ public:
 
     /// Before work is begun; waits for the coordinator's answer where it must ask for the lease. Returns the refusal:
     /// another writer has it; nothing: there is none, or the coordinator is silent and refuses nothing.
-    std::optional<Reply> claim();
+    std::optional<Reply> claim(std::chrono::nanoseconds now);
     /// In each loop. Returns who has taken the machine over, once: nobody did.
     std::optional<std::string> pass(bool has_work, std::chrono::nanoseconds now);
     void give() { session_.give_lease(); }

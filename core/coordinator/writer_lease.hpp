@@ -36,6 +36,8 @@ public:
     void drop() { adopt({}, 0); }
 
     const std::optional<HeldLease>& held() const { return held_; }
+    /// LeaseHolder::id; 0: there is no writer.
+    std::uint64_t writer() const { return held_ ? held_->writer.id : 0; }
 
 private:
     struct Member {

@@ -56,6 +56,7 @@ public:
     bool has_any() const { return exists() || inherited_.exists(); }
     /// An epoch of frames is in progress.
     bool is_on_path() const { return path_.is_moving(); }
+    bool is_jogging() const { return has_jog() && intent_ == Intent::GoOn; }
     bool in_motion() const { return is_on_path() || axes_move_alone(); }
     std::uint64_t number() const { return count_.number(); }
     void note_progress(const CoordinatorLoop& loop) {
@@ -65,7 +66,6 @@ public:
 
 private:
     bool has_jog() const { return job_ && job_->kind == JobKind::Jog; }
-    bool is_jogging() const { return has_jog() && intent_ == Intent::GoOn; }
     bool axes_move_alone() const { return job_ && job_->is_alone(); }
     void begin(JobKind kind, const Command& command, std::vector<std::int64_t> start_counts, CoordinatorLoop& loop);
     void home_next_group(CoordinatorLoop& loop);

@@ -24,6 +24,7 @@ public:
         return command_.sequence;
     }
     void release() { press({}); }
+    void write_as(std::uint64_t writer) { command_.writer.id = writer; }
     /// Nothing more comes from it.
     void die() { is_alive_ = false; }
     bool is_alive() const { return is_alive_; }

@@ -137,6 +137,22 @@ TEST_F(TwoWriters, AJogEndsWhenAnotherTakesTheMachineOver) {
     EXPECT_EQ(fault(), FaultCode::None);
 }
 
+TEST_F(TwoWriters, AJogOfTheFormerWriterEndsThoughTheLeaseIsGivenBackAtOnce) {
+    home();
+    ASSERT_EQ(code_of(anna.take()), FaultCode::None);
+    Jogger key(vm);
+    key.write_as(anna.writer());
+    key.press({{.axis = 0, .speed_mm_s = 20}});
+    pass(vm, {&key}, Ticks{300'000});
+    ASSERT_EQ(vm.state()->phase, MachinePhase::Jogging);
+    EXPECT_EQ(code_of(bert.take_over()), FaultCode::None);
+    EXPECT_EQ(code_of(bert.ask(CommandKind::GiveLease)), FaultCode::None);
+    pass(vm, {&key}, Ticks{700'000});
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Idle);
+    EXPECT_TRUE(vm.axis_states()[0]->at_rest);
+    EXPECT_EQ(fault(), FaultCode::None);
+}
+
 TEST_F(TwoWriters, NoWriterIsLeftByTheCoordinatorsOwnStall) {
     home();
     ASSERT_EQ(code_of(anna.take()), FaultCode::None);
