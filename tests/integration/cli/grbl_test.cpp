@@ -209,15 +209,15 @@ TEST_F(GrblSender, IsRefusedWhileAnotherHasTheMachine) {
     {
         Terminal jog("jog");
         ASSERT_TRUE(jog.shows("left, right"));
-        EXPECT_TRUE(sender.answers("G0 X1", "has been the machine's writer for"));
+        EXPECT_TRUE(sender.answers("G0 X50", "has been the machine's writer for"));
         EXPECT_TRUE(sender.receives("error:9"));
         EXPECT_TRUE(sender.answers("$J=G91 X1 F600", "error:9"));
         EXPECT_TRUE(sender.answers("G10 L20 P1 X0", "error:9"));
         jog.type("q");
         EXPECT_EQ(jog.wait(), 0);
     }
-    EXPECT_TRUE(sender.answers("G0 X1", "ok"));
-    EXPECT_TRUE(eventually([&] { return steps_of_x() == 80 && status().phase() == "Idle"; }));
+    EXPECT_TRUE(sender.answers("G0 X50", "ok"));
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == 50 * 80 && status().phase() == "Idle"; }));
     EXPECT_TRUE(status().has_writer());
     EXPECT_TRUE(eventually([&] { return !status().has_writer(); })) << "it has rested for a while";
 }
