@@ -23,6 +23,7 @@ constexpr nanoseconds kAnswerPatience = 3s;
 constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
 constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
 constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
+constexpr std::size_t kRepliesKept = 64;        // that nobody has asked for
 constexpr nanoseconds kDiskPatience = 15s;      // a disk may hang for seconds
 
 static_assert(kPartBytes + 4096 <= lockstep_wire_MAX_CHUNK_BYTES);  // the last block, or the values
@@ -232,6 +233,7 @@ std::expected<Reply, Failure> Session::command(Command command, const StopSignal
 
 void Session::begin(Command& command) {
     replies_.erase(command.sequence);
+    while (replies_.size() > kRepliesKept) { replies_.erase(replies_.begin()); }
     command.client = client_;
     command.sequence = ++sequence_;
     command.writer.id = lease_.writer().id;
