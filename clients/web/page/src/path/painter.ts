@@ -11,8 +11,7 @@ export interface Picture {
   readonly density: number;
   /** The point of the path that the head is on its way to; what is before it is done. */
   readonly reached: number;
-  /** Whether the camera moves: then fewer points are drawn. */
-  readonly isMoving: boolean;
+  readonly most_points: number;
 }
 
 /** Red, green, blue, opacity: 0 ... 1. */

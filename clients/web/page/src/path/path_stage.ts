@@ -1,6 +1,7 @@
 // Three layers, each drawn only when it changes: the travel's floor, the path, the head.
 import type { Bounds, Camera, Size, Vector } from "./camera";
 import { CanvasPainter } from "./canvas_painter";
+import { DrawBudget } from "./draw_budget";
 import { FrameTimes } from "./frame_times";
 import { GlPainter } from "./gl_painter";
 import { makeLevels } from "./levels";
@@ -10,8 +11,11 @@ import { PathProgress } from "./progress";
 import { drawFloor, drawHead, drawScale, drawTrail, type SceneColours } from "./scene";
 import { paletteColour } from "../dom/theme";
 
+const FRAME_MS = 100; // two moves that are closer belong to one movement
 const AT_REST_MS = 160; // after the camera's last move the path is drawn in full
 const LONGEST_TRAIL = 2000; // points
+const FIRST_POINTS_GL = 60_000;
+const FIRST_POINTS_CANVAS = 6000;
 
 export interface RunPlace {
   readonly job: number;
@@ -38,6 +42,8 @@ export class PathStage {
   private readonly floor: CanvasRenderingContext2D;
   private readonly above: CanvasRenderingContext2D;
   private readonly painter: PathPainter;
+  private readonly budget: DrawBudget;
+  private movedAt_ms: number | undefined;
   private readonly times: FrameTimes;
   private path: Path | undefined;
   private coming: Path | undefined;
@@ -55,7 +61,9 @@ export class PathStage {
     this.canvases = [floor, lines, above];
     this.floor = floor.getContext("2d")!;
     this.above = above.getContext("2d")!;
-    this.painter = GlPainter.on(lines) ?? new CanvasPainter(lines.getContext("2d")!);
+    const gl = GlPainter.on(lines, location.search === "?draw=webgl");
+    this.painter = gl ?? new CanvasPainter(lines.getContext("2d")!);
+    this.budget = new DrawBudget(gl === undefined ? FIRST_POINTS_CANVAS : FIRST_POINTS_GL);
     this.times = new FrameTimes(surface);
     this.takeColours();
   }
@@ -86,16 +94,15 @@ export class PathStage {
     setTimeout(() => this.redraw(), AT_REST_MS + 10);
   }
 
-  /** @param camera gives the view of the new size, where the surface had none before */
-  resize(camera: () => Camera): void {
-    const wasEmpty = this.view.width <= 1;
+  /** @param camera gives the one for the new size, if it is to change */
+  resize(camera: () => Camera | undefined): void {
     const box = this.surface.getBoundingClientRect();
     this.view = { width: Math.max(1, box.width), height: Math.max(1, box.height) };
     for (const canvas of this.canvases) {
       canvas.width = Math.round(this.view.width * devicePixelRatio);
       canvas.height = Math.round(this.view.height * devicePixelRatio);
     }
-    if (wasEmpty) this.camera = camera();
+    this.camera = camera() ?? this.camera;
     this.redraw();
   }
 
@@ -135,17 +142,25 @@ export class PathStage {
     this.wanted[what] = true;
     if (this.scheduled) return;
     this.scheduled = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now_ms) => {
       this.scheduled = false;
+      this.noteFrame(now_ms);
       const started = performance.now();
       this.draw();
       this.times.add(performance.now() - started);
     });
   }
 
+  /** How fast pictures follow each other while the view moves says how much may be in them. */
+  private noteFrame(now_ms: number): void {
+    const isMoving = now_ms - this.moved_ms < FRAME_MS;
+    if (isMoving && this.movedAt_ms !== undefined) this.budget.note(now_ms - this.movedAt_ms);
+    this.movedAt_ms = isMoving ? now_ms : undefined;
+  }
+
   private draw(): void {
     const isMoving = performance.now() - this.moved_ms < AT_REST_MS;
-    const picture: Picture = { camera: this.camera, view: this.view, density: devicePixelRatio, reached: this.reached, isMoving };
+    const picture: Picture = { camera: this.camera, view: this.view, density: devicePixelRatio, reached: this.reached, most_points: this.budget.most(isMoving) };
     if (this.wanted.all) {
       this.clear(this.floor);
       drawFloor(this.floor, this.camera, this.view, this.travel, this.colours.scene);

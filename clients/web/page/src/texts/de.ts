@@ -28,7 +28,7 @@ export const de: Texts = {
     Stop: "Stopp", Fault: "Fehler",
   },
   commands: {
-    home: "Referenz", homeAxis: "Referenzfahrt {axis}", run: "Start", hold: "Halt", resume: "Weiter", stop: "Stopp",
+    home: "Referenz", homeAxis: "Referenzfahrt {axis}", run: "Start", hold: "Halt", resume: "Weiter", stop: "Stopp", stops: "Halt und Stopp",
     estop: "Not-Halt", reset: "Quittieren", refused: "Abgelehnt: {title}", noAnswer: "Der Server antwortet nicht.",
     noAnswerRemedy: "Prüfe die Verbindung. Die Achsen bremsen von selbst, wenn eine Handfahrt nicht mehr erneuert wird.",
     remedy: "Abhilfe: {remedy}", place: "{place}: {value}", limit: "erlaubt: {limit}",
@@ -40,7 +40,7 @@ export const de: Texts = {
   axes: {
     title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",
     notHomed: "Nicht referenziert", missing: "Nicht empfangen", unproved: "Lage nicht bewiesen: {cause}", age: "Alter", slack: "Vorlauf", late: "Verzug",
-    skew: "Versatz", clock: "Uhr", following: "Schleppfehler: {steps} Schritte", now: "< 0,5 s",
+    skew: "Versatz", clock: "Uhr", following: "Schleppfehler: {steps} Schritte", now: "< 1 s",
     hints: {
       age: "Der Werte dieser Achse", slack: "So lange vor ihrem Beginn kam die letzte Vorgabe mindestens, ms",
       late: "Schritt neben seiner befohlenen Zeit, höchstens, µs", skew: "Zwischen Schritten zweier Achsen, höchstens, µs",
@@ -48,12 +48,12 @@ export const de: Texts = {
     },
   },
   jog: {
-    title: "Handfahrt", velocity: "Tempo", distance: "Strecke", continuous: "Halten", keys: "Pfeiltasten, Bild auf und Bild ab, solange der Fokus hier ist",
+    title: "Handfahrt", velocity: "Tempo", distance: "Strecke", continuous: "Dauernd", keys: "Pfeiltasten, Bild auf und Bild ab, solange der Fokus hier ist",
     move: "{axis} {sign} fahren", plus: "plus", minus: "minus",
     ended: "Die Maschine hat die Handfahrt beendet. Drücke erneut.", blocked: "Zuerst {axes} referenzieren",
   },
   path: {
-    title: "Bahn", twoD: "Von oben", threeD: "3D", fit: "Einpassen", follow: "Dem Kopf folgen", empty: "Lade ein Programm, um seine Bahn zu sehen.",
+    title: "Bahn", twoD: "2D", threeD: "3D", fit: "Einpassen", follow: "Dem Kopf folgen", empty: "Lade ein Programm, um seine Bahn zu sehen.",
     label: "Bahn des Programms. Pfeiltasten verschieben oder drehen sie, Plus und Minus vergrößern, 0 passt sie ein.", segments: "{count} Strecken", ahead: "Voraus", rapid: "Eilgang",
     done: "Erledigt",
   },

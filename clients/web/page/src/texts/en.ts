@@ -27,7 +27,7 @@ export const en = {
     Stop: "Stop", Fault: "Fault",
   },
   commands: {
-    home: "Home", homeAxis: "Home {axis}", run: "Run", hold: "Hold", resume: "Resume", stop: "Stop",
+    home: "Home", homeAxis: "Home {axis}", run: "Run", hold: "Hold", resume: "Resume", stop: "Stop", stops: "Hold and stop",
     estop: "Emergency stop", reset: "Reset", refused: "Refused: {title}", noAnswer: "The server does not answer.",
     noAnswerRemedy: "Check the connection. The axes brake by themselves when a jog is no longer renewed.",
     remedy: "Remedy: {remedy}", place: "{place}: {value}", limit: "allowed: {limit}",
@@ -39,7 +39,7 @@ export const en = {
   axes: {
     title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",
     notHomed: "Not homed", missing: "Not received", unproved: "Position not proved: {cause}", age: "Age", slack: "Slack", late: "Late",
-    skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", now: "< 0.5 s",
+    skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", now: "< 1 s",
     hints: {
       age: "Of the values of this axis", slack: "How long before its start the latest setpoint came, at least, ms",
       late: "Step beside its commanded time, at most, µs", skew: "Between steps of two axes, at most, µs",
@@ -47,12 +47,12 @@ export const en = {
     },
   },
   jog: {
-    title: "Jog", velocity: "Speed", distance: "Distance", continuous: "Hold", keys: "Arrow keys, Page Up and Page Down while the focus is here",
+    title: "Jog", velocity: "Speed", distance: "Distance", continuous: "Continuous", keys: "Arrow keys, Page Up and Page Down while the focus is here",
     move: "Jog {axis} {sign}", plus: "plus", minus: "minus",
     ended: "The machine ended the jog. Press again.", blocked: "Home {axes} first",
   },
   path: {
-    title: "Path", twoD: "From above", threeD: "3D", fit: "Fit", follow: "Follow the head", empty: "Load a program to see its path.",
+    title: "Path", twoD: "2D", threeD: "3D", fit: "Fit", follow: "Follow the head", empty: "Load a program to see its path.",
     label: "Path of the program. Arrow keys move or turn it, plus and minus zoom, 0 fits it.", segments: "{count} segments", ahead: "Ahead", rapid: "Rapid",
     done: "Done",
   },

@@ -7,7 +7,7 @@ import { age } from "../format/times";
 import { ageNow, freshness } from "../state/freshness";
 import { fill, t } from "../texts";
 
-const FRESH_MS = 500; // below this the exact age says nothing more
+const FRESH_MS = 1000; // below this the exact age says nothing more
 
 class Figure {
   private readonly value = h("dd", {});

@@ -29,6 +29,7 @@ export class PathView implements View, Viewer {
   private readonly threeD: HTMLButtonElement;
   private readonly followButton: HTMLButtonElement;
   private follows = false;
+  private isFitted = true;
   private shownProgram: number | undefined;
 
   constructor(private readonly machine: Machine) {
@@ -49,7 +50,7 @@ export class PathView implements View, Viewer {
       surface);
     attachGestures(surface, this);
     onTheme(() => this.stage.takeColours());
-    new ResizeObserver(() => this.stage.resize(() => this.fitted())).observe(surface);
+    new ResizeObserver(() => this.stage.resize(() => (this.isFitted ? this.fitted() : undefined))).observe(surface);
     this.look(true);
   }
 
@@ -58,10 +59,12 @@ export class PathView implements View, Viewer {
   }
 
   set camera(camera: Camera) {
+    this.isFitted = false;
     this.stage.move(camera);
   }
 
   fit(): void {
+    this.isFitted = true;
     this.stage.move(this.fitted());
   }
 

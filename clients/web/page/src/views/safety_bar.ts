@@ -19,7 +19,7 @@ export class SafetyBar implements View {
     this.resume = button(t.commands.resume, ICONS.play, "action good", () => void give("resume"));
     this.stop = button(t.commands.stop, ICONS.stop, "action", () => void give("stop"));
     this.reset = button(t.commands.reset, ICONS.reset, "action", () => void give("reset"));
-    this.element = h("div", { class: "safety", role: "group", "aria-label": t.commands.stop },
+    this.element = h("div", { class: "safety", role: "group", "aria-label": t.commands.stops },
       this.hold, this.resume, this.stop, this.reset, this.emergency(give));
   }
 

@@ -12,11 +12,12 @@ export function takeToken(): string | undefined {
   return token;
 }
 
-/** The role of the address's token, or of a session that still is; else what is wrong. */
-export async function enter(): Promise<Role | Problem> {
+/** The role of the address's token, or of a session that still is; else what is wrong, which without a token is nothing. */
+export async function enter(): Promise<Role | Problem | undefined> {
   const token = takeToken();
   const answer = token === undefined ? await session() : await signIn(token);
-  return answer.ok ? answer.value.role : answer.problem;
+  if (answer.ok) return answer.value.role;
+  return token === undefined && answer.problem.status === 401 ? undefined : answer.problem;
 }
 
 /** Asks for a token until one is right. */
@@ -34,7 +35,7 @@ export function askForToken(place: HTMLElement, problem: Problem | undefined): P
       });
     } } }, h("h1", {}, t.page.title), h("p", { class: "soft" }, t.signIn.hint),
       h("label", { for: "token" }, t.signIn.token), input, wrong, h("button", { type: "submit", class: "action primary" }, t.signIn.submit));
-    if (problem !== undefined && (problem.status !== 401 || location.hash !== "")) say(problem);
+    if (problem !== undefined) say(problem);
     place.replaceChildren(form);
     input.focus();
   });

@@ -1,0 +1,30 @@
+// Debian's Chromium, without a screen; every error on the page's console fails the test.
+import { chromium } from "playwright-core";
+
+const WITHOUT_GPU = ["--disable-gpu"];
+/** WebGL in software: slow, but the same pictures. */
+export const WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export function openBrowser(graphics = WITHOUT_GPU) {
+  return chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-dev-shm-usage", ...graphics] });
+}
+
+export const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+export const DESKTOP = { viewport: { width: 1440, height: 900 } };
+
+/** A page of its own cookies. `complaints` has what its console said of errors, but not what the network refused. */
+export async function openPage(browser, address, options = DESKTOP) {
+  const context = await browser.newContext({ locale: "en-GB", colorScheme: "light", ...options });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() === "error" && !/Failed to load resource|ERR_/.test(message.text())) complaints.push(message.text());
+  });
+  await page.goto(address);
+  return { page, context, complaints };
+}
+
+export async function shown(page) {
+  await page.waitForSelector('html[data-shown="yes"]', { timeout: 60_000 });
+}
