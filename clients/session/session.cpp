@@ -276,10 +276,16 @@ std::expected<std::uint64_t, Failure> Session::send(const Program& program, cons
 std::expected<std::uint64_t, Failure> Session::stream(const ProgramHead& head,
                                                       const std::optional<gcode::ProgramValues>& values, Feed feed,
                                                       const StopSignal* stop) {
-    const std::uint64_t id = open_stream(head, values).program();
-    feed_ = std::move(feed);
+    const std::uint64_t id = begin_stream(head, values, std::move(feed));
     const auto begun = await_parts([this] { return sender_->parts_taken() > 0; }, stop);
     if (!begun) { return std::unexpected(begun.error()); }
+    return id;
+}
+
+std::uint64_t Session::begin_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values,
+                                    Feed feed) {
+    const std::uint64_t id = open_stream(head, values).program();
+    feed_ = std::move(feed);
     return id;
 }
 
@@ -334,7 +340,7 @@ std::optional<RevisedValues> Session::newest_values() const {
 
 std::expected<void, Failure> Session::await_kept(std::uint64_t revision) {
     const nanoseconds deadline = monotonic_now() + kDiskPatience;
-    while (!values_ || values_->revision < revision || !values_->on_disk) {
+    while (!is_kept(revision)) {
         if (monotonic_now() > deadline) {
             return std::unexpected(
                 failed("the coordinator has not reported that the offsets and tools are on its disk; they may be lost "

@@ -120,6 +120,8 @@ public:
     ProgramSender& open_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values = {});
     /// No more is sent of the program.
     void close_stream();
+    /// As stream(), without waiting: sender() shows what the coordinator has taken.
+    std::uint64_t begin_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values, Feed feed);
     /// Of the program sent last; null: none was.
     const ProgramSender* sender() const { return sender_ ? &*sender_ : nullptr; }
 
@@ -130,6 +132,7 @@ public:
     /// Waits until the coordinator has this revision, or a later one, on its disk. Error: it cannot write it, or does
     /// not answer.
     std::expected<void, Failure> await_kept(std::uint64_t revision);
+    bool is_kept(std::uint64_t revision) const { return values_ && values_->revision >= revision && values_->on_disk; }
 
 private:
     using Bus = std::variant<ViewerBus, ClientBus>;

@@ -1,0 +1,224 @@
+#include "clients/web/api/api.hpp"
+
+#include <algorithm>
+
+#include "clients/web/request/body_reader.hpp"
+#include "clients/web/state/event_stream.hpp"
+#include "clients/web/state/limits.hpp"
+#include "clients/web/state/machine_document.hpp"
+#include "clients/web/state/state_document.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep::web {
+namespace {
+
+bool fits(std::string_view pattern, std::string_view path) {
+    if (!pattern.ends_with('*')) { return path == pattern; }
+    pattern.remove_suffix(1);
+    return path.starts_with(pattern) && path.size() > pattern.size() && !path.substr(pattern.size()).contains('/');
+}
+
+Problem not_found(const std::string& path) {
+    return {.status = 404,
+            .code = "unknown-path",
+            .title = "there is nothing here",
+            .detail = "there is nothing at " + path.substr(0, 200),
+            .place = "path",
+            .value = path.substr(0, 200),
+            .remedy = "see openapi.yaml"};
+}
+
+Problem wrong_method(const Request& request, const std::string& allowed) {
+    return {.status = 405,
+            .code = "wrong-method",
+            .title = "the path takes another method",
+            .detail = request.path.substr(0, 200) + " does not take " + request.method.substr(0, 20),
+            .place = "method",
+            .value = request.method.substr(0, 20),
+            .limit = allowed,
+            .remedy = "see openapi.yaml"};
+}
+
+Problem without_session() {
+    return {.status = 401,
+            .code = "no-session",
+            .title = "nobody is logged in",
+            .detail = "the request has no session and no token, or a wrong one",
+            .place = "authorization",
+            .limit = "Authorization: Bearer TOKEN, or the cookie of POST /api/session",
+            .remedy = "open the address that lockstep-web printed at its start"};
+}
+
+Problem only_views() {
+    return {.status = 403,
+            .code = "view-only",
+            .title = "this token may only look",
+            .detail = "the token's role is view, and this needs operate",
+            .place = "authorization",
+            .value = "view",
+            .limit = "operate",
+            .remedy = "use the token to operate, from the file that lockstep-web named at its start"};
+}
+
+Problem too_long(std::size_t limit) {
+    return {.status = 413,
+            .code = "too-long",
+            .title = "the body is too long",
+            .detail = "the body is longer than " + std::to_string(limit) + " bytes",
+            .place = "body",
+            .limit = std::to_string(limit) + " bytes",
+            .remedy = limit == kMaxProgram_bytes ? "run a longer program with: lockstep run FILE" : "send less"};
+}
+
+bool is_changing(const Request& request) { return request.method != "GET" && request.method != "HEAD"; }
+
+}  // namespace
+
+const std::vector<Api::Row>& Api::rows() {
+    static const std::vector<Row> kRows{
+        {"POST", "/api/session", true, &Api::open_session},
+        {"GET", "/api/session", false, &Api::show_session},
+        {"DELETE", "/api/session", false, &Api::close_session},
+        {"GET", "/api/machine", false, &Api::show_machine},
+        {"GET", "/api/state", false, &Api::show_state},
+        {"GET", "/api/events", false, &Api::open_events},
+        {"POST", "/api/commands/*", false, &Api::take_command},
+        {"POST", "/api/program", false, &Api::load},
+        {"GET", "/api/program", false, &Api::show_program},
+        {"GET", "/api/program/path", false, &Api::show_path},
+        {"GET", "/api/mdi", false, &Api::show_mdi},
+        {"GET", "/api/reports", false, &Api::list_reports},
+        {"GET", "/api/reports/*", false, &Api::show_report},
+    };
+    return kRows;
+}
+
+Api::Api(const ApiParts& parts, AccessRules rules)
+    : parts_(parts),
+      access_(std::move(rules)),
+      stream_names_("s" + std::to_string(monotonic_now().count() & 0xffffff) + "-") {}
+
+std::size_t Api::body_limit(const Request& head) const {
+    const bool is_program = head.path == "/api/program" && head.method == "POST" && !access_.refuse_foreign(head) &&
+                            access_.role_of(head) == Role::Operate;
+    return is_program ? kMaxProgram_bytes : kMaxBody_bytes;
+}
+
+/// What every response says to a browser.
+void Api::handle(Request&& request, const Answer& answer) {
+    const bool is_api = request.path.starts_with("/api/");
+    serve(std::move(request), [answer, is_api](Response&& response) {
+        response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+        response.headers.emplace_back("Referrer-Policy", "no-referrer");
+        response.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
+        const auto has = [&](std::string_view name) {
+            return std::ranges::any_of(response.headers, [&](const auto& header) { return header.first == name; });
+        };
+        if (is_api && !has("Cache-Control")) { response.headers.emplace_back("Cache-Control", "no-store"); }
+        if (!has("Content-Security-Policy")) {
+            response.headers.emplace_back("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'");
+        }
+        answer(std::move(response));
+    });
+}
+
+void Api::serve(Request&& request, const Answer& answer) {
+    if (const auto foreign = access_.refuse_foreign(request)) { return answer(to_response(*foreign)); }
+    std::string allowed;
+    const Row* row = nullptr;
+    for (const Row& one : rows()) {
+        if (!fits(one.path, request.path)) { continue; }
+        allowed += (allowed.empty() ? "" : ", ") + std::string(one.method);
+        if (one.method == request.method || (one.method == "GET" && request.method == "HEAD")) { row = &one; }
+    }
+    if (allowed.empty() && !is_changing(request)) {
+        if (auto asset = asset_response(parts_.assets, request)) { return answer(*std::move(asset)); }
+    }
+    if (allowed.empty()) { return answer(to_response(not_found(request.path))); }
+    if (row == nullptr) {
+        Response response = to_response(wrong_method(request, allowed));
+        response.headers.emplace_back("Allow", allowed);
+        return answer(std::move(response));
+    }
+    const auto role = access_.role_of(request);
+    if (!row->is_open && !role) {
+        Response response = to_response(without_session());
+        response.headers.emplace_back("WWW-Authenticate", "Bearer");
+        return answer(std::move(response));
+    }
+    const bool is_session = row->path == "/api/session";
+    if (is_changing(request) && !is_session && role != Role::Operate) { return answer(to_response(only_views())); }
+    if (request.is_too_long) { return answer(to_response(too_long(body_limit(request)))); }
+    (this->*row->route)(std::move(request), answer);
+}
+
+void Api::open_session(Request&& request, const Answer& answer) {
+    const auto body = read_object(request.body);
+    if (!body) { return answer(to_response(body.error())); }
+    std::optional<Problem> problem;
+    BodyReader reader(*body, "", problem);
+    reader.require("token");
+    const std::string token = reader.text("token", 200).value_or("");
+    reader.finish();
+    if (problem) { return answer(to_response(*problem)); }
+    const auto role = access_.try_token(token, monotonic_now());
+    if (!role) { return answer(to_response(role.error())); }
+    Response response = json_response(200, {{"role", name_of(*role)}});
+    response.headers.emplace_back("Set-Cookie", access_.cookie_for(*role));
+    answer(std::move(response));
+}
+
+void Api::show_session(Request&& request, const Answer& answer) {
+    answer(json_response(200, {{"role", name_of(*access_.role_of(request))}}));
+}
+
+void Api::close_session(Request&&, const Answer& answer) {
+    answer({.status = 204, .body = std::string_view{}, .headers = {{"Set-Cookie", access_.removed_cookie()}}});
+}
+
+void Api::show_machine(Request&&, const Answer& answer) {
+    answer(json_response(200, machine_document(parts_.machine, parts_.version)));
+}
+
+void Api::show_state(Request&&, const Answer& answer) {
+    const auto loaded = parts_.desk.loaded();
+    answer(json_response(200, state_document(*parts_.port.snapshot(), parts_.machine,
+                                             loaded ? loaded->facts.get() : nullptr, viewers_)));
+}
+
+void Api::publish(const Snapshot& snapshot) {
+    if (viewers_ == 0) { return; }
+    const auto loaded = parts_.desk.loaded();
+    parts_.log.publish(state_document(snapshot, parts_.machine, loaded ? loaded->facts.get() : nullptr, viewers_));
+}
+
+void Api::open_events(Request&& request, const Answer& answer) {
+    if (viewers_ >= kMaxViewers) {
+        return answer(to_response({.status = 503,
+                                   .code = "too-many-viewers",
+                                   .title = "too many viewers",
+                                   .detail = std::to_string(kMaxViewers) + " event streams are open",
+                                   .limit = std::to_string(kMaxViewers),
+                                   .remedy = "close another page"}));
+    }
+    ++viewers_;
+    publish(*parts_.port.snapshot());
+    const std::string* last = request.header("last-event-id");
+    const std::string name = stream_names_ + std::to_string(++last_stream_);
+    auto stream = std::make_shared<EventStream>(parts_.log, parts_.log.place_after(last == nullptr ? "" : *last), name,
+                                                &monotonic_now, [this, name] {
+                                                    --viewers_;
+                                                    parts_.port.end_stream(name);
+                                                });
+    answer({.body = std::shared_ptr<ByteStream>(std::move(stream)),
+            .headers = {{"Content-Type", "text/event-stream"}, {"X-Accel-Buffering", "no"}}});
+}
+
+void Api::show_mdi(Request&&, const Answer& answer) {
+    Json lines = Json::array();
+    const std::lock_guard lock(lines_mutex_);
+    for (const auto& [line, accepted] : lines_) { lines.push_back({{"line", line}, {"accepted", accepted}}); }
+    answer(json_response(200, {{"lines", lines}}));
+}
+
+}  // namespace lockstep::web

@@ -1,0 +1,85 @@
+// The server's interface, as openapi.yaml describes it: routes, access, and what each request does.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/web/api/access.hpp"
+#include "clients/web/api/assets.hpp"
+#include "clients/web/api/replay_guard.hpp"
+#include "clients/web/api/report_files.hpp"
+#include "clients/web/http/message.hpp"
+#include "clients/web/machine/port.hpp"
+#include "clients/web/program/program_desk.hpp"
+#include "clients/web/state/event_log.hpp"
+
+namespace lockstep::web {
+
+/// The parts that an Api works with; all outlive it.
+struct ApiParts {
+    const MachineConfig& machine;
+    MachinePort& port;
+    EventLog& log;
+    ProgramDesk& desk;
+    const ReportFiles& reports;
+    std::span<const Asset> assets;
+    std::string version;
+};
+
+class Api : public Handler {
+public:
+    Api(const ApiParts& parts, AccessRules rules);
+
+    std::size_t body_limit(const Request& head) const override;
+    void handle(Request&& request, const Answer& answer) override;
+
+    /// Adds the state to the event log, if anybody reads it. From any thread.
+    void publish(const Snapshot& snapshot);
+    std::size_t viewers() const { return viewers_; }
+
+private:
+    using Route = void (Api::*)(Request&& request, const Answer& answer);
+    struct Row {
+        std::string_view method;
+        std::string_view path;  // with * for the last part
+        bool is_open = false;   // without a session
+        Route route;
+    };
+    static const std::vector<Row>& rows();
+    void serve(Request&& request, const Answer& answer);
+
+    void open_session(Request&& request, const Answer& answer);
+    void show_session(Request&& request, const Answer& answer);
+    void close_session(Request&& request, const Answer& answer);
+    void show_machine(Request&& request, const Answer& answer);
+    void show_state(Request&& request, const Answer& answer);
+    void open_events(Request&& request, const Answer& answer);
+    void take_command(Request&& request, const Answer& answer);
+    void load(Request&& request, const Answer& answer);
+    void show_program(Request&& request, const Answer& answer);
+    void show_path(Request&& request, const Answer& answer);
+    void show_mdi(Request&& request, const Answer& answer);
+    void list_reports(Request&& request, const Answer& answer);
+    void show_report(Request&& request, const Answer& answer);
+
+    void carry_out(const Order& order, const Done& done);
+    void run(const RunOrder& order, const Done& done);
+    void run_line(const MdiOrder& order, const Done& done);
+    void touch(const TouchOrder& order, const Done& done);
+    void note_line(const std::string& line, bool accepted);
+
+    ApiParts parts_;
+    Access access_;
+    ReplayGuard replays_;
+    std::string stream_names_;  // begin with it
+    std::uint64_t last_stream_ = 0;
+    std::atomic<std::size_t> viewers_ = 0;
+    std::mutex lines_mutex_;
+    std::deque<std::pair<std::string, bool>> lines_;  // of mdi, and whether each was accepted
+};
+
+}  // namespace lockstep::web

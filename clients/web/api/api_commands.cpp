@@ -1,0 +1,148 @@
+// The commands, and what runs programs.
+#include "clients/web/api/api.hpp"
+#include "clients/web/program/values_edit.hpp"
+#include "clients/web/request/body_reader.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep::web {
+namespace {
+
+constexpr std::size_t kMostLines = 100;  // of mdi that are kept
+constexpr std::size_t kMaxKey_bytes = 64;
+
+Problem replayed(const std::string& key) {
+    return {
+        .status = 409,
+        .code = "replayed",
+        .title = "the request was sent before",
+        .detail = "a command with this Idempotency-Key came within the last ten minutes; it is not carried out again",
+        .place = "idempotency-key",
+        .value = key,
+        .limit = "a new key for each command",
+        .remedy = "read the state to see what the first one did"};
+}
+
+Problem no_json(const std::string& type) {
+    return {.status = 415,
+            .code = "not-json",
+            .title = "the body is no JSON",
+            .detail = "Content-Type is '" + type.substr(0, 100) + "'",
+            .place = "content-type",
+            .value = type.substr(0, 100),
+            .limit = "application/json",
+            .remedy = "send JSON with this type"};
+}
+
+Problem too_busy() {
+    return {.status = 429,
+            .code = "too-many-commands",
+            .title = "too many programs wait",
+            .detail = std::to_string(ProgramDesk::kMostTasks) + " programs wait to be read",
+            .limit = std::to_string(ProgramDesk::kMostTasks),
+            .remedy = "wait for their answers"};
+}
+
+Problem no_program() {
+    return {.status = 409,
+            .code = "no-program",
+            .title = "no program is loaded",
+            .detail = "there is no program to run",
+            .remedy = "load one: POST /api/program"};
+}
+
+Problem other_program(std::uint64_t wanted, std::uint64_t loaded) {
+    return {.status = 409,
+            .code = "other-program",
+            .title = "another program is loaded",
+            .detail = "program " + std::to_string(loaded) + " is loaded",
+            .place = "/program",
+            .value = wanted,
+            .limit = std::to_string(loaded),
+            .remedy = "look at the loaded program, then run it"};
+}
+
+}  // namespace
+
+void Api::take_command(Request&& request, const Answer& answer) {
+    const std::string* type = request.header("content-type");
+    const std::string type_text = type == nullptr ? "" : *type;
+    if (!request.body.empty() && !type_text.starts_with("application/json")) {
+        return answer(to_response(no_json(type_text)));
+    }
+    const std::string verb = request.path.substr(request.path.rfind('/') + 1);
+    const auto order = read_order(verb, request.body, parts_.machine);
+    if (!order) { return answer(to_response(order.error())); }
+    if (const std::string* key = request.header("idempotency-key")) {
+        if (key->empty() || key->size() > kMaxKey_bytes) {
+            return answer(to_response(wrong_value(400, "idempotency-key", key->substr(0, 100), "1 to 64 characters")));
+        }
+        if (!replays_.use(*key, monotonic_now())) { return answer(to_response(replayed(*key))); }
+    }
+    carry_out(*order, [answer](Outcome&& outcome) {
+        answer(outcome ? json_response(200, accepted_json(*outcome)) : to_response(outcome.error()));
+    });
+}
+
+void Api::carry_out(const Order& order, const Done& done) {
+    const auto change = [&](const auto& edit) {
+        parts_.port.change_values([edit](const gcode::KeptValues& values) { return edited(edit, values); }, done);
+    };
+    if (const auto* command = std::get_if<Command>(&order)) { parts_.port.command(*command, done); }
+    if (const auto* jog = std::get_if<JogOrder>(&order)) { parts_.port.jog(*jog, done); }
+    if (const auto* program = std::get_if<RunOrder>(&order)) { run(*program, done); }
+    if (const auto* line = std::get_if<MdiOrder>(&order)) { run_line(*line, done); }
+    if (const auto* places = std::get_if<TouchOrder>(&order)) { touch(*places, done); }
+    if (const auto* offset = std::get_if<OffsetOrder>(&order)) { change(*offset); }
+    if (const auto* tool = std::get_if<ToolOrder>(&order)) { change(*tool); }
+}
+
+void Api::run(const RunOrder& order, const Done& done) {
+    const auto loaded = parts_.desk.loaded();
+    if (!loaded) { return done(std::unexpected(no_program())); }
+    if (order.program && *order.program != loaded->facts->id) {
+        return done(std::unexpected(other_program(*order.program, loaded->facts->id)));
+    }
+    const bool taken = parts_.desk.add([this, loaded, done] {
+        const auto start = real_start(*parts_.port.snapshot(), parts_.machine);
+        if (!start) { return done(std::unexpected(start.error())); }
+        auto ready = ready_program(*loaded, parts_.machine, *start);
+        if (!ready) { return done(std::unexpected(ready.error())); }
+        parts_.port.run(*std::move(ready), done);
+    });
+    if (!taken) { done(std::unexpected(too_busy())); }
+}
+
+void Api::run_line(const MdiOrder& order, const Done& done) {
+    const auto noted = [this, line = order.line, done](Outcome&& outcome) {
+        note_line(line, outcome.has_value());
+        done(std::move(outcome));
+    };
+    const bool taken = parts_.desk.add([this, line = order.line, noted] {
+        const auto start = real_start(*parts_.port.snapshot(), parts_.machine);
+        if (!start) { return noted(std::unexpected(start.error())); }
+        auto program = load_program(line, "mdi", 0, parts_.machine, *start);
+        if (!program) { return noted(std::unexpected(program.error())); }
+        auto ready = ready_program(*program, parts_.machine, *start);
+        if (!ready) { return noted(std::unexpected(ready.error())); }
+        parts_.port.run(*std::move(ready), noted);
+    });
+    if (!taken) { done(std::unexpected(too_busy())); }
+}
+
+void Api::touch(const TouchOrder& order, const Done& done) {
+    const auto start = real_start(*parts_.port.snapshot(), parts_.machine);
+    if (!start) { return done(std::unexpected(start.error())); }
+    parts_.port.change_values(
+        [this, order, place = start->place_mm](const gcode::KeptValues& values) {
+            return edited(order, values, parts_.machine, place);
+        },
+        done);
+}
+
+void Api::note_line(const std::string& line, bool accepted) {
+    const std::lock_guard lock(lines_mutex_);
+    lines_.emplace_back(line, accepted);
+    if (lines_.size() > kMostLines) { lines_.pop_front(); }
+}
+
+}  // namespace lockstep::web

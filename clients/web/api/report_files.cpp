@@ -1,0 +1,82 @@
+#include "clients/web/api/report_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace lockstep::web {
+namespace {
+
+/// A report has its script and its styles within it: it gets an origin of its own, and no network.
+constexpr const char* kReportPolicy =
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+    "img-src data:; font-src data:; frame-ancestors 'none'";
+
+std::string time_text(std::filesystem::file_time_type time) {
+    const auto utc = std::filesystem::file_time_type::clock::to_sys(time);
+    const std::time_t seconds = std::chrono::duration_cast<std::chrono::seconds>(utc.time_since_epoch()).count();
+    std::tm parts{};
+    gmtime_r(&seconds, &parts);
+    std::array<char, 32> text{};
+    return {text.data(), std::strftime(text.data(), text.size(), "%FT%TZ", &parts)};
+}
+
+}  // namespace
+
+std::vector<ReportFiles::File> ReportFiles::files() const {
+    std::vector<File> files;
+    for (const auto& [directory, is_report] : {std::pair{reports_, true}, std::pair{incidents_, false}}) {
+        std::error_code error;
+        for (std::filesystem::directory_iterator at(directory, error), end; !error && at != end; at.increment(error)) {
+            std::error_code ignored;
+            const bool fits = !is_report || at->path().extension() == ".html";
+            if (!fits || !at->is_regular_file(ignored) || at->is_symlink(ignored)) { continue; }
+            files.push_back({at->path(), is_report, at->last_write_time(ignored), at->file_size(ignored)});
+        }
+    }
+    std::ranges::sort(files, std::greater{}, &File::modified);
+    if (files.size() > kMostFiles) { files.resize(kMostFiles); }
+    return files;
+}
+
+Json ReportFiles::list() const {
+    Json list = Json::array();
+    for (const File& file : files()) {
+        list.push_back({{"name", file.path.filename().string()},
+                        {"kind", file.is_report ? "report" : "incident"},
+                        {"bytes", file.bytes},
+                        {"modified", time_text(file.modified)}});
+    }
+    return {{"files", list}};
+}
+
+std::expected<Response, Problem> ReportFiles::read(const std::string& name) const {
+    const auto all = files();
+    const auto found = std::ranges::find_if(all, [&](const File& file) { return file.path.filename() == name; });
+    if (found == all.end() || found->bytes > kMost_bytes) {
+        return std::unexpected(Problem{.status = 404,
+                                       .code = "no-such-file",
+                                       .title = "there is no such file",
+                                       .detail = "'" + name.substr(0, 200) + "' is none of the machine's reports",
+                                       .place = "path",
+                                       .limit = "a name in GET /api/reports",
+                                       .remedy = "read the list again"});
+    }
+    std::ifstream stream(found->path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    Response response{.body = std::move(bytes), .headers = {{"Cache-Control", "private, no-cache"}}};
+    if (found->is_report) {
+        response.headers.emplace_back("Content-Type", "text/html; charset=utf-8");
+        response.headers.emplace_back("Content-Security-Policy", kReportPolicy);
+    } else {
+        response.headers.emplace_back("Content-Type", "application/octet-stream");
+        response.headers.emplace_back("Content-Disposition", "attachment");
+    }
+    return response;
+}
+
+}  // namespace lockstep::web

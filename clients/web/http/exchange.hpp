@@ -1,0 +1,56 @@
+// One request in libmicrohttpd and its response: how a connection waits for an answer from another thread, and for the
+// next bytes of a stream.
+#pragma once
+
+#include <microhttpd.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "clients/web/http/message.hpp"
+
+namespace lockstep::web {
+
+class Exchange : public std::enable_shared_from_this<Exchange> {
+public:
+    Exchange(MHD_Connection* connection, Handler& handler) : connection_(connection), handler_(handler) {}
+
+    // In the server's thread:
+    /// The request line and the headers have come.
+    MHD_Result begin(const char* path, const char* method);
+    /// A part of the body; takes all of it.
+    MHD_Result take_body(const char* bytes, std::size_t* size);
+    /// The request is whole, or the connection was resumed.
+    MHD_Result proceed();
+    /// The connection has ended.
+    void end();
+    ssize_t read_stream(char* into, std::size_t size);
+
+    // In any thread:
+    void answer(Response&& response);
+    void wake_stream();
+    /// The server ends: nothing waits any more.
+    void release();
+
+private:
+    MHD_Result give_to_handler();
+    MHD_Result queue(const Response& response);
+    MHD_Response* made(const Response& response);
+    void resume_locked();
+
+    MHD_Connection* connection_;
+    Handler& handler_;
+    Request request_;
+    std::size_t body_limit_ = 0;
+    std::size_t received_ = 0;
+    bool is_handled_ = false;
+
+    std::mutex mutex_;  // of all that follows
+    std::optional<Response> response_;
+    std::shared_ptr<ByteStream> stream_;
+    bool is_suspended_ = false;
+    bool is_over_ = false;
+};
+
+}  // namespace lockstep::web

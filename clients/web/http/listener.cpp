@@ -1,0 +1,61 @@
+#include "clients/web/http/listener.hpp"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+namespace lockstep::web {
+namespace {
+
+constexpr int kBacklog = 128;
+
+bool is_loopback(const sockaddr* address) {
+    if (address->sa_family == AF_INET) {
+        const auto* four = std::bit_cast<const sockaddr_in*>(address);
+        return (ntohl(four->sin_addr.s_addr) >> 24) == 127;
+    }
+    return IN6_IS_ADDR_LOOPBACK(&std::bit_cast<const sockaddr_in6*>(address)->sin6_addr);
+}
+
+std::uint16_t port_of(int socket) {
+    sockaddr_storage bound{};
+    socklen_t size = sizeof bound;
+    if (getsockname(socket, std::bit_cast<sockaddr*>(&bound), &size) != 0) { return 0; }
+    const bool is_four = bound.ss_family == AF_INET;
+    return ntohs(is_four ? std::bit_cast<sockaddr_in*>(&bound)->sin_port
+                         : std::bit_cast<sockaddr_in6*>(&bound)->sin6_port);
+}
+
+}  // namespace
+
+std::expected<Listener, std::string> listen_at(const std::string& address, std::uint16_t port) {
+    const std::string place = "address " + address + ", port " + std::to_string(port);
+    addrinfo hints{};
+    hints.ai_socktype = SOCK_STREAM;
+    hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
+        return std::unexpected("'" + address + "' is no IP address; write for example 127.0.0.1, ::1 or 0.0.0.0");
+    }
+    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owned(found, freeaddrinfo);
+    const int made = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const int on = 1;
+    const bool listens = made >= 0 && setsockopt(made, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+                         bind(made, found->ai_addr, found->ai_addrlen) == 0 && listen(made, kBacklog) == 0;
+    if (!listens) {
+        const int error = errno;
+        if (made >= 0) { close(made); }
+        const char* remedy = error == EADDRINUSE ? "; choose another: --port N" : "";
+        return std::unexpected(place + ": " + std::strerror(error) + remedy);
+    }
+    return Listener{made, port_of(made), is_loopback(found->ai_addr)};
+}
+
+}  // namespace lockstep::web

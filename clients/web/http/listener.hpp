@@ -1,0 +1,19 @@
+// A listening TCP socket.
+#pragma once
+
+#include <cstdint>
+#include <expected>
+#include <string>
+
+namespace lockstep::web {
+
+struct Listener {
+    int socket = -1;
+    std::uint16_t port = 0;
+    bool is_loopback = false;
+};
+
+/// `address`: of IPv4 or IPv6; port 0: any free one. Error: why not, and the remedy.
+std::expected<Listener, std::string> listen_at(const std::string& address, std::uint16_t port);
+
+}  // namespace lockstep::web

@@ -1,0 +1,76 @@
+#include "clients/web/machine/jog_guard.hpp"
+
+#include <algorithm>
+
+#include "clients/web/state/limits.hpp"
+
+namespace lockstep::web {
+namespace {
+
+Problem press_is_over(std::uint64_t press) {
+    return {.status = 409,
+            .code = "jog-over",
+            .title = "the jog is over",
+            .detail = "press " + std::to_string(press) + " was released, or was not renewed in time",
+            .place = "/press",
+            .value = press,
+            .limit = "a renewal each " + std::to_string(kJogRenew.count()) + " ms, at the latest after " +
+                     std::to_string(kJogLife.count()) + " ms",
+            .remedy = "release the key and press it again"};
+}
+
+}  // namespace
+
+bool JogGuard::is_over(const JogOrder& order) const {
+    const auto found = over_.find(order.stream);
+    return order.press && found != over_.end() && *order.press <= found->second;
+}
+
+void JogGuard::note_over() {
+    if (!press_) { return; }
+    const bool is_new = !over_.contains(client_);
+    over_[client_] = std::max(over_[client_], *press_);
+    if (!is_new) { return; }
+    order_.push_back(client_);
+    if (order_.size() <= kMostClients) { return; }
+    over_.erase(order_.front());
+    order_.pop_front();
+}
+
+std::expected<void, Problem> JogGuard::take(const JogOrder& order, Time now) {
+    const bool is_other = until_ && client_ != order.stream;
+    if (order.jogs.empty()) {  // of another client it changes nothing
+        if (!is_other) {
+            client_ = order.stream;
+            press_ = order.press ? order.press : press_;
+            end();
+        }
+        return {};
+    }
+    if (is_over(order)) { return std::unexpected(press_is_over(*order.press)); }
+    if (is_other) { return std::unexpected(refused(FaultCode::Busy, "another client jogs the machine")); }
+    client_ = order.stream;
+    press_ = order.press;
+    until_ = now + kJogLife;
+    return {};
+}
+
+bool JogGuard::runs_out(Time now) {
+    if (!until_ || now < *until_) { return false; }
+    end();
+    return true;
+}
+
+bool JogGuard::end_stream(const std::string& stream) {
+    if (!until_ || stream.empty() || client_ != stream) { return false; }
+    end();
+    return true;
+}
+
+void JogGuard::end() {
+    note_over();
+    until_.reset();
+    press_.reset();
+}
+
+}  // namespace lockstep::web

@@ -1,0 +1,73 @@
+// The machine beside the server: a thread with a session, which carries out what the server's thread hands over, renews
+// jogs, and publishes the state.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "clients/session/control/jog_link.hpp"
+#include "clients/web/machine/jog_guard.hpp"
+#include "clients/web/machine/port.hpp"
+#include "clients/web/machine/task.hpp"
+
+namespace lockstep::web {
+
+class MachineLoop : public MachinePort {
+public:
+    static constexpr std::chrono::milliseconds kPublishPeriod{100};
+    using Publish = std::function<void(const std::shared_ptr<const Snapshot>& snapshot)>;
+
+    /// Calls `publish` in its thread, ten times a second.
+    MachineLoop(Session session, Publish publish);
+    ~MachineLoop() override;
+
+    void command(const Command& command, Done done) override;
+    void jog(const JogOrder& order, Done done) override;
+    void run(ReadyProgram&& program, Done done) override;
+    void change_values(ValuesTask::Change change, Done done) override;
+    void end_stream(const std::string& name) override;
+    std::shared_ptr<const Snapshot> snapshot() const override;
+
+private:
+    using Action = std::function<void()>;
+    /// Refuses with `done` where too many wait already.
+    void add(Action action, const Done& done);
+    void work(const std::stop_token& stop);
+    void take_actions();
+    void start(std::unique_ptr<Task> task, const Done& done);
+    bool is_sending() const;
+    void poll_tasks();
+
+    void take_jog(const JogOrder& order, const Done& done);
+    void follow_jog();
+
+    void note_healths();
+    void show();
+    /// A client that reads the state after its answer finds the effect there.
+    Done shown(const Done& done);
+    Snapshot taken() const;
+
+    Session session_;
+    JogLink jog_;
+    Publish publish_;
+    JogGuard guard_;
+    std::vector<Done> jogs_waiting_;  // for the coordinator's answer to the jog
+    std::vector<std::unique_ptr<Task>> tasks_;
+    std::vector<std::optional<Seen<AxisHealth>>> healths_;
+    std::optional<OwnJob> job_;
+    std::chrono::nanoseconds published_{};
+
+    mutable std::mutex mutex_;
+    std::deque<Action> actions_;
+    std::shared_ptr<const Snapshot> snapshot_;
+    std::jthread thread_;  // the last member: it uses the others
+};
+
+}  // namespace lockstep::web

@@ -1,0 +1,116 @@
+#include "clients/web/machine/task.hpp"
+
+namespace lockstep::web {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kPatience = 3s;
+constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that plans a large program answers late
+constexpr nanoseconds kDiskPatience = 15s;
+constexpr nanoseconds kRepeatAfter = 250ms;
+constexpr nanoseconds kRepeatStopAfter = 20ms;  // an emergency stop
+
+std::string silence_of(const Session& session) { return session.silent().errors.front().message; }
+
+Outcome outcome_of(const Reply& reply) {
+    if (reply.status == ReplyStatus::Refused) {
+        return std::unexpected(refused(static_cast<FaultCode>(reply.fault), reply.text));
+    }
+    return Accepted{.job = reply.job == 0 ? std::nullopt : std::optional(reply.job)};
+}
+
+bool begins_job(CommandKind kind) { return kind == CommandKind::Home || kind == CommandKind::Run; }
+
+/// A program that has nothing to run.
+ProgramHead head_of_edit(const MachineConfig& machine) {
+    ProgramHead head{.name = "edit", .axes = {}, .start_mm = std::vector<double>(machine.axes.size())};
+    for (const AxisConfig& axis : machine.axes) { head.axes.push_back(axis.name); }
+    return head;
+}
+
+Problem refused_program(const Reply& reply) { return refused(static_cast<FaultCode>(reply.fault), reply.text); }
+
+}  // namespace
+
+bool CommandTask::poll(Session& session, nanoseconds now) {
+    if (!begun_) {
+        session.begin(command_);
+        begun_ = repeated_ = now;
+        return false;
+    }
+    if (const Reply* reply = session.reply_to(command_)) {
+        Outcome outcome = outcome_of(*reply);
+        if (outcome && !begins_job(command_.kind)) { outcome->job.reset(); }
+        done_(std::move(outcome));
+        return true;
+    }
+    if (now - *begun_ > (command_.program == 0 ? kPatience : kPlanPatience)) {
+        done_(std::unexpected(unanswered(silence_of(session))));
+        return true;
+    }
+    const bool is_stop = command_.kind == CommandKind::EmergencyStop;
+    if (now - repeated_ >= (is_stop ? kRepeatStopAfter : kRepeatAfter)) {
+        session.repeat(command_);
+        repeated_ = now;
+    }
+    return false;
+}
+
+bool RunTask::poll(Session& session, nanoseconds now) {
+    if (command_) { return command_->poll(session, now); }
+    if (!sent_) {
+        id_ = session.begin_stream(program_.head, program_.values, std::move(program_.feed));
+        sent_ = now;
+        return false;
+    }
+    const ProgramSender& sender = *session.sender();
+    if (sender.refusal()) {
+        done_(std::unexpected(refused_program(*sender.refusal())));
+        return true;
+    }
+    const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
+    if (is_planned_whole ? sender.is_done() : sender.parts_taken() > 0) {
+        const auto done = [begun = begun_, done = done_](Outcome&& outcome) {
+            if (outcome && outcome->job) { begun(*outcome->job); }
+            done(std::move(outcome));
+        };
+        command_ = std::make_unique<CommandTask>(Command{.kind = CommandKind::Run, .program = id_}, done);
+        return false;
+    }
+    if (now - *sent_ <= (is_planned_whole ? kPlanPatience : kPatience)) { return false; }
+    done_(std::unexpected(unanswered(silence_of(session))));
+    return true;
+}
+
+bool ValuesTask::end(Outcome&& outcome) {
+    done_(std::move(outcome));
+    return true;
+}
+
+bool ValuesTask::begin(Session& session, nanoseconds now) {
+    const auto before = session.newest_values();
+    if (!before) { return end(std::unexpected(unanswered("the machine's offsets and tools are not received yet"))); }
+    const auto wanted = change_(before->values);
+    if (!wanted) { return end(std::unexpected(wanted.error())); }
+    if (*wanted == before->values) { return end(Accepted{}); }
+    const gcode::ProgramValues edit{.revision = before->revision, .after = *wanted, .at_once = true};
+    (void)session.begin_stream(head_of_edit(session.config()), edit, [](ProgramSender& sender) { sender.end(); });
+    revision_ = before->revision + 1;
+    sent_ = now;
+    return false;
+}
+
+bool ValuesTask::poll(Session& session, nanoseconds now) {
+    if (!sent_) { return begin(session, now); }
+    const ProgramSender& sender = *session.sender();
+    if (sender.refusal()) { return end(std::unexpected(refused_program(*sender.refusal()))); }
+    if (sender.is_done() && session.is_kept(revision_)) { return end(Accepted{}); }
+    if (now - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
+    return end(std::unexpected(unanswered(
+        sender.is_done() ? "the coordinator has not reported that the change is on its disk; its log names the reason"
+                         : silence_of(session))));
+}
+
+}  // namespace lockstep::web

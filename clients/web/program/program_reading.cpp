@@ -1,0 +1,179 @@
+#include "clients/web/program/program_reading.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "clients/planning/plan_summary.hpp"
+#include "clients/session/program_stream.hpp"
+#include "services/documents/program_file.hpp"
+#include "services/runtime/clock.hpp"
+
+namespace lockstep::web {
+namespace {
+
+constexpr std::size_t kShort_bytes = 2'000'000;  // as in `lockstep run`: read as a whole before anything moves
+constexpr std::size_t kMostNotes = 100;
+
+bool is_text(std::string_view text) {
+    return std::ranges::none_of(text, [](char c) {
+        const bool is_control = static_cast<unsigned char>(c) < ' ';
+        return is_control && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\x1a';
+    });
+}
+
+Problem no_text(std::string_view text) {
+    const bool is_picture = text.starts_with("\x89PNG") || text.starts_with("\xff\xd8") || text.starts_with("GIF8");
+    return {.status = 415,
+            .code = "not-text",
+            .title = "the body is no text",
+            .detail = is_picture ? "the body is a picture" : "the body has bytes that no text has",
+            .place = "body",
+            .limit = "a program in G-code",
+            .remedy = "choose the program's file"};
+}
+
+Problem wrong_program(const Diagnostics& errors) {
+    const std::string more = errors.size() > 1 ? ", and " + std::to_string(errors.size() - 1) + " more" : "";
+    return {.status = 422,
+            .code = "bad-program",
+            .title = "the program is wrong",
+            .detail = errors.empty() ? "" : to_text("line", errors.front()) + more,
+            .place = "body",
+            .remedy = "correct the lines and send it again",
+            .errors = errors};
+}
+
+GcodeSetup setup_of(const std::string& name, const MachineConfig& machine, const ProgramStart& start) {
+    // Of the program's name only its last part counts: subroutines come from the machine's directory alone.
+    const std::filesystem::path directory =
+        machine.subroutine_directory.empty() ? "/dev/null" : machine.subroutine_directory;
+    return program_setup(directory / std::filesystem::path(name).filename(), machine, start.place_mm, {},
+                         start.values.values);
+}
+
+std::size_t lines_of(std::string_view text) {
+    const auto breaks = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    return breaks + (!text.empty() && text.back() != '\n' ? 1 : 0);
+}
+
+std::shared_ptr<const ProgramFacts> facts_of(std::string_view text, const std::string& name, std::uint64_t id,
+                                             const GcodeReading& reading) {
+    auto facts = std::make_shared<ProgramFacts>(
+        ProgramFacts{.id = id, .name = name, .bytes = text.size(), .lines = lines_of(text)});
+    for (const Block& block : reading.program.blocks) { facts->block_lines.push_back(block.line); }
+    facts->rises = std::ranges::is_sorted(facts->block_lines);
+    for (const GcodeNote& note : reading.notes) {
+        if (facts->notes.size() < kMostNotes) { facts->notes.push_back({note.line, note.text}); }
+    }
+    return facts;
+}
+
+Session::Feed feed_of(Program&& program) {
+    return [blocks = std::make_shared<const std::vector<Block>>(std::move(program.blocks)),
+            next = std::size_t{0}](ProgramSender& sender) mutable {
+        for (std::size_t n = sender.free_blocks(); n > 0 && next < blocks->size(); --n) {
+            sender.append((*blocks)[next++]);
+        }
+        if (next == blocks->size()) { sender.end(); }
+    };
+}
+
+/// A file in memory that ends with its last reader.
+std::expected<LineReader, std::string> lines_of_text(const std::string& text) {
+    const int file = memfd_create("lockstep-program", MFD_CLOEXEC);
+    std::size_t written = 0;
+    while (file >= 0 && written < text.size()) {
+        const ssize_t bytes = write(file, text.data() + written, text.size() - written);
+        if (bytes <= 0) { break; }
+        written += static_cast<std::size_t>(bytes);
+    }
+    auto lines = file >= 0 && written == text.size()
+                     ? LineReader::open("/proc/self/fd/" + std::to_string(file))
+                     : std::expected<LineReader, std::string>(std::unexpected("no memory is left for the program"));
+    if (file >= 0) { close(file); }
+    return lines;
+}
+
+std::expected<ReadyProgram, Problem> ready_stream(const LoadedProgram& program, const GcodeSetup& setup,
+                                                  const ProgramStart& start) {
+    auto lines = lines_of_text(*program.text);
+    if (!lines) { return std::unexpected(wrong_program({{.message = lines.error()}})); }
+    auto stream = std::make_shared<ProgramStream>(*std::move(lines), setup, start.values.revision);
+    if (auto read = stream->read_first(); !read) { return std::unexpected(wrong_program(read.error())); }
+    return ReadyProgram{stream->head(), stream->values(),
+                        [stream](ProgramSender& sender) { stream->feed(sender, monotonic_now()); }, program.facts};
+}
+
+std::expected<void, Problem> check_phase(const Snapshot& snapshot) {
+    if (snapshot.is_silent || !snapshot.machine) {
+        return std::unexpected(unanswered("no coordinator is received, so where the machine stands is not known"));
+    }
+    switch (snapshot.machine->value.phase) {
+        case MachinePhase::Fault: return std::unexpected(refused(FaultCode::InFault, ""));
+        case MachinePhase::Holding:
+        case MachinePhase::Paused: return std::unexpected(refused(FaultCode::Held, ""));
+        case MachinePhase::Waiting: return std::unexpected(refused(FaultCode::NotReady, ""));
+        case MachinePhase::Idle: return {};
+        default: return std::unexpected(refused(FaultCode::Busy, ""));
+    }
+}
+
+}  // namespace
+
+ProgramStart checked_start(const Snapshot& snapshot, const MachineConfig& machine) {
+    ProgramStart start{parked_mm(machine), snapshot.values.value_or(RevisedValues{})};
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+        const auto& axis = snapshot.axes[i].state;
+        if (!axis || !axis->value.homed || !snapshot.axes[i].is_present) { continue; }
+        start.place_mm[i] = to_mm(machine.axes[i], static_cast<double>(axis->value.position.count()));
+    }
+    return start;
+}
+
+std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const MachineConfig& machine) {
+    if (auto ready = check_phase(snapshot); !ready) { return std::unexpected(ready.error()); }
+    ProgramStart start;
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+        const AxisSnapshot& axis = snapshot.axes[i];
+        const std::string name = "axis " + machine.axes[i].name;
+        if (!axis.state || !axis.is_present) {
+            return std::unexpected(refused(FaultCode::AxisMissing, name + " is not received"));
+        }
+        if (!axis.state->value.homed) { return std::unexpected(refused(FaultCode::NotHomed, name + " is not homed")); }
+        if (!axis.state->value.at_rest) { return std::unexpected(refused(FaultCode::NotReady, name + " moves")); }
+        start.place_mm.push_back(to_mm(machine.axes[i], static_cast<double>(axis.state->value.position.count())));
+    }
+    if (!snapshot.values) {
+        return std::unexpected(unanswered("the machine's offsets and tools are not received yet"));
+    }
+    start.values = *snapshot.values;
+    return start;
+}
+
+std::expected<LoadedProgram, Problem> load_program(std::string text, const std::string& name, std::uint64_t id,
+                                                   const MachineConfig& machine, const ProgramStart& start) {
+    if (!is_text(text)) { return std::unexpected(no_text(text)); }
+    if (text.empty()) { return std::unexpected(wrong_program({{.message = "the program is empty"}})); }
+    const GcodeSetup setup = setup_of(name, machine, start);
+    const auto reading = read_gcode(text, setup);
+    if (!reading) { return std::unexpected(wrong_program(to_diagnostics(reading.error()))); }
+    auto facts = facts_of(text, setup.program_name, id, *reading);
+    auto path = std::make_shared<const std::vector<PathPoint>>(path_points(reading->program));
+    return LoadedProgram{std::move(facts), std::make_shared<const std::string>(std::move(text)), std::move(path)};
+}
+
+std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
+                                                   const ProgramStart& start) {
+    const GcodeSetup setup = setup_of(program.facts->name, machine, start);
+    if (program.text->size() > kShort_bytes) { return ready_stream(program, setup, start); }
+    auto reading = read_gcode(*program.text, setup);
+    if (!reading) { return std::unexpected(wrong_program(to_diagnostics(reading.error()))); }
+    gcode::ProgramValues values{.revision = start.values.revision, .after = {}};
+    if (reading->values != start.values.values) { values.after = std::move(reading->values); }
+    const ProgramHead head = reading->program.head();
+    return ReadyProgram{head, std::move(values), feed_of(std::move(reading->program)), program.facts};
+}
+
+}  // namespace lockstep::web

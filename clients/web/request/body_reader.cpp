@@ -1,0 +1,178 @@
+#include "clients/web/request/body_reader.hpp"
+
+#include <cmath>
+
+#include "core/number_text.hpp"
+
+namespace lockstep::web {
+namespace {
+
+Problem not_json(const std::string& why, const std::string& limit) {
+    return {.status = 400,
+            .code = "bad-json",
+            .title = "the body is not what the request takes",
+            .detail = why,
+            .limit = limit,
+            .remedy = "send a JSON object as openapi.yaml describes it"};
+}
+
+/// Stops at what a parser would spend memory on, or would silently pass over.
+class Strict {
+public:
+    bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
+        using Event = Json::parse_event_t;
+        if (event == Event::object_start) { names_.emplace_back(); }
+        if (event == Event::object_end) { names_.pop_back(); }
+        if (event == Event::key && !names_.back().insert(parsed.get<std::string>()).second && why.empty()) {
+            why = "the member '" + parsed.get<std::string>() + "' is given twice";
+        }
+        if (depth > kMostDepth && why.empty()) { why = "it nests too deep"; }
+        return true;
+    }
+    std::string why;
+
+private:
+    std::vector<std::set<std::string>> names_;
+};
+
+/// The parser works with recursion only in its destructor; a text of brackets is refused before.
+bool nests_too_deep(std::string_view text) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\') { ++i; }
+        if (c == '"') { in_string = !in_string; }
+        if (in_string) { continue; }
+        if (c == '{' || c == '[') { ++depth; }
+        if (c == '}' || c == ']') { --depth; }
+        if (depth > kMostDepth) { return true; }
+    }
+    return false;
+}
+
+std::string between(double least, double most) {
+    return "a number from " + number_text(least) + " to " + number_text(most);
+}
+
+}  // namespace
+
+std::expected<Json, Problem> read_object(std::string_view text) {
+    if (text.empty()) { return Json::object(); }
+    const std::string depth = "at most " + std::to_string(kMostDepth) + " objects and lists within each other";
+    if (nests_too_deep(text)) { return std::unexpected(not_json("it nests too deep", depth)); }
+    Strict strict;
+    Json json;
+    try {
+        json = Json::parse(
+            text, [&](int level, Json::parse_event_t event, Json& parsed) { return strict(level, event, parsed); });
+    } catch (const Json::exception& error) { return std::unexpected(not_json(error.what(), "JSON in UTF-8")); }
+    if (!strict.why.empty()) { return std::unexpected(not_json(strict.why, "each member once")); }
+    if (!json.is_object()) {
+        return std::unexpected(not_json("it is " + std::string(json.type_name()), "an object: {...}"));
+    }
+    return json;
+}
+
+Problem wrong_value(int status, const std::string& place, const Json& value, const std::string& limit) {
+    return {.status = status,
+            .code = status == 422 ? "out-of-range" : "bad-value",
+            .title = status == 422 ? "a value is out of its range" : "a value is of another kind",
+            .detail = place + " is " + dumped(value).substr(0, 100) + ", and may be " + limit,
+            .place = place,
+            .value = dumped(value).size() > 200 ? Json(dumped(value).substr(0, 200)) : value,
+            .limit = limit,
+            .remedy = "correct it and send it again"};
+}
+
+BodyReader::BodyReader(const Json& object, std::string place, std::optional<Problem>& problem)
+    : object_(object), place_(std::move(place)), problem_(problem) {}
+
+void BodyReader::refuse(Problem problem) {
+    if (!problem_) { problem_ = std::move(problem); }
+}
+
+const Json* BodyReader::find(const std::string& name) {
+    known_.insert(name);
+    const auto found = object_.find(name);
+    return found == object_.end() ? nullptr : &*found;
+}
+
+void BodyReader::require(const std::string& name) {
+    if (find(name) != nullptr) { return; }
+    refuse({.status = 400,
+            .code = "missing-value",
+            .title = "a value is missing",
+            .detail = place_of(name) + " is missing",
+            .place = place_of(name),
+            .limit = "it must be given",
+            .remedy = "add it and send it again"});
+}
+
+std::optional<double> BodyReader::number(const std::string& name, double least, double most) {
+    const Json* found = find(name);
+    if (found == nullptr) { return std::nullopt; }
+    const bool is_number = found->is_number();
+    const double value = is_number ? found->get<double>() : 0;
+    if (is_number && value >= least && value <= most) { return value; }
+    refuse(wrong_value(is_number ? 422 : 400, place_of(name), *found, between(least, most)));
+    return std::nullopt;
+}
+
+std::optional<std::int64_t> BodyReader::integer(const std::string& name, std::int64_t least, std::int64_t most) {
+    const auto value = number(name, static_cast<double>(least), static_cast<double>(most));
+    if (!value) { return std::nullopt; }
+    if (*value == std::floor(*value)) { return static_cast<std::int64_t>(*value); }
+    refuse(wrong_value(400, place_of(name), *find(name), "a whole number"));
+    return std::nullopt;
+}
+
+std::optional<std::string> BodyReader::text(const std::string& name, std::size_t longest) {
+    const Json* found = find(name);
+    if (found == nullptr) { return std::nullopt; }
+    const bool is_text = found->is_string();
+    if (is_text && found->get_ref<const std::string&>().size() <= longest) { return found->get<std::string>(); }
+    refuse(wrong_value(is_text ? 422 : 400, place_of(name), *found,
+                       "a text of at most " + std::to_string(longest) + " bytes"));
+    return std::nullopt;
+}
+
+std::optional<bool> BodyReader::flag(const std::string& name) {
+    const Json* found = find(name);
+    if (found == nullptr) { return std::nullopt; }
+    if (found->is_boolean()) { return found->get<bool>(); }
+    refuse(wrong_value(400, place_of(name), *found, "true or false"));
+    return std::nullopt;
+}
+
+const Json* BodyReader::list(const std::string& name, std::size_t longest) {
+    const Json* found = find(name);
+    if (found == nullptr || (found->is_array() && found->size() <= longest)) { return found; }
+    refuse(wrong_value(found->is_array() ? 422 : 400, place_of(name), *found,
+                       "a list of at most " + std::to_string(longest) + " members"));
+    return nullptr;
+}
+
+const Json* BodyReader::object(const std::string& name) {
+    const Json* found = find(name);
+    if (found == nullptr || found->is_object()) { return found; }
+    refuse(wrong_value(400, place_of(name), *found, "an object"));
+    return nullptr;
+}
+
+void BodyReader::finish() {
+    for (const auto& [name, value] : object_.items()) {
+        if (known_.contains(name)) { continue; }
+        std::string names;
+        for (const std::string& known : known_) { names += (names.empty() ? "" : ", ") + known; }
+        refuse({.status = 400,
+                .code = "unknown-member",
+                .title = "a member is not known",
+                .detail = place_of(name) + " is not known",
+                .place = place_of(name),
+                .limit = names.empty() ? "no members" : names,
+                .remedy = "leave it out, or correct its name"});
+    }
+}
+
+}  // namespace lockstep::web

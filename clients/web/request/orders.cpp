@@ -1,0 +1,242 @@
+#include "clients/web/request/orders.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "clients/session/move_program.hpp"
+#include "clients/web/request/body_reader.hpp"
+#include "core/gcode/kept_values.hpp"
+#include "core/overrides.hpp"
+#include "services/documents/values/values_document.hpp"
+
+namespace lockstep::web {
+namespace {
+
+constexpr double kMostPlace = 1e6;  // mm or degrees
+constexpr int kMaxToolNumber = 99'999;
+constexpr std::int64_t kMaxId = std::int64_t{1} << 53;
+
+using Read = std::optional<Order> (*)(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem);
+
+std::optional<std::size_t> axis_of(const std::string& name, const std::string& place, const MachineConfig& machine,
+                                   BodyReader& reader) {
+    const auto axis = find_axis(machine, name);
+    if (axis) { return *axis; }
+    std::string names;
+    for (const AxisConfig& one : machine.axes) { names += (names.empty() ? "" : ", ") + one.name; }
+    reader.refuse(wrong_value(422, place, name, "one of the machine's axes: " + names));
+    return std::nullopt;
+}
+
+template <CommandKind kind>
+std::optional<Order> plain(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    BodyReader(body, "", problem).finish();
+    return Command{.kind = kind};
+}
+
+std::optional<Order> home(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    Command command{.kind = CommandKind::Home};
+    const Json* axes = reader.list("axes", machine.axes.size());
+    for (std::size_t i = 0; axes != nullptr && i < axes->size(); ++i) {
+        const std::string place = "/axes/" + std::to_string(i);
+        if (!(*axes)[i].is_string()) {
+            reader.refuse(wrong_value(400, place, (*axes)[i], "an axis's name"));
+            continue;
+        }
+        const auto axis = axis_of((*axes)[i].get<std::string>(), place, machine, reader);
+        if (axis) { command.axes |= AxisSet{1} << *axis; }
+    }
+    reader.finish();
+    return command;
+}
+
+std::optional<Order> override_speeds(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    const auto feed = reader.integer("feed_percent", Overrides::kLeast, Overrides::kMost);
+    const auto rapid = reader.integer("rapid_percent", Overrides::kLeast, Overrides::kMost);
+    if (!feed && !rapid) { reader.require("feed_percent"); }
+    reader.finish();
+    return Command{.kind = CommandKind::Override,
+                   .feed_percent = static_cast<int>(feed.value_or(0)),
+                   .rapid_percent = static_cast<int>(rapid.value_or(0))};
+}
+
+void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, JogOrder& order,
+              std::optional<Problem>& problem) {
+    BodyReader reader(json, "/jogs/" + std::to_string(i), problem);
+    reader.require("axis");
+    reader.require("velocity");
+    const auto name = reader.text("axis", 64);
+    const std::size_t none = machine.axes.size();
+    const std::size_t axis = name ? axis_of(*name, reader.place_of("axis"), machine, reader).value_or(none) : none;
+    const double most = axis < none ? machine.axes[axis].max_velocity_mm_s : kMostPlace;
+    const auto velocity = reader.number("velocity", -most, most);
+    const auto distance = reader.number("distance", std::numeric_limits<double>::min(), kMostPlace);
+    reader.finish();
+    if (velocity == 0.0) {
+        reader.refuse(wrong_value(422, reader.place_of("velocity"), 0, "not 0; to end the jog, leave the axis out"));
+    }
+    if (axis == none || !velocity) { return; }
+    const auto is_same = [&](const JogAxis& one) { return one.axis == axis; };
+    if (std::ranges::any_of(order.jogs, is_same)) {
+        reader.refuse(wrong_value(422, reader.place_of("axis"), *name, "each axis once"));
+    }
+    order.jogs.push_back({static_cast<std::uint32_t>(axis), *velocity, distance.value_or(0)});
+}
+
+std::optional<Order> jog(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    JogOrder order;
+    reader.require("jogs");
+    const Json* jogs = reader.list("jogs", machine.axes.size());
+    for (std::size_t i = 0; jogs != nullptr && i < jogs->size(); ++i) {
+        if ((*jogs)[i].is_object()) {
+            read_jog((*jogs)[i], i, machine, order, problem);
+        } else {
+            reader.refuse(wrong_value(400, "/jogs/" + std::to_string(i), (*jogs)[i], "an object"));
+        }
+    }
+    order.stream = reader.text("stream", 64).value_or("");
+    if (const auto press = reader.integer("press", 1, kMaxId)) { order.press = static_cast<std::uint64_t>(*press); }
+    reader.finish();
+    return order;
+}
+
+std::optional<Order> run(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    RunOrder order;
+    if (const auto id = reader.integer("program", 1, kMaxId)) { order.program = static_cast<std::uint64_t>(*id); }
+    reader.finish();
+    return order;
+}
+
+std::optional<Order> mdi(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    reader.require("line");
+    const std::string line = reader.text("line", kMaxLine_bytes).value_or("");
+    const bool is_line = std::ranges::none_of(line, [](char c) { return c == '\n' || c == '\r' || c == '\0'; });
+    if (line.empty() || !is_line) { reader.refuse(wrong_value(422, "/line", line, "one line of G-code")); }
+    reader.finish();
+    return MdiOrder{line};
+}
+
+std::size_t read_system(BodyReader& reader, const std::string& otherwise) {
+    const std::string name = reader.text("system", 10).value_or(otherwise);
+    const auto system = find_system(name);
+    if (!system) { reader.refuse(wrong_value(422, "/system", name, "G54 to G59, G59.1, G59.2 or G59.3")); }
+    return system.value_or(0);
+}
+
+/// An axis that G-code names with a letter.
+Letters read_letters(const std::string& name, const MachineConfig& machine, BodyReader& reader,
+                     std::optional<Problem>& problem) {
+    Letters letters;
+    const Json* object = reader.object(name);
+    if (object == nullptr) { return letters; }
+    BodyReader values(*object, reader.place_of(name), problem);
+    for (const AxisConfig& axis : machine.axes) {
+        const bool is_letter = axis.name.size() == 1 && gcode::kAxisLetters.contains(axis.name[0]);
+        if (!is_letter) { continue; }
+        if (const auto value = values.number(axis.name, -kMostPlace, kMostPlace)) { letters[axis.name[0]] = *value; }
+    }
+    values.finish();
+    return letters;
+}
+
+std::optional<Order> touch(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    reader.require("axes");
+    TouchOrder order{.system = read_system(reader, "G54"), .places = read_letters("axes", machine, reader, problem)};
+    if (order.places.empty()) { reader.refuse(wrong_value(422, "/axes", Json::object(), "at least one axis")); }
+    reader.finish();
+    return order;
+}
+
+std::optional<Order> offset(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    reader.require("system");
+    OffsetOrder order{.system = read_system(reader, "G54"),
+                      .origin = read_letters("origin", machine, reader, problem),
+                      .rotation_deg = reader.number("rotation_deg", -360, 360)};
+    reader.finish();
+    return order;
+}
+
+std::optional<Order> tool(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    reader.require("number");
+    ToolOrder order{.number = static_cast<int>(reader.integer("number", 1, kMaxToolNumber).value_or(0)),
+                    .removes = reader.flag("remove").value_or(false),
+                    .offset = read_letters("offset", machine, reader, problem),
+                    .diameter = reader.number("diameter", 0, kMostPlace)};
+    if (const auto pocket = reader.integer("pocket", 0, kMaxToolNumber)) { order.pocket = static_cast<int>(*pocket); }
+    const bool sets = order.pocket || order.diameter || !order.offset.empty();
+    if (order.removes && sets) {
+        reader.refuse(wrong_value(422, "/remove", true, "without any other value than the number"));
+    }
+    reader.finish();
+    return order;
+}
+
+const std::vector<std::pair<std::string, Read>>& readers() {
+    static const std::vector<std::pair<std::string, Read>> kReaders{
+        {"home", home},
+        {"run", run},
+        {"hold", plain<CommandKind::Hold>},
+        {"resume", plain<CommandKind::Resume>},
+        {"stop", plain<CommandKind::Stop>},
+        {"estop", plain<CommandKind::EmergencyStop>},
+        {"reset", plain<CommandKind::Reset>},
+        {"override", override_speeds},
+        {"jog", jog},
+        {"mdi", mdi},
+        {"touch", touch},
+        {"offset", offset},
+        {"tool", tool},
+    };
+    return kReaders;
+}
+
+Problem unknown_verb(std::string_view verb) {
+    std::string names;
+    for (const std::string& name : verbs()) { names += (names.empty() ? "" : ", ") + name; }
+    return {.status = 404,
+            .code = "unknown-verb",
+            .title = "there is no such command",
+            .detail = "there is no command '" + std::string(verb.substr(0, 100)) + "'",
+            .place = "path",
+            .value = std::string(verb.substr(0, 100)),
+            .limit = names,
+            .remedy = "write one of these"};
+}
+
+}  // namespace
+
+const std::vector<std::string>& verbs() {
+    static const std::vector<std::string> kVerbs = [] {
+        std::vector<std::string> names;
+        for (const auto& [name, read] : readers()) { names.push_back(name); }
+        return names;
+    }();
+    return kVerbs;
+}
+
+std::expected<Order, Problem> read_order(std::string_view verb, std::string_view body, const MachineConfig& machine) {
+    const auto found = std::ranges::find(readers(), verb, [](const auto& reader) { return reader.first; });
+    if (found == readers().end()) { return std::unexpected(unknown_verb(verb)); }
+    const auto json = read_object(body);
+    if (!json) { return std::unexpected(json.error()); }
+    std::optional<Problem> problem;
+    auto order = found->second(*json, machine, problem);
+    if (problem) { return std::unexpected(*std::move(problem)); }
+    return *std::move(order);
+}
+
+Json accepted_json(const Accepted& accepted) {
+    Json json{{"accepted", true}, {"job", accepted.job ? Json(*accepted.job) : Json()}};
+    if (accepted.jogging) { json["jogging"] = *accepted.jogging; }
+    return json;
+}
+
+}  // namespace lockstep::web

@@ -1,0 +1,123 @@
+#include "clients/web/state/alarm_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/number_text.hpp"
+
+namespace lockstep::web {
+namespace {
+
+using nlohmann::json;
+
+bool is_of_an_axis(FaultCode fault) {
+    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
+           fault != FaultCode::SecondCoordinator;
+}
+
+json as_alarm(json fault, const char* severity) {
+    fault["severity"] = severity;
+    return fault;
+}
+
+json own_alarm(const char* code, const std::string& axis, const std::string& cause, const char* remedy) {
+    return {{"number", 0},    {"code", code},     {"axis", axis.empty() ? json() : json(axis)},
+            {"cause", cause}, {"remedy", remedy}, {"severity", "warning"}};
+}
+
+void add_once(json& alarms, json alarm) {
+    const auto is_same = [&](const json& one) {
+        return one["number"] == alarm["number"] && one["code"] == alarm["code"] && one["axis"] == alarm["axis"];
+    };
+    if (std::ranges::none_of(alarms, is_same)) { alarms.push_back(std::move(alarm)); }
+}
+
+void add_faults(const Snapshot& snapshot, const MachineConfig& machine, json& alarms) {
+    if (snapshot.machine && snapshot.machine->value.fault != 0) {
+        const MachineState& state = snapshot.machine->value;
+        const auto fault = static_cast<FaultCode>(state.fault);
+        const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
+        add_once(alarms, as_alarm(fault_json(fault, has_axis ? machine.axes[state.fault_axis].name : ""), "fault"));
+    }
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+        const auto& axis = snapshot.axes[i].state;
+        if (!axis || axis->value.fault == 0) { continue; }
+        add_once(alarms,
+                 as_alarm(fault_json(static_cast<FaultCode>(axis->value.fault), machine.axes[i].name), "fault"));
+    }
+}
+
+std::string refusals(const RefusalCounts& counts) {
+    std::string text;
+    const auto add = [&](std::uint64_t count, const char* what) {
+        if (count > 0) { text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what; }
+    };
+    add(counts.frames, "frames refused");
+    add(counts.commands, "commands refused");
+    add(counts.messages, "messages refused");
+    add(counts.orders, "orders refused by the device");
+    add(counts.captures, "steps without their time");
+    return text;
+}
+
+void add_health(const AxisHealth& health, const std::string& axis, const MachineConfig& machine, json& alarms) {
+    const double slack_ms = machine.microseconds(health.setpoint_slack.least) * 1e-3;
+    const double deadline_ms = slack_deadline_ms(machine.timing);
+    if (health.setpoint_slack.count > 0 && slack_ms < deadline_ms) {
+        alarms.push_back(own_alarm("late-setpoints", axis,
+                                   "a setpoint came " + short_number(std::round(slack_ms)) +
+                                       " ms before its start, and the deadline is " +
+                                       short_number(std::round(deadline_ms)) + " ms before",
+                                   "find out what stalls the coordinator"));
+    }
+    const double furthest_us = std::max(std::abs(machine.microseconds(health.step_lateness.least)),
+                                        std::abs(machine.microseconds(health.step_lateness.most)));
+    if (furthest_us > machine.microseconds(health.clock_error) + kStepLateness_us) {
+        alarms.push_back(own_alarm("late-steps", axis,
+                                   "a step was " + short_number(std::round(furthest_us)) + " us beside its time",
+                                   "see the axis's log"));
+    }
+    if (const std::string text = refusals(health.refused); !text.empty()) {
+        alarms.push_back(own_alarm("refusals", axis, "since it started: " + text, "see the axis's log"));
+    }
+}
+
+}  // namespace
+
+double slack_deadline_ms(const ProtocolTiming& timing) {
+    return static_cast<double>(timing.check_slots()) * static_cast<double>(timing.slot_us) * 1e-3;
+}
+
+json fault_json(FaultCode fault, const std::string& axis) {
+    const FaultText* text = find_fault(fault);
+    return {{"number", static_cast<int>(fault)},
+            {"code", name_of(fault)},
+            {"axis", axis.empty() ? json() : json(axis)},
+            {"cause", text == nullptr ? "unknown" : text->cause},
+            {"remedy", text == nullptr ? "see the logs" : remedy_text(*text)}};
+}
+
+json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
+    json alarms = json::array();
+    add_faults(snapshot, machine, alarms);
+    for (std::size_t i = 0; i < snapshot.axes.size() && !snapshot.is_silent; ++i) {
+        if (snapshot.axes[i].is_present) { continue; }
+        alarms.push_back(own_alarm("axis-not-received", machine.axes[i].name, "the axis is not received",
+                                   "see whether its process runs: lockstep status"));
+    }
+    std::uint64_t lost = snapshot.machine ? snapshot.machine->value.lost_records : 0;
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+        const auto& health = snapshot.axes[i].health;
+        if (!health || !snapshot.axes[i].is_present) { continue; }
+        add_health(health->value, machine.axes[i].name, machine, alarms);
+        lost += health->value.refused.records;
+    }
+    if (lost > 0) {
+        alarms.push_back(own_alarm("lost-records", "",
+                                   std::to_string(lost) + " messages of the record could not be written or sent",
+                                   "see the logs, and whether a disk is full"));
+    }
+    return alarms;
+}
+
+}  // namespace lockstep::web

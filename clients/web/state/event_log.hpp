@@ -1,0 +1,47 @@
+// The state of the machine as numbered events: each is the difference to the one before, made once for all viewers. A
+// viewer is a place in this log and has no queue of its own.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace lockstep::web {
+
+class EventLog {
+public:
+    static constexpr std::size_t kKept = 100;  // ten seconds of ten events
+
+    /// `run`: tells the events of this process from those of others.
+    explicit EventLog(std::string run) : run_(std::move(run)) {}
+
+    /// Adds an event if the state has changed.
+    void publish(const nlohmann::json& state);
+
+    /// The next event that a viewer needs; nothing: the whole state.
+    using Place = std::optional<std::uint64_t>;
+    /// Where a viewer goes on that has received this event; the whole state where that is not known any more.
+    Place place_after(std::string_view id) const;
+    /// Appends what comes next to `text`. False: nothing, for now.
+    bool read(Place& place, std::string& text) const;
+    /// The events that come next are not kept any more.
+    bool is_behind(const Place& place) const;
+
+private:
+    std::string id_text(std::uint64_t number) const;
+
+    std::string run_;
+    mutable std::mutex mutex_;
+    nlohmann::json state_;                              // null: nothing was published yet
+    mutable std::shared_ptr<const std::string> whole_;  // state_ as an event, made when it is first needed
+    std::deque<std::string> deltas_;                    // the last ones; the newest has number newest_
+    std::uint64_t newest_ = 0;
+};
+
+}  // namespace lockstep::web

@@ -1,0 +1,70 @@
+#include "clients/web/state/machine_document.hpp"
+
+#include "clients/web/state/alarm_list.hpp"
+#include "clients/web/state/limits.hpp"
+#include "core/axis_unit.hpp"
+#include "core/faults.hpp"
+#include "core/gcode/state.hpp"
+#include "core/overrides.hpp"
+#include "services/documents/values/values_document.hpp"
+
+namespace lockstep::web {
+namespace {
+
+using nlohmann::json;
+
+json axis_json(const AxisConfig& axis) {
+    return {{"name", axis.name},
+            {"kind", is_rotary(axis.name) ? "rotary" : "linear"},
+            {"unit", unit_of(axis.name)},
+            {"position_min", axis.position_min_mm},
+            {"position_max", axis.position_max_mm},
+            {"park", axis.homing.park_mm},
+            {"start_velocity", axis.start_velocity_mm_s},
+            {"max_velocity", axis.max_velocity_mm_s},
+            {"max_acceleration", axis.max_accel_mm_s2},
+            {"steps_per_unit", axis.steps_per_mm},
+            {"homed_by", axis.homing.toward_min ? "min" : "max"},
+            {"unhomed_jog_velocity", axis.unhomed_jog_mm_s ? json(*axis.unhomed_jog_mm_s) : json()},
+            {"host", axis.host.empty() ? json() : json(axis.host)}};
+}
+
+json faults_json() {
+    json faults = json::object();
+#define X(name, number, text, cause, by_hand, remedies) \
+    faults[std::to_string(number)] = {                  \
+        {"code", text}, {"cause", cause}, {"remedy", remedy_text(*find_fault(FaultCode::name))}};
+    LOCKSTEP_FAULTS(X)
+#undef X
+    return faults;
+}
+
+json limits_json() {
+    return {{"program_bytes", kMaxProgram_bytes},
+            {"body_bytes", kMaxBody_bytes},
+            {"jog_renew_ms", kJogRenew.count()},
+            {"jog_life_ms", kJogLife.count()},
+            {"override_min_percent", Overrides::kLeast},
+            {"override_max_percent", Overrides::kMost},
+            {"path_points", kMaxPathPoints}};
+}
+
+}  // namespace
+
+json machine_document(const MachineConfig& machine, const std::string& version) {
+    json axes = json::array();
+    for (const AxisConfig& axis : machine.axes) { axes.push_back(axis_json(axis)); }
+    json systems = json::array();
+    for (std::size_t i = 0; i < gcode::kSystems; ++i) { systems.push_back(name_of_system(i)); }
+    return {{"name", machine.name},
+            {"version", version},
+            {"axes", axes},
+            {"features", json::array()},
+            {"faults", faults_json()},
+            {"coordinate_systems", systems},
+            {"limits", limits_json()},
+            {"slack_deadline_ms", slack_deadline_ms(machine.timing)},
+            {"step_lateness_limit_us", kStepLateness_us}};
+}
+
+}  // namespace lockstep::web

@@ -1,0 +1,12 @@
+// The difference of two JSON documents as a merge patch (RFC 7396). Pure.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace lockstep::web {
+
+/// Applied to `from` it gives `to`, in which members that are null count as absent. Both are objects. An empty object:
+/// they are equal.
+nlohmann::json merge_patch(const nlohmann::json& from, const nlohmann::json& to);
+
+}  // namespace lockstep::web

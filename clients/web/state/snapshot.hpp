@@ -1,0 +1,63 @@
+// All that a server knows of its machine at one time, as values.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/protocol/axis_health.hpp"
+#include "core/protocol/messages.hpp"
+#include "services/documents/values/values_document.hpp"
+
+namespace lockstep::web {
+
+using std::chrono::nanoseconds;
+
+template <typename Value>
+struct Seen {
+    Value value;
+    nanoseconds time;  // CLOCK_MONOTONIC of this host
+};
+
+struct AxisSnapshot {
+    bool is_present = false;
+    std::optional<Seen<AxisState>> state;
+    std::optional<Seen<AxisHealth>> health;
+};
+
+/// What is known of a program by the server that loads it.
+struct ProgramFacts {
+    std::uint64_t id = 0;  // 0: a line of mdi
+    std::string name;
+    std::size_t bytes = 0;
+    std::size_t lines = 0;
+    std::vector<std::int32_t> block_lines;  // the line of each block
+    bool rises = true;                      // block_lines never falls: the program repeats nothing
+    struct Note {
+        std::int32_t line = 0;
+        std::string text;
+    };
+    std::vector<Note> notes;
+};
+
+/// A job of a program that this server sent.
+struct OwnJob {
+    std::uint64_t number = 0;
+    std::shared_ptr<const ProgramFacts> program;
+};
+
+struct Snapshot {
+    nanoseconds time{};  // when it was taken
+    std::optional<Seen<MachineState>> machine;
+    bool is_silent = true;  // no coordinator is received
+    bool has_standby = false;
+    bool config_differs = false;
+    std::vector<AxisSnapshot> axes;  // as in the configuration
+    std::optional<RevisedValues> values;
+    std::optional<OwnJob> job;
+};
+
+}  // namespace lockstep::web

@@ -1,0 +1,75 @@
+#include "clients/web/token_file.hpp"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "services/files/directories.hpp"
+
+namespace lockstep::web {
+namespace {
+
+constexpr std::size_t kTokenBytes = 16;
+constexpr std::size_t kShortestToken = 16;
+
+std::string new_token() {
+    std::array<unsigned char, kTokenBytes> bytes{};
+    if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) { return {}; }
+    std::string token;
+    for (const unsigned char byte : bytes) {
+        token += "0123456789abcdef"[byte >> 4];
+        token += "0123456789abcdef"[byte & 15];
+    }
+    return token;
+}
+
+std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    Tokens tokens;
+    std::string role;
+    std::string token;
+    while (stream >> role >> token) { (role == "operate" ? tokens.operate : tokens.view) = token; }
+    if (tokens.operate.size() >= kShortestToken && tokens.view.size() >= kShortestToken &&
+        tokens.operate != tokens.view) {
+        return tokens;
+    }
+    return std::unexpected(file.string() +
+                           ": it needs two lines, 'operate TOKEN' and 'view TOKEN', with two tokens of " +
+                           std::to_string(kShortestToken) + " characters or more; or remove it: a new one is made");
+}
+
+std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) {
+    const Tokens tokens{.view = new_token(), .operate = new_token()};
+    const std::string text = "operate " + tokens.operate + "\nview " + tokens.view + "\n";
+    const int made = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
+    const bool is_written =
+        !tokens.view.empty() && made >= 0 && write(made, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    const int error = errno;
+    if (made >= 0) { close(made); }
+    if (is_written) { return tokens; }
+    return std::unexpected(file.string() + ": cannot be made: " + std::strerror(error) +
+                           "; name another place: --token-file FILE");
+}
+
+}  // namespace
+
+std::expected<Tokens, std::string> tokens_of_file(const std::filesystem::path& file) {
+    struct stat status {};
+    if (lstat(file.c_str(), &status) != 0) {
+        if (auto made = make_own_directory(file.parent_path()); !made) { return std::unexpected(made.error()); }
+        return make_file(file);
+    }
+    const bool is_private = S_ISREG(status.st_mode) && (status.st_mode & (S_IRWXG | S_IRWXO)) == 0;
+    if (!is_private || status.st_uid != geteuid()) {
+        return std::unexpected(file.string() + ": others than this user can read it; remove it: a new one is made");
+    }
+    return read_file(file);
+}
+
+}  // namespace lockstep::web

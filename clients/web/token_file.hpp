@@ -1,0 +1,16 @@
+// The tokens of a server, in a file that only its user can read. They outlive the process, so that pages go on.
+#pragma once
+
+#include <expected>
+#include <filesystem>
+#include <string>
+
+#include "clients/web/api/access.hpp"
+
+namespace lockstep::web {
+
+/// Two lines, "operate TOKEN" and "view TOKEN". Makes the file with mode 0600 where it is missing. Error: others can
+/// read it, it is not in this form, or it cannot be made; with the remedy.
+std::expected<Tokens, std::string> tokens_of_file(const std::filesystem::path& file);
+
+}  // namespace lockstep::web
