@@ -54,7 +54,9 @@ json job_json(const Snapshot& snapshot) {
                               : 0;
     const bool has_done = measured && state.progress < 1 - kNearEnd;
     return {{"number", state.job},
-            {"kind", kind_name(state.job_kind)},
+            {"kind", is_own          ? json("run")
+                     : state.outcome ? json()
+                                     : json(kind_name(state.job_kind))},
             {"name", program != nullptr ? json(program->name) : json()},
             {"line", line_json(state.line)},
             {"blocks_done", program != nullptr ? blocks_done(*program, state) : json()},

@@ -116,7 +116,7 @@ def check_motion(client):
 
 def check_hold(client):
     client.request("POST", "/api/program?name=long", LONG)
-    client.command("run")
+    expect(client.command("run").status == 200, "not begun")
     client.await_state(lambda s: s["mode"] == "Running" and s["axes"]["X"]["velocity"] > 0)
     refused(client.command("run"), 409, "busy")
     expect(client.command("hold").status == 200, "no hold")
@@ -172,7 +172,8 @@ def check_jog(client):
 
 
 def check_stop(client):
-    client.command("run")
+    time.sleep(0.5)  # the last jog brakes
+    expect(client.command("run").status == 200, "not begun")
     client.await_state(lambda s: s["mode"] == "Running")
     expect(client.command("estop").status == 200, "no emergency stop")
     state = client.await_state(lambda s: s["mode"] == "Fault")
