@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl
+install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep
   USE_SOURCE_PERMISSIONS)
@@ -25,7 +25,7 @@ set(MANUAL ${PROJECT_BINARY_DIR}/man)
 if(CMAKE_CROSSCOMPILING)
   set(MANUAL ${PROJECT_SOURCE_DIR}/build/man)
 else()
-  set(DOCUMENTED lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl)
+  set(DOCUMENTED lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web)
   set(PROGRAMS ${DOCUMENTED})
   list(TRANSFORM PROGRAMS REPLACE "(.+)" "$<TARGET_FILE:\\1>")
   add_custom_command(OUTPUT ${MANUAL}/lockstep.1
@@ -62,7 +62,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/
 
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `make package` builds what it packs
 # The content of `lockstep`.
-add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep_lcm_python)
+add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web lockstep_lcm_python)
 if(TARGET manual)
   add_dependencies(package_files manual)
 endif()
