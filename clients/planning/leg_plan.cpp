@@ -23,8 +23,7 @@ std::vector<PlannedMove> moves_of(const ProgramPlanner& planner, const Program& 
     return moves;
 }
 
-std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const Program& program, const Leg& leg,
-                                           const Overrides& overrides) {
+std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const Program& program, const Leg& leg) {
     const ProgramPlanner planner(machine);
     const std::shared_ptr<const Program> borrowed(std::shared_ptr<const Program>{}, &program);
     const auto source = planner.frames(borrowed, leg);
@@ -34,7 +33,7 @@ std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const P
         at.push_back(Position::steps(count));
         plan.axes.emplace_back(at.back());
     }
-    source->resume({leg.first, {}}, at, overrides);
+    source->resume({leg.first, {}}, at, {});
     std::size_t next = 0;
     for (source->read_ahead(); !source->is_done(); source->read_ahead()) {
         const auto frame = source->next();
@@ -69,13 +68,13 @@ Position AxisMotion::at(Ticks t) const {
 }
 
 std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
-                                                         const AxisCounts& start, const Overrides& overrides) {
+                                                         const AxisCounts& start) {
     const auto legs = ProgramPlanner(machine).plan(program, start);
     if (!legs) { return std::unexpected(legs.error()); }
     std::vector<LegPlan> plans;
     for (const Leg& leg : *legs) {
         if (!leg.moves) { continue; }
-        auto plan = plan_leg(machine, program, leg, overrides);
+        auto plan = plan_leg(machine, program, leg);
         if (!plan) { return std::unexpected(plan.error()); }
         plans.push_back(*std::move(plan));
     }

@@ -52,6 +52,6 @@ struct LegPlan {
 /// The legs in which something moves or dwells, from rest to rest; between two of them the program waits for a person.
 /// Errors: as ProgramPlanner::plan; the axes' limits contradict each other.
 std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
-                                                         const AxisCounts& start, const Overrides& overrides = {});
+                                                         const AxisCounts& start);
 
 }  // namespace lockstep

@@ -9,11 +9,14 @@ namespace lockstep {
 namespace {
 
 /// Goes through a program from rest to rest.
-class Planning {
+class LegByLeg {
 public:
-    Planning(const MachineConfig& machine, std::shared_ptr<const CountedBlocks> blocks, const AxisCounts& start,
-             const std::function<void(Ticks)>& each_frame)
-        : planner_(machine), blocks_(std::move(blocks)), at_(start), totals_(machine, start), each_frame_(each_frame) {}
+    LegByLeg(const MachineConfig& machine, std::shared_ptr<const CountedBlocks> blocks, const Planning& planning)
+        : planner_(machine),
+          blocks_(std::move(blocks)),
+          planning_(planning),
+          at_(planning.start),
+          totals_(machine, planning.start) {}
 
     /// Error: the axes' limits contradict each other.
     std::expected<void, PlanError> run() {
@@ -35,7 +38,7 @@ private:
     std::expected<void, PlanError> plan(FrameSource& source, std::uint32_t first) {
         std::vector<Position> at;
         for (const std::int64_t count : at_) { at.push_back(Position::steps(count)); }
-        source.resume({first, {}}, at, {});
+        source.resume({first, {}}, at, planning_.overrides);
         for (source.read_ahead(); !source.is_done(); source.read_ahead()) {
             const auto frame = source.next();
             if (!frame) {
@@ -43,7 +46,7 @@ private:
                                                  "no motion from rest keeps the limits of all axes here"});
             }
             totals_.take(**frame, source.begins());
-            if (each_frame_) { each_frame_(totals_.duration()); }
+            if (planning_.each_frame) { planning_.each_frame(totals_.duration()); }
         }
         totals_.end_leg();
         return {};
@@ -51,9 +54,9 @@ private:
 
     ProgramPlanner planner_;
     std::shared_ptr<const CountedBlocks> blocks_;
+    const Planning& planning_;
     AxisCounts at_;
     PlanTotals totals_;
-    const std::function<void(Ticks)>& each_frame_;
     int pauses_ = 0;
 };
 
@@ -80,33 +83,33 @@ AxisCounts start_counts(const MachineConfig& machine, const ProgramHead& program
 
 std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, const ProgramHead& head,
                                                   std::shared_ptr<const ProgramBlocks> blocks,
-                                                  const std::function<void(Ticks)>& each_frame) {
+                                                  const Planning& planning) {
     const ProgramPlanner planner(machine);
-    const AxisCounts start = start_counts(machine, head);
-    if (auto fits = planner.check_start(head, start); !fits) { return std::unexpected(fits.error()); }
+    if (auto fits = planner.check_start(head, planning.start); !fits) { return std::unexpected(fits.error()); }
     const auto counted =
-        std::make_shared<CountedBlocks>(planner, std::move(blocks), planner.axes_of(head.axes).value(), start);
-    Planning planning(machine, counted, start, each_frame);
-    if (auto planned = planning.run(); !planned) { return std::unexpected(planned.error()); }
+        std::make_shared<CountedBlocks>(planner, std::move(blocks), planner.axes_of(head.axes).value(), planning.start);
+    LegByLeg legs(machine, counted, planning);
+    if (auto planned = legs.run(); !planned) { return std::unexpected(planned.error()); }
     if (counted->error()) { return std::unexpected(*counted->error()); }
-    const PlanTotals& totals = planning.totals();
+    const PlanTotals& totals = legs.totals();
     ProgramPlan plan{.program = head.name,
                      .start_mm = {},
                      .moves = counted->moves(),
-                     .pauses = planning.pauses(),
+                     .pauses = legs.pauses(),
                      .duration = totals.duration(),
                      .duration_s = static_cast<double>(totals.duration().value) / machine.ticks_per_second(),
                      .length_mm = counted->length_mm(),
                      .axes = totals.axes()};
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        plan.start_mm.push_back(to_mm(machine.axes[i], static_cast<double>(start[i])));
+        plan.start_mm.push_back(to_mm(machine.axes[i], static_cast<double>(planning.start[i])));
     }
     return plan;
 }
 
 std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program) {
     const std::shared_ptr<const Program> borrowed(std::shared_ptr<const Program>{}, &program);
-    return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed));
+    return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed),
+                       {.start = start_counts(machine, program.head())});
 }
 
 proto::PlanReport to_report(const ProgramPlan& plan, int lines) {

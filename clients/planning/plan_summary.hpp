@@ -33,12 +33,18 @@ struct ProgramPlan {
 /// Counts for every axis of the machine: the program's start if it names the axis, else the park position.
 AxisCounts start_counts(const MachineConfig& machine, const ProgramHead& program);
 
-/// Plans the program as the coordinator does, from its start position. The blocks are read once, in their order; those
-/// behind a leg's end are not looked at before its last frame. `each_frame` is called with how long the motion is so
-/// far.
+struct Planning {
+    AxisCounts start;  // of all axes of the machine
+    Overrides overrides;
+    std::function<void(Ticks)> each_frame;  // is called with how long the motion is so far; may be none
+};
+
+/// Plans the program as the coordinator does. The blocks are read once, in their order. Errors: as
+/// ProgramPlanner::plan; the axes' limits contradict each other.
 std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, const ProgramHead& head,
                                                   std::shared_ptr<const ProgramBlocks> blocks,
-                                                  const std::function<void(Ticks)>& each_frame = {});
+                                                  const Planning& planning);
+/// From its start position.
 std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program);
 
 /// `lines`: of the G-code file.

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "clients/planning/leg_plan.hpp"
+#include "clients/planning/plan_summary.hpp"
 
 namespace lockstep {
 
@@ -16,20 +16,25 @@ std::expected<std::vector<double>, Failure> start_places(Session& session) {
     return start_mm;
 }
 
-std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
+std::expected<double, Failure> planned_seconds(const Session& session, const ProgramHead& head,
+                                               std::shared_ptr<const ProgramBlocks> blocks,
                                                const std::vector<double>& start_mm) {
     const MachineConfig& machine = session.config();
-    const Overrides overrides = session.state() ? session.state()->state.overrides : Overrides{};
-    AxisCounts start;
-    for (std::size_t i = 0; i < start_mm.size(); ++i) { (void)start.push_back(to_steps(machine.axes[i], start_mm[i])); }
-    const auto legs = plan_legs(machine, program, start, overrides);
-    if (!legs) {
-        return std::unexpected(
-            bad_file(program.name, {{legs.error().line, legs.error().line > 0 ? 1 : 0, legs.error().text}}));
+    Planning planning;
+    if (session.state()) { planning.overrides = session.state()->state.overrides; }
+    for (std::size_t i = 0; i < start_mm.size(); ++i) {
+        (void)planning.start.push_back(to_steps(machine.axes[i], start_mm[i]));
     }
-    Ticks duration;
-    for (const LegPlan& leg : *legs) { duration += leg.duration; }
-    return static_cast<double>(duration.value) / machine.ticks_per_second();
+    const auto plan = plan_blocks(machine, head, std::move(blocks), planning);
+    if (plan) { return plan->duration_s; }
+    return std::unexpected(
+        bad_file(head.name, {{plan.error().line, plan.error().line > 0 ? 1 : 0, plan.error().text}}));
+}
+
+std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
+                                               const std::vector<double>& start_mm) {
+    const std::shared_ptr<const Program> borrowed(std::shared_ptr<const Program>{}, &program);
+    return planned_seconds(session, program.head(), std::make_shared<WholeProgram>(borrowed), start_mm);
 }
 
 }  // namespace lockstep

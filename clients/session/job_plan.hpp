@@ -2,10 +2,11 @@
 #pragma once
 
 #include <expected>
+#include <memory>
 #include <vector>
 
 #include "clients/session/session.hpp"
-#include "core/program.hpp"
+#include "core/program_blocks.hpp"
 
 namespace lockstep {
 
@@ -13,6 +14,9 @@ namespace lockstep {
 std::expected<std::vector<double>, Failure> start_places(Session& session);
 
 /// How long a program takes from there with the session's overrides, s. Error: why it cannot be planned.
+std::expected<double, Failure> planned_seconds(const Session& session, const ProgramHead& head,
+                                               std::shared_ptr<const ProgramBlocks> blocks,
+                                               const std::vector<double>& start_mm);
 std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
                                                const std::vector<double>& start_mm);
 

@@ -10,6 +10,7 @@
 #include "clients/lockstep/job/restart.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/planning/program_text.hpp"
 #include "clients/session/job_plan.hpp"
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -158,8 +159,38 @@ ExitCode run_stream(const RunOptions& options) {
     return run_job(*session, job, output);
 }
 
+/// A long file is planned as it is read.
+ExitCode plan_stream(const RunOptions& options) {
+    Output output(options.json);
+    auto lines = LineReader::open(options.file);
+    if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return output.fail(session.error()); }
+    const auto start_mm = start_places(*session);
+    if (!start_mm) { return output.fail(start_mm.error()); }
+    const auto values = session->values();
+    if (!values) { return output.fail(values.error()); }
+    const auto text = std::make_shared<ProgramText>(
+        *std::move(lines), program_setup(options.file, machine->config, *start_mm, options.switches, values->values));
+    const auto planned_s = planned_seconds(*session, text->head(), text, *start_mm);
+    if (!text->errors().empty()) { return output.fail(bad_file(options.file, text->errors())); }
+    if (!planned_s) { return output.fail(bad_file(options.file, planned_s.error().errors)); }
+    proto::RunReport report;
+    report.set_kind("run");
+    report.set_name(text->head().name);
+    report.set_outcome("dry-run");
+    report.set_planned_s(*planned_s);
+    output.report(report);
+    output.print(text->head().name + ": would run " + std::to_string(text->lines()) + " lines in " +
+                 duration_text(*planned_s) + " from where the machine stands; nothing was sent");
+    return kExitDone;
+}
+
 ExitCode run(const RunOptions& options) {
     if (is_streamed(options)) { return run_stream(options); }
+    if (is_long_program(options.file) && !options.is_restart()) { return plan_stream(options); }
     Output output(options.json);
     const auto text = read_text_file(options.file);
     if (!text) { return output.fail(bad_file(options.file, {text.error()})); }

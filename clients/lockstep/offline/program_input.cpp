@@ -80,7 +80,9 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
         *std::move(lines),
         program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values));
     Progress progress(options.file, *text, setup->machine.ticks_per_second(), output);
-    auto plan = plan_blocks(setup->machine, text->head(), text, [&progress](Ticks planned) { progress.show(planned); });
+    auto plan = plan_blocks(setup->machine, text->head(), text,
+                            {.start = start_counts(setup->machine, text->head()),
+                             .each_frame = [&progress](Ticks planned) { progress.show(planned); }});
     if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
     if (!plan) { return std::unexpected(not_planned(options.file, plan.error())); }
     return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes()};

@@ -22,7 +22,7 @@ protected:
                                              program_setup(file_, machine_, parked_mm(machine_)));
     }
     std::expected<ProgramPlan, PlanError> plan(const std::shared_ptr<ProgramText>& text) const {
-        return plan_blocks(machine_, text->head(), text);
+        return plan_blocks(machine_, text->head(), text, {.start = start_counts(machine_, text->head())});
     }
 
     TemporaryDirectory directory_;
