@@ -1,6 +1,10 @@
 // The record of a program that was sent while it ran: its parts follow the beginning of its job.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <random>
+
 #include "clients/verification/verification.hpp"
 #include "tests/unit/verification/altered_log.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
@@ -58,6 +62,52 @@ protected:
         recorded.advance_ms(2000);
     }
 
+    /// Short lines and arcs in chords, with corners and other feeds between them.
+    std::vector<Block> lines(int count, std::mt19937_64& random) {
+        std::uniform_real_distribution<> share(0, 1);
+        std::vector<Block> blocks;
+        for (int k = 0; k < count; ++k, ++line) {
+            if (random() % 20 == 0) { turn_by = 0.2 * (share(random) - 0.5); }
+            if (random() % 50 == 0) { heading += 3 * share(random); }
+            if (random() % 40 == 0) { feed = 10 + 90 * share(random); }
+            if (random() % 30 == 0) { chord = std::pow(10, 1.5 * share(random) - 1); }
+            heading += turn_by;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const double step = chord * (i == 0 ? std::cos(heading) : std::sin(heading));
+                at[i] += at[i] + step > 100 || at[i] + step < 10 ? -step : step;
+            }
+            blocks.push_back({line, LinearMove{{at[0], at[1]}, feed}});
+        }
+        return blocks;
+    }
+    /// Parts come at any time, mostly early enough, and overrides are turned while they do.
+    void run_with_turns(std::uint64_t seed) {
+        std::mt19937_64 random(seed);
+        const MachineConfig machine = test::example("two-axis");
+        start = parked_mm(machine);
+        test::RecordedMachine recorded(machine, path());
+        recorded.home();
+        send(recorded, {.blocks = {{1, LinearMove{{60, 60}, 0, true}}}});
+        recorded.command(CommandKind::Run, kProgram);
+        for (int part = 0; part < 40; ++part) {
+            send(recorded, {.blocks = lines(10 + static_cast<int>(random() % 120), random)});
+            for (std::uint64_t turns = random() % 4; turns > 0; --turns) {
+                recorded.turn({50 + static_cast<int>(random() % 11) * 10, 100});
+                if (random() % 2 == 0) { recorded.advance_ms(static_cast<std::int64_t>(random() % 100)); }
+            }
+            recorded.advance_ms(static_cast<std::int64_t>(random() % 400));
+        }
+        send(recorded, {.is_last = true, .blocks = lines(30, random)});
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        EXPECT_EQ(recorded.vm().state()->outcome, JobOutcome::Done);
+        recorded.advance_ms(2000);
+    }
+
+    double heading = 0;
+    double turn_by = 0;
+    double feed = 50;
+    double chord = 0.3;
+    std::array<double, 2> at{60, 60};
     std::vector<double> start;
     std::int32_t line = 2;
     std::uint32_t index = 0;
@@ -70,6 +120,16 @@ TEST_F(RecordedStream, VerifiesExactlyThoughItStarved) {
     EXPECT_TRUE(findings->is_exact()) << to_text(*findings);
     EXPECT_EQ(findings->jobs, 1);
 }
+
+class RecordedStreamTurned : public RecordedStream, public testing::WithParamInterface<std::uint64_t> {};
+
+TEST_P(RecordedStreamTurned, VerifiesExactly) {
+    run_with_turns(GetParam());
+    const auto findings = verify_log(path());
+    ASSERT_TRUE(findings) << findings.error();
+    EXPECT_TRUE(findings->is_exact()) << to_text(*findings);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RecordedStreamTurned, testing::Range<std::uint64_t>(1, 9));
 
 TEST_F(RecordedStream, VerifiesAsFarAsItIsKnownWithoutAnEnd) {
     run(false);
