@@ -30,7 +30,7 @@ public:
     std::vector<std::uint64_t> drop();
 
     std::size_t size() const { return lines_.size(); }
-    /// What the sender calls this line: its N word, or else its number.
+    /// The line's number for the sender: its N word, or else its place among the lines.
     std::int32_t sender_line(std::int32_t number) const;
 
 private:

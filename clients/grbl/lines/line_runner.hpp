@@ -52,7 +52,7 @@ public:
     std::vector<Answered> take_answers() { return std::exchange(answers_, {}); }
     /// Lines that were accepted are lost: why.
     std::optional<std::string> take_loss() { return std::exchange(loss_, std::nullopt); }
-    /// What the sender is told of its lines.
+    /// Messages for the sender about its lines.
     void report(const MachineState& state, MachineView& view) const;
 
     static constexpr std::chrono::milliseconds kIdle{40};       // no line has come for so long: no more may come

@@ -29,7 +29,7 @@ std::expected<gcode::KeptValues, Failure> values_of(const ProgramOptions& option
     return std::move(values->values);
 }
 
-/// What a program is read with.
+/// The machine, its start position and its values: reading a program needs all three.
 struct ReadingSetup {
     MachineConfig machine;
     std::vector<double> start_mm;
