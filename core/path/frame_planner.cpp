@@ -175,7 +175,8 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
 }
 
 /// A straight interval can be left anywhere; on a curved one the limits hold at its middle, so it is finished as
-/// planned. A rest is finished too, but the speed behind it is still free.
+/// planned. A rest is finished too, but the speed behind it is still free. While braking any interval is left; the
+/// numbers that the tail has may be those before a turn.
 FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
     const double at = to_double(t);
     const auto& passages = path.passages();
@@ -183,9 +184,11 @@ FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, boo
     while (m > 0 && passages[m].begin > at) { --m; }
     const Passage& passage = passages[m];
     Cursor cursor{.interval = passage.interval, .begin = passage.begin - at, .w0 = passage.w0, .w1 = passage.w1};
-    const IntervalKind kind = window_.interval(passage.interval).kind;
-    if (kind == IntervalKind::Rest) { cursor.w1.reset(); }
-    if (kind == IntervalKind::Rest || (kind == IntervalKind::Curved && !is_braking)) { return cursor; }
+    if (!is_braking) {
+        const IntervalKind kind = window_.interval(passage.interval).kind;
+        if (kind == IntervalKind::Rest) { cursor.w1.reset(); }
+        if (kind != IntervalKind::Straight) { return cursor; }
+    }
     std::size_t k = passage.first_phase;
     const auto& phases = path.phases();
     while (k + 1 < phases.size() && phases[k + 1].interval == passage.interval && phases[k].end() <= at) { ++k; }

@@ -7,6 +7,7 @@ namespace lockstep {
 namespace {
 
 constexpr double kNothing = 1e-12;   // steps per mm
+constexpr double kRounding = 1e-11;  // of w: far more than a backward pass adds up
 constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: joints follow
 constexpr double kRestShare = 0.4;   // where it rests for a short time: two jumps follow each other
 constexpr double kWorthSlowing = 2;  // the pieces beside it are passed more slowly, too
@@ -239,10 +240,13 @@ std::size_t SpeedWindow::known() const {
     return final_ > first_ ? final_ - 1 : first_;
 }
 
+/// A reach that is the cap but for rounding is the cap: whether a place is final must not depend on where the pass
+/// began.
 void SpeedWindow::update(std::size_t first, std::size_t last) {
     for (std::size_t k = last + 1; k-- > first;) {
         Interval& part = intervals_[k - first_];
-        part.reach = std::min(part.cap, bounds(part).before(reach_behind(k)));
+        const double reach = bounds(part).before(reach_behind(k));
+        part.reach = reach < (1 - kRounding) * part.cap ? reach : part.cap;
     }
 }
 

@@ -72,10 +72,11 @@ void SpeedWindow::recut_behind(std::size_t piece) {
     for (const Quadratic& shape : ahead) { add(shape); }
 }
 
-/// From the beginning of an interval at w.
+/// From the beginning of an interval at w. What follows the last interval is limited by the speed before it, which may
+/// not be one that was raised here: so one more is asked for.
 TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
     for (std::size_t k = number; w > 0; ++k) {
-        if (k == end() && !is_finished_) { return TurnResult::LacksPath; }
+        if (k + 1 >= end() && !is_finished_) { return TurnResult::LacksPath; }
         if (k == end()) { return w <= kHair * end_cap_ ? TurnResult::Taken : TurnResult::CannotFollow; }
         Interval& part = intervals_[k - first_];
         const bool is_rest = part.kind == IntervalKind::Rest;

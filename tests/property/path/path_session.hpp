@@ -68,7 +68,9 @@ public:
 private:
     void drain() {
         while (true) {
-            while (!events_.empty() && events_.front().made == frames_.size()) { happen(); }
+            while (!events_.empty() && events_.front().made == frames_.size()) {
+                if (!happen()) { return; }
+            }
             if (planner_.is_done()) { return; }
             auto frame = planner_.next();
             ASSERT_TRUE(frame) << "stuck in block " << frame.error().at.block;
@@ -78,15 +80,15 @@ private:
         }
     }
 
-    void happen() {
+    /// False: it waits for more of the path.
+    bool happen() {
         const PathEvent event = events_.front();
+        const TurnResult result = event.turn ? planner_.turn(*event.turn) : TurnResult::Taken;
+        if (result == TurnResult::LacksPath) { return false; }
         events_.pop_front();
-        if (!event.turn) {
-            interrupt(event.unrun);
-        } else if (planner_.turn(*event.turn) != TurnResult::Taken) {
-            return;
-        }
-        happened_.push_back(event);
+        if (!event.turn) { interrupt(event.unrun); }
+        if (result == TurnResult::Taken) { happened_.push_back(event); }
+        return true;
     }
 
     void interrupt(std::size_t unrun) {

@@ -93,6 +93,8 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, testing::Range<std::uint64_t>(1, 41));
+// In these, speeds that are equal but for rounding meet, and turns where the known path ends.
+INSTANTIATE_TEST_SUITE_P(Rounded, RandomSession, testing::Values<std::uint64_t>(561, 597));
 
 }  // namespace
 }  // namespace lockstep
