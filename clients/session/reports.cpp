@@ -1,8 +1,6 @@
 #include "clients/session/reports.hpp"
 
 #include <algorithm>
-#include <array>
-#include <ctime>
 
 #include "clients/session/health_report.hpp"
 #include "clients/text/format.hpp"
@@ -19,14 +17,6 @@ bool is_of_an_axis(FaultCode fault) {
 }
 
 bool is_in_motion(MachinePhase phase) { return phase == MachinePhase::Running || phase == MachinePhase::Stopping; }
-
-std::string utc_text(std::chrono::system_clock::time_point time) {
-    const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    std::array<char, 32> text{};
-    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc)};
-}
 
 proto::WriterReport writer_report(const MachineState& state, const MachineConfig& machine) {
     proto::WriterReport report;

@@ -96,6 +96,8 @@ public:
     /// Waits at most so long until the coordinator has answered. Without the lease nothing is sent.
     void give_lease(std::chrono::nanoseconds patience = {});
     bool holds_lease() const { return lease_.is_held(); }
+    /// LeaseHolder::id of this client's writer.
+    std::uint64_t writer_id() const { return lease_.writer().id; }
     /// The writer that the coordinator publishes, this one or another. Null: nobody, or nothing is received yet.
     const HeldLease* writer() const { return state_ && state_->state.lease ? &*state_->state.lease : nullptr; }
 

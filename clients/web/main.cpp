@@ -93,7 +93,8 @@ int run(const Options& options) {
                          .tls = *tls,
                          .rules = rules_of(options, *listener, *tokens),
                          .reports = options.reports.empty() ? root / "reports" : std::filesystem::path(options.reports),
-                         .version = LOCKSTEP_VERSION});
+                         .version = LOCKSTEP_VERSION,
+                         .writer = "the page at " + address_text(options, *listener)});
     if (!site) { return output.fail(failed(site.error())); }
     print(options, *listener, *tokens, file, machine->config.name, output);
     while (!stop.requested()) { std::this_thread::sleep_for(50ms); }

@@ -17,7 +17,7 @@ Site::Site(Session session, const SiteOptions& options)
     : machine_(session.config()),
       log_(std::to_string(wall_clock_us())),
       reports_(options.reports, incident_directory(machine_)),
-      loop_(std::move(session), [this](const auto& snapshot) { publish(*snapshot); }),
+      loop_(std::move(session), options.writer, [this](const auto& snapshot) { publish(*snapshot); }),
       api_({machine_, loop_, log_, desk_, reports_, embedded_assets(), options.version}, options.rules) {}
 
 Site::~Site() {

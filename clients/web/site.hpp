@@ -18,6 +18,7 @@ struct SiteOptions {
     AccessRules rules;
     std::filesystem::path reports;
     std::string version;
+    std::string writer;  // this server's name as a writer
 };
 
 class Site {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/protocol/needs_lease.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -15,17 +17,6 @@ std::string duration_text(std::int64_t seconds) {
 }
 
 std::string name_of(const LeaseHolder& writer) { return writer.name + " on " + writer.host; }
-
-/// False: it only makes the machine safer.
-bool needs_lease(const Command& command) {
-    switch (command.kind) {
-        case CommandKind::Hold:
-        case CommandKind::Stop:
-        case CommandKind::EmergencyStop: return false;
-        case CommandKind::Jog: return !command.jogs.empty();
-        default: return true;
-    }
-}
 
 }  // namespace
 

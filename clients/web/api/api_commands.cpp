@@ -94,6 +94,9 @@ void Api::carry_out(const Order& order, const Done& done) {
     if (const auto* places = std::get_if<TouchOrder>(&order)) { touch(*places, done); }
     if (const auto* offset = std::get_if<OffsetOrder>(&order)) { change(*offset); }
     if (const auto* tool = std::get_if<ToolOrder>(&order)) { change(*tool); }
+    if (const auto* lease = std::get_if<LeaseOrder>(&order)) {
+        lease->takes ? parts_.port.take_lease(done) : parts_.port.give_lease(done);
+    }
 }
 
 void Api::run(const RunOrder& order, const Done& done) {

@@ -1,12 +1,12 @@
 #include "clients/web/api/report_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+
+#include "clients/text/format.hpp"
 
 namespace lockstep::web {
 namespace {
@@ -18,11 +18,7 @@ constexpr const char* kReportPolicy =
 
 std::string time_text(std::filesystem::file_time_type time) {
     const auto utc = std::filesystem::file_time_type::clock::to_sys(time);
-    const std::time_t seconds = std::chrono::duration_cast<std::chrono::seconds>(utc.time_since_epoch()).count();
-    std::tm parts{};
-    gmtime_r(&seconds, &parts);
-    std::array<char, 32> text{};
-    return {text.data(), std::strftime(text.data(), text.size(), "%FT%TZ", &parts)};
+    return utc_text(std::chrono::time_point_cast<std::chrono::system_clock::duration>(utc));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ void JogGuard::note_over() {
     order_.pop_front();
 }
 
-std::expected<void, Problem> JogGuard::take(const JogOrder& order, Time now) {
+std::expected<JogGuard::Press, Problem> JogGuard::take(const JogOrder& order, Time now) {
     const bool is_other = until_ && client_ != order.stream;
     if (order.jogs.empty()) {  // of another client it changes nothing
         if (!is_other) {
@@ -45,14 +45,15 @@ std::expected<void, Problem> JogGuard::take(const JogOrder& order, Time now) {
             press_ = order.press ? order.press : press_;
             end();
         }
-        return {};
+        return Press::Released;
     }
     if (is_over(order)) { return std::unexpected(press_is_over(*order.press)); }
     if (is_other) { return std::unexpected(refused(FaultCode::Busy, "another client jogs the machine")); }
+    const Press press = until_ && press_ == order.press ? Press::Renewed : Press::New;
     client_ = order.stream;
     press_ = order.press;
     until_ = now + kJogLife;
-    return {};
+    return press;
 }
 
 bool JogGuard::runs_out(Time now) {

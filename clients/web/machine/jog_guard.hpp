@@ -17,8 +17,11 @@ class JogGuard {
 public:
     using Time = std::chrono::nanoseconds;
 
-    /// Whether the order is followed. Error: another client jogs, or the order's press is over.
-    std::expected<void, Problem> take(const JogOrder& order, Time now);
+    /// Of an order that is followed. New: the press of a key, which begins a jog also where one before has ended by
+    /// itself.
+    enum class Press : std::uint8_t { New, Renewed, Released };
+    /// Error: another client jogs, or the order's press is over.
+    std::expected<Press, Problem> take(const JogOrder& order, Time now);
     /// True once, when the jog's time is over.
     bool runs_out(Time now);
     /// True: the jog ended with this stream.

@@ -10,7 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostActions = 64;  // that wait
-constexpr std::size_t kMostTasks = 64;
 constexpr nanoseconds kLoop = 10ms;
 constexpr nanoseconds kBusyLoop = 5ms;  // while something is under way
 
@@ -25,8 +24,9 @@ Problem too_many() {
 
 }  // namespace
 
-MachineLoop::MachineLoop(Session session, Publish publish)
+MachineLoop::MachineLoop(Session session, const std::string& writer, Publish publish)
     : session_(std::move(session)),
+      lease_(session_, writer),
       jog_(session_),
       publish_(std::move(publish)),
       healths_(session_.config().axes.size()),
@@ -54,7 +54,7 @@ void MachineLoop::command(const Command& command, Done done) {
 }
 
 void MachineLoop::jog(const JogOrder& order, Done done) {
-    add([this, order, done] { take_jog(order, done); }, done);
+    add([this, order, done] { jog_.take(order, done, monotonic_now()); }, done);
 }
 
 void MachineLoop::run(ReadyProgram&& program, Done done) {
@@ -68,12 +68,23 @@ void MachineLoop::change_values(ValuesTask::Change change, Done done) {
     add([this, change, done] { start(std::make_unique<ValuesTask>(change, shown(done)), done); }, done);
 }
 
-void MachineLoop::end_stream(const std::string& name) {
-    add(
-        [this, name] {
-            if (guard_.end_stream(name)) { jog_.release(); }
-        },
-        [](Outcome&&) {});  // the jog then runs out
+void MachineLoop::take_lease(Done done) {
+    add([this, done] { start(std::make_unique<LeaseTask>(true, shown(done)), done); }, done);
+}
+
+void MachineLoop::give_lease(Done done) {
+    const auto give = [this, done] {
+        lease_.give();
+        start(std::make_unique<LeaseTask>(false, shown(done)), done);
+    };
+    add(give, done);
+}
+
+void MachineLoop::begin_stream(bool may_operate) { operators_ += may_operate ? 1 : 0; }
+
+void MachineLoop::end_stream(const std::string& name, bool may_operate) {
+    operators_ -= may_operate ? 1 : 0;
+    add([this, name] { jog_.end_stream(name); }, [](Outcome&&) {});  // a jog then runs out
 }
 
 std::shared_ptr<const Snapshot> MachineLoop::snapshot() const {
@@ -83,12 +94,17 @@ std::shared_ptr<const Snapshot> MachineLoop::snapshot() const {
 
 void MachineLoop::work(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-        const bool is_busy = guard_.is_pressed() || !tasks_.empty();
+        const bool is_busy = jog_.is_pressed() || !tasks_.is_empty();
         jog_.pass(monotonic_now() + (is_busy ? kBusyLoop : kLoop));
         note_healths();
         take_actions();
-        follow_jog();
-        poll_tasks();
+        lease_.pass({.wants = jog_.is_pressed() || tasks_.wants_lease(),
+                     .takes_over = tasks_.takes_lease(),
+                     .has_work = has_work(),
+                     .is_watched = operators_ > 0},
+                    monotonic_now());
+        jog_.follow(lease_, monotonic_now());
+        tasks_.poll(session_, lease_, monotonic_now());
         if (monotonic_now() - published_ < kPublishPeriod) { continue; }
         published_ = monotonic_now();
         show();
@@ -96,6 +112,7 @@ void MachineLoop::work(const std::stop_token& stop) {
     }
     jog_.release();
     jog_.pass(monotonic_now() + kLoop);
+    lease_.end();
 }
 
 void MachineLoop::show() {
@@ -120,54 +137,30 @@ void MachineLoop::take_actions() {
     for (const Action& action : actions) { action(); }
 }
 
+bool MachineLoop::is_own_job() const {
+    return job_ && !session_.is_silent() && session_.state()->state.job == job_->number &&
+           !session_.state()->state.outcome;
+}
+
+/// A job that is held waits for a person, who may be another.
+bool MachineLoop::has_work() const {
+    const bool is_paused = session_.state() && session_.state()->state.phase == MachinePhase::Paused;
+    return jog_.is_pressed() || !tasks_.is_empty() || (is_own_job() && !is_paused);
+}
+
 /// A program that is being sent, by a task or while it runs, is not replaced by another.
 bool MachineLoop::is_sending() const {
-    for (const auto& task : tasks_) {
-        if (task->sends()) { return true; }
-    }
+    if (tasks_.sends()) { return true; }
     const ProgramSender* sender = session_.sender();
-    const bool is_open = sender != nullptr && !sender->is_done() && !sender->refusal();
-    return is_open && job_ && !session_.is_silent() && session_.state()->state.job == job_->number &&
-           !session_.state()->state.outcome;
+    return sender != nullptr && !sender->is_done() && !sender->refusal() && is_own_job();
 }
 
 void MachineLoop::start(std::unique_ptr<Task> task, const Done& done) {
     if (task->sends() && is_sending()) {
         return done(std::unexpected(refused(FaultCode::Busy, "this server is sending a program")));
     }
-    if (tasks_.size() >= kMostTasks) { return done(std::unexpected(too_many())); }
-    if (!task->poll(session_, monotonic_now())) { tasks_.push_back(std::move(task)); }
-}
-
-void MachineLoop::poll_tasks() {
-    auto tasks = std::exchange(tasks_, {});
-    for (auto& task : tasks) {
-        if (!task->poll(session_, monotonic_now())) { tasks_.push_back(std::move(task)); }
-    }
-}
-
-void MachineLoop::take_jog(const JogOrder& order, const Done& done) {
-    if (auto taken = guard_.take(order, monotonic_now()); !taken) { return done(std::unexpected(taken.error())); }
-    if (order.jogs.empty()) {
-        if (!guard_.is_pressed()) { jog_.release(); }
-        return done(Accepted{.jogging = false});
-    }
-    jog_.press(order.jogs);
-    jogs_waiting_.push_back(done);
-}
-
-/// Answers the renewals that the coordinator has answered, and ends the jog that nobody renews.
-void MachineLoop::follow_jog() {
-    if (guard_.runs_out(monotonic_now())) { jog_.release(); }
-    const Reply* reply = jog_.reply();
-    const bool is_refused = jog_.is_pressed() && reply != nullptr && reply->status == ReplyStatus::Refused;
-    Outcome outcome = Accepted{.jogging = jog_.is_pressed() && !jog_.is_over()};
-    if (is_refused) { outcome = std::unexpected(refused(static_cast<FaultCode>(reply->fault), reply->text)); }
-    if (jog_.is_pressed() && reply == nullptr) { return; }
-    for (const Done& done : std::exchange(jogs_waiting_, {})) { done(Outcome(outcome)); }
-    if (!is_refused) { return; }
-    guard_.end();
-    jog_.release();
+    if (tasks_.is_full()) { return done(std::unexpected(too_many())); }
+    tasks_.add(std::move(task), monotonic_now());
 }
 
 void MachineLoop::note_healths() {
@@ -191,6 +184,7 @@ Snapshot MachineLoop::taken() const {
     }
     snapshot.values = session_.newest_values();
     snapshot.job = job_;
+    snapshot.writer = lease_.writer();
     return snapshot;
 }
 

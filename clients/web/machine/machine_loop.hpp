@@ -1,5 +1,5 @@
 // The machine beside the server: a thread with a session, which carries out what the server's thread hands over, renews
-// jogs, and publishes the state.
+// jogs and the lease, and publishes the state.
 #pragma once
 
 #include <atomic>
@@ -9,13 +9,12 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
-#include "clients/session/control/jog_link.hpp"
-#include "clients/web/machine/jog_guard.hpp"
+#include "clients/web/machine/jog_turn.hpp"
 #include "clients/web/machine/port.hpp"
-#include "clients/web/machine/task.hpp"
+#include "clients/web/machine/session_lease.hpp"
+#include "clients/web/machine/task_queue.hpp"
 
 namespace lockstep::web {
 
@@ -24,15 +23,18 @@ public:
     static constexpr std::chrono::milliseconds kPublishPeriod{100};
     using Publish = std::function<void(const std::shared_ptr<const Snapshot>& snapshot)>;
 
-    /// Calls `publish` in its thread, ten times a second.
-    MachineLoop(Session session, Publish publish);
+    /// Calls `publish` in its thread, ten times a second. `writer`: the name of this server as a writer.
+    MachineLoop(Session session, const std::string& writer, Publish publish);
     ~MachineLoop() override;
 
     void command(const Command& command, Done done) override;
     void jog(const JogOrder& order, Done done) override;
     void run(ReadyProgram&& program, Done done) override;
     void change_values(ValuesTask::Change change, Done done) override;
-    void end_stream(const std::string& name) override;
+    void take_lease(Done done) override;
+    void give_lease(Done done) override;
+    void begin_stream(bool may_operate) override;
+    void end_stream(const std::string& name, bool may_operate) override;
     std::shared_ptr<const Snapshot> snapshot() const override;
 
 private:
@@ -43,10 +45,9 @@ private:
     void take_actions();
     void start(std::unique_ptr<Task> task, const Done& done);
     bool is_sending() const;
-    void poll_tasks();
-
-    void take_jog(const JogOrder& order, const Done& done);
-    void follow_jog();
+    /// A command, a jog or a job of this server is under way.
+    bool has_work() const;
+    bool is_own_job() const;
 
     void note_healths();
     void show();
@@ -55,11 +56,11 @@ private:
     Snapshot taken() const;
 
     Session session_;
-    JogLink jog_;
+    SessionLease lease_;
+    JogTurn jog_;
     Publish publish_;
-    JogGuard guard_;
-    std::vector<Done> jogs_waiting_;  // for the coordinator's answer to the jog
-    std::vector<std::unique_ptr<Task>> tasks_;
+    TaskQueue tasks_;
+    std::atomic<int> operators_ = 0;  // open event streams of those who may command
     std::vector<std::optional<Seen<AxisHealth>>> healths_;
     std::optional<OwnJob> job_;
     std::chrono::nanoseconds published_{};

@@ -1,5 +1,7 @@
 #include "clients/web/machine/task.hpp"
 
+#include "core/protocol/needs_lease.hpp"
+
 namespace lockstep::web {
 namespace {
 
@@ -11,8 +13,6 @@ constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that plans a large 
 constexpr nanoseconds kDiskPatience = 15s;
 constexpr nanoseconds kRepeatAfter = 250ms;
 constexpr nanoseconds kRepeatStopAfter = 20ms;  // an emergency stop
-
-std::string silence_of(const Session& session) { return session.silent().errors.front().message; }
 
 Outcome outcome_of(const Reply& reply) {
     if (reply.status == ReplyStatus::Refused) {
@@ -34,6 +34,24 @@ Problem refused_program(const Reply& reply) { return refused(static_cast<FaultCo
 
 }  // namespace
 
+std::string silence_of(const Session& session) { return session.silent().errors.front().message; }
+
+bool Task::end(Outcome&& outcome) {
+    done_(std::move(outcome));
+    return true;
+}
+
+bool LeaseTask::poll(Session& session, nanoseconds now) {
+    if (!begun_) { begun_ = now; }
+    const HeldLease* lease = session.writer();
+    const bool is_writer = lease != nullptr && lease->writer.id == session.writer_id();
+    if (is_writer == takes_ && !session.is_silent()) { return end(Accepted{}); }
+    return now - *begun_ > kPatience && end(std::unexpected(unanswered(silence_of(session))));
+}
+
+CommandTask::CommandTask(const Command& command, Done done)
+    : Task(needs_lease(command) ? Lease::Needed : Lease::NotNeeded, std::move(done)), command_(command) {}
+
 bool CommandTask::poll(Session& session, nanoseconds now) {
     if (!begun_) {
         session.begin(command_);
@@ -43,12 +61,10 @@ bool CommandTask::poll(Session& session, nanoseconds now) {
     if (const Reply* reply = session.reply_to(command_)) {
         Outcome outcome = outcome_of(*reply);
         if (outcome && !begins_job(command_.kind)) { outcome->job.reset(); }
-        done_(std::move(outcome));
-        return true;
+        return end(std::move(outcome));
     }
     if (now - *begun_ > (command_.program == 0 ? kPatience : kPlanPatience)) {
-        done_(std::unexpected(unanswered(silence_of(session))));
-        return true;
+        return end(std::unexpected(unanswered(silence_of(session))));
     }
     const bool is_stop = command_.kind == CommandKind::EmergencyStop;
     if (now - repeated_ >= (is_stop ? kRepeatStopAfter : kRepeatAfter)) {
@@ -66,27 +82,18 @@ bool RunTask::poll(Session& session, nanoseconds now) {
         return false;
     }
     const ProgramSender& sender = *session.sender();
-    if (sender.refusal()) {
-        done_(std::unexpected(refused_program(*sender.refusal())));
-        return true;
-    }
+    if (sender.refusal()) { return end(std::unexpected(refused_program(*sender.refusal()))); }
     const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
     if (is_planned_whole ? sender.is_done() : sender.parts_taken() > 0) {
-        const auto done = [begun = begun_, done = done_](Outcome&& outcome) {
-            if (outcome && outcome->job) { begun(*outcome->job); }
-            done(std::move(outcome));
+        const auto done = [this](Outcome&& outcome) {
+            if (outcome && outcome->job) { begun_(*outcome->job); }
+            end(std::move(outcome));
         };
         command_ = std::make_unique<CommandTask>(Command{.kind = CommandKind::Run, .program = id_}, done);
         return false;
     }
     if (now - *sent_ <= (is_planned_whole ? kPlanPatience : kPatience)) { return false; }
-    done_(std::unexpected(unanswered(silence_of(session))));
-    return true;
-}
-
-bool ValuesTask::end(Outcome&& outcome) {
-    done_(std::move(outcome));
-    return true;
+    return end(std::unexpected(unanswered(silence_of(session))));
 }
 
 bool ValuesTask::begin(Session& session, nanoseconds now) {

@@ -14,22 +14,44 @@ namespace lockstep::web {
 
 class Task {
 public:
+    /// Of a task before it begins. Taken: also from another writer.
+    enum class Lease : std::uint8_t { NotNeeded, Needed, Taken };
+
+    Task(Lease lease, Done done) : lease_(lease), done_(std::move(done)) {}
     virtual ~Task() = default;
     /// True: it is over and was answered.
     virtual bool poll(Session& session, std::chrono::nanoseconds now) = 0;
     /// It uses the session's one sender of programs.
     virtual bool sends() const { return false; }
+
+    Lease lease() const { return lease_; }
+    /// Answers it. Returns true.
+    bool end(Outcome&& outcome);
+
+private:
+    Lease lease_;
+    Done done_;
+};
+
+/// Waits until the machine names this server as its writer, or as its writer no more.
+class LeaseTask : public Task {
+public:
+    LeaseTask(bool takes, Done done) : Task(takes ? Lease::Taken : Lease::NotNeeded, std::move(done)), takes_(takes) {}
+    bool poll(Session& session, std::chrono::nanoseconds now) override;
+
+private:
+    bool takes_;
+    std::optional<std::chrono::nanoseconds> begun_;
 };
 
 /// A command, repeated until the coordinator answers.
 class CommandTask : public Task {
 public:
-    CommandTask(const Command& command, Done done) : command_(command), done_(std::move(done)) {}
+    CommandTask(const Command& command, Done done);
     bool poll(Session& session, std::chrono::nanoseconds now) override;
 
 private:
     Command command_;
-    Done done_;
     std::optional<std::chrono::nanoseconds> begun_;
     std::chrono::nanoseconds repeated_{};
 };
@@ -39,14 +61,13 @@ class RunTask : public Task {
 public:
     using Begun = std::function<void(std::uint64_t job)>;
     RunTask(ReadyProgram&& program, Begun begun, Done done)
-        : program_(std::move(program)), begun_(std::move(begun)), done_(std::move(done)) {}
+        : Task(Lease::Needed, std::move(done)), program_(std::move(program)), begun_(std::move(begun)) {}
     bool poll(Session& session, std::chrono::nanoseconds now) override;
     bool sends() const override { return true; }
 
 private:
     ReadyProgram program_;
     Begun begun_;
-    Done done_;
     std::optional<std::chrono::nanoseconds> sent_;
     std::uint64_t id_ = 0;
     std::unique_ptr<CommandTask> command_;
@@ -56,18 +77,19 @@ private:
 class ValuesTask : public Task {
 public:
     using Change = std::function<std::expected<gcode::KeptValues, Problem>(const gcode::KeptValues& values)>;
-    ValuesTask(Change change, Done done) : change_(std::move(change)), done_(std::move(done)) {}
+    ValuesTask(Change change, Done done) : Task(Lease::Needed, std::move(done)), change_(std::move(change)) {}
     bool poll(Session& session, std::chrono::nanoseconds now) override;
     bool sends() const override { return true; }
 
 private:
     bool begin(Session& session, std::chrono::nanoseconds now);
-    bool end(Outcome&& outcome);
 
     Change change_;
-    Done done_;
     std::optional<std::chrono::nanoseconds> sent_;
     std::uint64_t revision_ = 0;  // of the change
 };
+
+/// Why a command has no answer.
+std::string silence_of(const Session& session);
 
 }  // namespace lockstep::web

@@ -34,6 +34,12 @@ std::optional<Order> plain(const Json& body, const MachineConfig&, std::optional
     return Command{.kind = kind};
 }
 
+template <bool takes>
+std::optional<Order> lease(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    BodyReader(body, "", problem).finish();
+    return LeaseOrder{takes};
+}
+
 std::optional<Order> home(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
     BodyReader reader(body, "", problem);
     Command command{.kind = CommandKind::Home};
@@ -194,6 +200,8 @@ const std::vector<std::pair<std::string, Read>>& readers() {
         {"touch", touch},
         {"offset", offset},
         {"tool", tool},
+        {"take", lease<true>},
+        {"give", lease<false>},
     };
     return kReaders;
 }

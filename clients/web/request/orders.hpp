@@ -55,7 +55,12 @@ struct ToolOrder {
     std::optional<double> diameter;
 };
 
-using Order = std::variant<Command, JogOrder, RunOrder, MdiOrder, TouchOrder, OffsetOrder, ToolOrder>;
+/// Of the writer's lease.
+struct LeaseOrder {
+    bool takes = false;  // also from another writer; false: gives it back
+};
+
+using Order = std::variant<Command, JogOrder, RunOrder, MdiOrder, TouchOrder, OffsetOrder, ToolOrder, LeaseOrder>;
 
 /// In the order of openapi.yaml.
 const std::vector<std::string>& verbs();

@@ -13,11 +13,16 @@ void add_text(Json& json, const char* name, const std::string& text) {
 
 Problem refused(FaultCode fault, const std::string& text) {
     const FaultText* known = find_fault(fault);
+    const bool is_held = fault == FaultCode::WriterHeld;
     return {.status = 409,
             .code = std::string(name_of(fault)),
             .title = known == nullptr ? "the machine refuses the command" : std::string(known->cause),
             .detail = text.empty() && known != nullptr ? std::string(known->cause) : text,
-            .remedy = known == nullptr ? "" : remedy_text(*known),
+            .limit = is_held ? "one writer at a time; hold, stop and estop are everybody's" : "",
+            .remedy = is_held            ? "wait until the writer gives the machine back; or take it over: POST "
+                                           "/api/commands/take"
+                      : known == nullptr ? ""
+                                         : remedy_text(*known),
             .fault = fault};
 }
 

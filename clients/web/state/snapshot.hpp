@@ -49,6 +49,14 @@ struct OwnJob {
     std::shared_ptr<const ProgramFacts> program;
 };
 
+/// Who gives the machine its commands.
+struct Writer {
+    std::string name;
+    std::string host;
+    std::chrono::system_clock::time_point since;
+    bool is_this_server = false;
+};
+
 struct Snapshot {
     nanoseconds time{};  // when it was taken
     std::optional<Seen<MachineState>> machine;
@@ -58,6 +66,7 @@ struct Snapshot {
     std::vector<AxisSnapshot> axes;  // as in the configuration
     std::optional<RevisedValues> values;
     std::optional<OwnJob> job;
+    std::optional<Writer> writer;
 };
 
 }  // namespace lockstep::web

@@ -4,6 +4,7 @@
 
 #include "clients/web/state/alarm_list.hpp"
 #include "clients/web/state/axis_document.hpp"
+#include "clients/web/state/writer_document.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/protocol/names.hpp"
 
@@ -146,7 +147,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"offsets", offsets_json(snapshot, machine)},
             {"tools", tools_json(snapshot, machine)},
             {"outputs", json::object()},
-            {"writer", nullptr},
+            {"writer", snapshot.writer ? writer_json(*snapshot.writer) : json()},
             {"viewers", viewers}};
 }
 

@@ -5,6 +5,19 @@ import socket
 import time
 
 
+def expect(is_so, what):
+    if not is_so:
+        raise AssertionError(what)
+
+
+def refused(answer, status, code):
+    """Returns the problem."""
+    problem = answer.json()
+    expect(answer.status == status and problem["code"] == code, f"{status} {code} awaited: {answer.status} {problem}")
+    expect(problem["detail"] and answer.headers["content-type"] == "application/problem+json", problem)
+    return problem
+
+
 class Answer:
     def __init__(self, response):
         self.status = response.status

@@ -8,6 +8,8 @@ import subprocess
 import sys
 import tempfile
 
+from client import Client
+
 
 def own_network():
     """Runs this program again in a network of its own, where that is permitted."""
@@ -46,6 +48,12 @@ class Machine:
                          for _ in range(2))
         self.port = int(operate[1])
         self.tokens = {"operate": operate[2], "view": view[2]}
+
+    def operator(self):
+        """A client that may operate, once the machine is ready."""
+        client = Client(self.port, self.tokens["operate"])
+        client.await_state(lambda s: s["mode"] == "Idle" and s["offsets"])
+        return client
 
     def end_server(self):
         self.server.send_signal(signal.SIGTERM)

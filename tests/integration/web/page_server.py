@@ -9,22 +9,11 @@ import threading
 import time
 
 sys.dont_write_bytecode = True
-from client import Client, Events  # noqa: E402
+from client import Events, expect, refused  # noqa: E402
 from machine import Machine, own_network  # noqa: E402
 
 PROGRAM = "G21 G90\nG1 X40 Y30 F1500\nG1 X60 Y20\nG0 X10 Y10\nM2\n"
 LONG = "G21 G90\n" + "G1 X100 F600\nG1 X10\n" * 20 + "M2\n"
-
-
-def expect(is_so, what):
-    if not is_so:
-        raise AssertionError(what)
-
-
-def refused(answer, status, code):
-    problem = answer.json()
-    expect(answer.status == status and problem["code"] == code, f"{status} {code} awaited: {answer.status} {problem}")
-    expect(problem["detail"] and answer.headers["content-type"] == "application/problem+json", problem)
 
 
 def check_session(client, tokens):
@@ -225,8 +214,7 @@ def main():
     own_network()
     with Machine(*sys.argv[1:]) as machine:
         machine.serve()
-        client = Client(machine.port, machine.tokens["operate"])
-        client.await_state(lambda s: s["mode"] == "Idle" and s["offsets"])
+        client = machine.operator()
         for check in (lambda c: check_session(c, machine.tokens), check_headers, check_bad_input, check_replay, check_motion,
                       check_hold, check_values, check_jog, check_stop, check_viewers, lambda c: check_loss(machine, c)):
             begin = time.monotonic()

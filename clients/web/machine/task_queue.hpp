@@ -1,0 +1,41 @@
+// The tasks that are not over, in the machine's thread. One that needs the lease begins when the lease is held.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "clients/web/machine/session_lease.hpp"
+#include "clients/web/machine/task.hpp"
+
+namespace lockstep::web {
+
+class TaskQueue {
+public:
+    static constexpr std::size_t kMost = 64;
+
+    bool is_full() const { return tasks_.size() >= kMost; }
+    bool is_empty() const { return tasks_.empty(); }
+    void add(std::unique_ptr<Task> task, nanoseconds now) { tasks_.push_back({std::move(task), now}); }
+    void poll(Session& session, const SessionLease& lease, nanoseconds now);
+
+    /// One uses the session's one sender of programs.
+    bool sends() const;
+    /// One waits for the lease.
+    bool wants_lease() const;
+    /// Also from another writer.
+    bool takes_lease() const;
+
+private:
+    struct Entry {
+        std::unique_ptr<Task> task;
+        nanoseconds added;
+        bool has_begun = false;
+    };
+    /// True: it is over.
+    static bool poll(Entry& entry, Session& session, const SessionLease& lease, nanoseconds now);
+    bool any_waits(Task::Lease least) const;
+
+    std::vector<Entry> tasks_;
+};
+
+}  // namespace lockstep::web

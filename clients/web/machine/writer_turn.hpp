@@ -1,0 +1,50 @@
+// When a server asks for the writer's lease, and when it gives it back. Pure: the caller sends, and gives the time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep::web {
+
+class WriterTurn {
+public:
+    using Time = std::chrono::nanoseconds;
+    static constexpr std::chrono::seconds kGiveAfter{2};          // without work, and nobody could give any
+    static constexpr std::chrono::seconds kGiveAfterWatched{60};  // without work, while a page that operates is open
+    enum class Send : std::uint8_t { Nothing, Ask, TakeOver, Give };
+
+    struct Lease {
+        bool is_held = false;
+        const Reply* answer = nullptr;  // to what was sent last; null: none has come yet
+    };
+    struct Use {
+        bool wants = false;       // a command waits for the lease
+        bool takes_over = false;  // one of them takes it from another writer, too
+        bool has_work = false;    // a command, a jog or a job of this server is under way
+        bool is_watched = false;  // a page that may operate is open
+    };
+
+    /// In each loop: what to send now.
+    Send pass(const Lease& lease, const Use& use, Time now);
+    /// With the next pass.
+    void give() { gives_ = true; }
+
+    bool is_held() const { return state_ == State::Held; }
+    /// Whether what waits for the lease is refused in this loop.
+    bool is_refused(bool takes_over) const { return state_ == State::Refused && takes_over_ >= takes_over; }
+
+private:
+    enum class State : std::uint8_t { Free, Asked, Held, Refused };
+    void note(const Lease& lease);
+    Send ask(bool takes_over);
+    bool is_over(const Use& use, Time now) const;
+
+    State state_ = State::Free;
+    bool takes_over_ = false;  // what was asked
+    bool gives_ = false;
+    Time used_{};
+};
+
+}  // namespace lockstep::web

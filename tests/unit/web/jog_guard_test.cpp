@@ -1,0 +1,85 @@
+// The dead man of jogs.
+#include "clients/web/machine/jog_guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include "clients/web/state/limits.hpp"
+
+namespace lockstep::web {
+namespace {
+
+using namespace std::chrono_literals;
+using Press = JogGuard::Press;
+
+JogOrder press(const std::string& stream, std::uint64_t number) {
+    return {.jogs = {{.axis = 0, .speed_mm_s = 5}}, .stream = stream, .press = number};
+}
+
+JogOrder release(const std::string& stream, std::uint64_t number) {
+    return {.jogs = {}, .stream = stream, .press = number};
+}
+
+std::string refusal(const std::expected<Press, Problem>& taken) { return taken ? "" : taken.error().code; }
+
+TEST(JogGuard, AJogLastsAsLongAsItIsRenewed) {
+    JogGuard guard;
+    EXPECT_EQ(guard.take(press("a", 1), 0ms), Press::New);
+    EXPECT_EQ(guard.take(press("a", 1), 100ms), Press::Renewed);
+    EXPECT_FALSE(guard.runs_out(100ms + kJogLife - 1ns));
+    EXPECT_TRUE(guard.runs_out(100ms + kJogLife));
+    EXPECT_FALSE(guard.runs_out(1s)) << "once";
+    EXPECT_FALSE(guard.is_pressed());
+}
+
+TEST(JogGuard, ALateRenewalStartsNothing) {
+    JogGuard guard;
+    (void)guard.take(press("a", 3), 0ms);
+    (void)guard.runs_out(1s);
+    EXPECT_EQ(refusal(guard.take(press("a", 3), 1s)), "jog-over");
+    EXPECT_EQ(refusal(guard.take(press("a", 2), 1s)), "jog-over");
+    EXPECT_EQ(guard.take(press("a", 4), 1s), Press::New);
+}
+
+TEST(JogGuard, ANewPressOfTheSameKeyIsNoRenewal) {
+    JogGuard guard;
+    (void)guard.take(press("a", 1), 0ms);
+    EXPECT_EQ(guard.take(press("a", 2), 50ms), Press::New) << "the machine may have ended the press before by itself";
+}
+
+TEST(JogGuard, AReleaseEndsThePressAlsoWhenItComesFirst) {
+    JogGuard guard;
+    EXPECT_EQ(guard.take(release("a", 5), 0ms), Press::Released);
+    EXPECT_EQ(refusal(guard.take(press("a", 5), 1ms)), "jog-over");
+}
+
+TEST(JogGuard, OneClientJogsAtATime) {
+    JogGuard guard;
+    (void)guard.take(press("a", 1), 0ms);
+    EXPECT_EQ(refusal(guard.take(press("b", 1), 1ms)), "busy");
+    EXPECT_EQ(guard.take(release("b", 1), 2ms), Press::Released);
+    EXPECT_TRUE(guard.is_pressed()) << "another's release changes nothing";
+    (void)guard.take(release("a", 1), 3ms);
+    EXPECT_EQ(guard.take(press("b", 2), 4ms), Press::New);
+}
+
+TEST(JogGuard, AJogEndsWithItsEventStream) {
+    JogGuard guard;
+    (void)guard.take(press("a", 1), 0ms);
+    EXPECT_FALSE(guard.end_stream("b"));
+    EXPECT_FALSE(guard.end_stream(""));
+    EXPECT_TRUE(guard.end_stream("a"));
+    EXPECT_EQ(refusal(guard.take(press("a", 1), 1ms)), "jog-over");
+}
+
+TEST(JogGuard, ForgetsTheOldestClientsFirst) {
+    JogGuard guard;
+    for (int i = 0; i < 300; ++i) {
+        (void)guard.take(press(std::to_string(i), 1), 0ms);
+        guard.end();
+    }
+    EXPECT_EQ(refusal(guard.take(press("299", 1), 1ms)), "jog-over");
+    EXPECT_EQ(guard.take(press("0", 1), 1ms), Press::New) << "bounded memory";
+}
+
+}  // namespace
+}  // namespace lockstep::web
