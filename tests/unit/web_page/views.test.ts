@@ -3,6 +3,8 @@ import type { Offsets } from "../../../clients/web/page/src/api/contract";
 import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
+import { timeOfDay } from "../../../clients/web/page/src/format/times";
+import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { workPlace } from "../../../clients/web/page/src/views/axis_places";
 import { shortcutVerb } from "../../../clients/web/page/src/views/shortcuts";
 
@@ -52,6 +54,23 @@ describe("the trace of a chart", () => {
     const trace = new Trace(2, 4);
     trace.add(1, [1, null]);
     expect(trace.since(1, 5)).toEqual([[0], [1], [null]]);
+  });
+});
+
+describe("another writer", () => {
+  const writer = { name: "anna", host: "bench", since: "2026-03-01T12:00:00Z", is_this_server: false };
+
+  test("is named to those who may take the machine over", () => {
+    expect(otherWriter({ mode: "Idle", writer }, "operate")).toEqual(writer);
+    expect(otherWriter({ mode: "Idle", writer }, "view")).toBeUndefined();
+    expect(otherWriter({ mode: "Idle", writer: { ...writer, is_this_server: true } }, "operate")).toBeUndefined();
+    expect(otherWriter({ mode: "Unreachable", writer }, "operate")).toBeUndefined();
+    expect(otherWriter({ mode: "Idle", writer: null }, "operate")).toBeUndefined();
+  });
+
+  test("has had the machine since a time of the day", () => {
+    expect(timeOfDay("2026-03-01T12:05:00")).toBe("12:05");
+    expect(timeOfDay("never")).toBe("–");
   });
 });
 

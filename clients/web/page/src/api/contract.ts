@@ -138,6 +138,13 @@ export interface Tool {
   diameter?: Maybe<number>;
 }
 
+export interface Writer {
+  name: string;
+  host: string;
+  since: string;
+  is_this_server: boolean;
+}
+
 export interface State {
   machine: string;
   mode: Mode;
@@ -151,7 +158,7 @@ export interface State {
   offsets?: Maybe<Offsets>;
   tools?: Maybe<Record<string, Tool>>;
   outputs?: Maybe<Record<string, unknown>>;
-  writer?: Maybe<{ name: string; is_this_server: boolean }>;
+  writer?: Maybe<Writer>;
   viewers: number;
 }
 

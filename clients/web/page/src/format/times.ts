@@ -10,6 +10,13 @@ export function duration(seconds: number | undefined | null): string {
   return h > 0 ? `${h}:${two(m)}:${s}` : `${m}:${s}`;
 }
 
+/** 14:05, in this browser's time zone, of a time in ISO 8601. */
+export function timeOfDay(time: string): string {
+  const date = new Date(time);
+  const two = (n: number) => String(n).padStart(2, "0");
+  return Number.isNaN(date.getTime()) ? MISSING : `${two(date.getHours())}:${two(date.getMinutes())}`;
+}
+
 /** An age in the coarsest unit that still says something: 80 ms, 1.4 s, 12 s, 3 min, 2 h. */
 export function age(milliseconds: number | undefined | null): string {
   if (milliseconds === undefined || milliseconds === null) return MISSING;

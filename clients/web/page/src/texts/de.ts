@@ -19,6 +19,10 @@ export const de: Texts = {
     standby: "Eine Ersatzsteuerung steht bereit", viewers: "{count} sehen zu", writer: "Befehle: {name}",
     writerHere: "Befehle: der Server dieser Seite", viewOnly: "Nur ansehen",
   },
+  writer: {
+    other: "Seit {time} gibt {name} auf {host} der Maschine die Befehle. Anhalten und stoppen kannst du sie.",
+    take: "Übernehmen",
+  },
   mode: {
     Unreachable: "Nicht erreichbar", Waiting: "Wartet auf Achsen", Idle: "Bereit", Homing: "Referenzfahrt", Running: "Läuft",
     Holding: "Hält an", Paused: "Angehalten", Stopping: "Stoppt", Fault: "Fehler", Jogging: "Handfahrt",

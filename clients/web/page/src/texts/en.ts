@@ -18,6 +18,10 @@ export const en = {
     standby: "A standby coordinator is ready", viewers: "{count} viewing", writer: "Commands: {name}",
     writerHere: "Commands: this page's server", viewOnly: "View only",
   },
+  writer: {
+    other: "{name} on {host} has been the machine's writer since {time}. You can hold and stop the machine.",
+    take: "Take over",
+  },
   mode: {
     Unreachable: "Unreachable", Waiting: "Waiting for axes", Idle: "Idle", Homing: "Homing", Running: "Running",
     Holding: "Holding", Paused: "Held", Stopping: "Stopping", Fault: "Fault", Jogging: "Jogging",

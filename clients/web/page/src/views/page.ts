@@ -22,6 +22,7 @@ import { Strip } from "./strip";
 import { Tabs } from "./tabs";
 import { ToolsTab } from "./tools_tab";
 import type { Model, View } from "./view";
+import { WriterBanner } from "./writer_banner";
 
 export class Page {
   readonly give: Give;
@@ -34,7 +35,7 @@ export class Page {
     const keys = keysDialog();
     const safety = new SafetyBar(this.give);
     const header = new Header(() => keys.showModal(), safety.element);
-    const [banner, alarms] = [new LinkBanner(), new Alarms()];
+    const [banner, writer, alarms] = [new LinkBanner(), new WriterBanner(this.give), new Alarms()];
     const [axes, jog] = [new Axes(machine, this.give), new JogPad(machine, stream, report)];
     const [path, strip] = [new PathView(machine), new Strip(machine)];
     const [job, overrides] = [new JobCard(this.give), new Overrides(machine, this.give)];
@@ -45,11 +46,11 @@ export class Page {
       { id: "offsets", title: t.offsets.title, content: offsets.element }, { id: "tools", title: t.tools.title, content: tools.element },
       { id: "reports", title: t.reports.title, content: reports.element },
     ]);
-    this.views = [header, safety, banner, alarms, axes, jog, path, strip, job, overrides, program, mdi, offsets, tools, reports];
+    this.views = [header, safety, banner, writer, alarms, axes, jog, path, strip, job, overrides, program, mdi, offsets, tools, reports];
     place.replaceChildren(
       h("a", { class: "skip", href: "#main" }, t.page.skip), header.element,
       h("main", { id: "main", tabindex: -1 },
-        h("div", { class: "top" }, banner.element, alarms.element),
+        h("div", { class: "top" }, banner.element, writer.element, alarms.element),
         h("div", { class: "left" }, axes.element, jog.element),
         h("div", { class: "middle" }, path.element, strip.element),
         h("div", { class: "right" }, h("div", { class: "job-area" }, job.element, overrides.element), tabs.element)),
