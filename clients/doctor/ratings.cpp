@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/protocol/frame_room.hpp"
-#include "services/documents/timing_edit.hpp"
+#include "services/documents/edit/timing_edit.hpp"
 
 namespace lockstep::doctor {
 namespace {

@@ -39,6 +39,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_verify(app, action);
     add_log(app, action);
     add_machine(app, action);
+    add_config(app, action);
     add_export(app, action);
     add_replay(app, action);
     add_compare(app, action);

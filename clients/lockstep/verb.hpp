@@ -21,6 +21,7 @@ void add_analyze(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_log(CLI::App& app, Action& action);      // merge
 void add_machine(CLI::App& app, Action& action);  // check
+void add_config(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);

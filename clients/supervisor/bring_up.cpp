@@ -86,6 +86,9 @@ std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDire
     if (auto written = state.write_machine_file(machine_text(machine.config)); !written) {
         return std::unexpected(failed(written.error()));
     }
+    if (auto written = state.write_source(machine.source, machine.settings); !written) {
+        return std::unexpected(failed(written.error()));
+    }
     return {};
 }
 
@@ -170,6 +173,7 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
     const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }
     if (auto claimed = claim(machine, state); !claimed) { return std::unexpected(claimed.error()); }
+    if (!machine.settings.empty()) { output.print(settings_notice(machine.settings) + "; see: lockstep config"); }
     route_multicast(machine.config.network, output);
     warn_of_directories(machine.config, placed, output);
     return OwnParts{placed, lines};
@@ -177,6 +181,8 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
 
 void supervise(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
     (void)open_log({kSupervisor, ""});  // to standard error, which cannot fail
+    const auto settings = read_settings(state.settings_in_force());
+    if (settings && !settings->empty()) { log_info(settings_notice(*settings)); }
     Supervisor(state, lines).run();
 }
 

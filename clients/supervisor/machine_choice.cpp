@@ -24,6 +24,23 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
     return std::unexpected(bad_input("several machines are up on this host (" + names + "); " + kHow));
 }
 
+std::expected<ChosenMachine, Failure> read_machine(const std::filesystem::path& file) {
+    const auto alone = load_machine_file(file);
+    if (!alone) { return std::unexpected(bad_file(file.string(), alone.error())); }
+    const StateDirectory state(alone->name);
+    if (file == state.machine_file()) {
+        const auto settings = read_settings(state.settings_in_force());
+        return ChosenMachine{file, *alone, config_hash(*alone), state.source(), settings.value_or(KeptSettings{})};
+    }
+    std::error_code error;
+    const std::filesystem::path source = std::filesystem::weakly_canonical(file, error);
+    const bool is_up = state.source() == source && !state.running().empty();
+    auto loaded = load_machine(file, is_up ? state.settings_in_force() : settings_file(file));
+    if (!loaded) { return std::unexpected(bad_file(file.string(), loaded.error())); }
+    const std::uint64_t hash = config_hash(loaded->config);
+    return ChosenMachine{file, std::move(loaded->config), hash, source, std::move(loaded->settings)};
+}
+
 std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) {
     std::vector<std::filesystem::path> up;
     for (const std::string& name : machines_up()) { up.push_back(StateDirectory(name).machine_file()); }
@@ -31,10 +48,7 @@ std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) 
     const bool is_installed = std::filesystem::exists(kInstalledMachine, error);
     auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up, is_installed ? kInstalledMachine : "");
     if (!file) { return std::unexpected(file.error()); }
-    auto config = load_machine_file(*file);
-    if (!config) { return std::unexpected(bad_file(file->string(), config.error())); }
-    const std::uint64_t hash = config_hash(*config);
-    return ChosenMachine{*file, *std::move(config), hash};
+    return read_machine(*file);
 }
 
 }  // namespace lockstep

@@ -21,6 +21,10 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
                                                           const std::vector<std::filesystem::path>& up,
                                                           const std::filesystem::path& installed = {});
 
+/// With the settings that senders have written: of a machine that is up on this host, those that were there when it was
+/// brought up. Error: everything that is wrong with its file.
+std::expected<ChosenMachine, Failure> read_machine(const std::filesystem::path& file);
+
 /// Error: no machine chosen, or everything that is wrong with its file.
 std::expected<ChosenMachine, Failure> choose_machine(const std::string& option);
 

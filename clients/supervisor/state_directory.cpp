@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kSource = "source";
+
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -56,6 +58,18 @@ std::expected<void, std::string> StateDirectory::write_machine_file(const std::s
     const auto written = replace_text_file(machine_file(), text);
     if (!written) { return std::unexpected(written.error() + "; is there space on its disk?"); }
     return {};
+}
+
+std::expected<void, std::string> StateDirectory::write_source(const fs::path& file,
+                                                              const KeptSettings& settings) const {
+    const auto written = replace_text_file(path_ / kSource, file.string() + "\n");
+    return written ? write_settings(settings_in_force(), settings) : written;
+}
+
+fs::path StateDirectory::source() const {
+    std::string text = text_of(path_ / kSource);
+    if (text.ends_with('\n')) { text.pop_back(); }
+    return text;
 }
 
 void StateDirectory::record(const std::vector<ProcessRecord>& processes) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clients/supervisor/process_record.hpp"
+#include "services/documents/edit/kept_settings.hpp"
 
 namespace lockstep {
 
@@ -31,6 +32,13 @@ public:
     void remove_logs() const;
     /// Error: the file and why.
     std::expected<void, std::string> write_machine_file(const std::string& text) const;
+
+    /// The file that the copy was made of, and the settings beside it at that time, which are in the copy.
+    std::expected<void, std::string> write_source(const std::filesystem::path& file,
+                                                  const KeptSettings& settings) const;
+    /// Empty: it is not known.
+    std::filesystem::path source() const;
+    std::filesystem::path settings_in_force() const { return path_ / "settings"; }
 
     /// Readers see the old records or the new, never a part.
     void record(const std::vector<ProcessRecord>& processes) const;

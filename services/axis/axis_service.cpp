@@ -12,6 +12,7 @@
 #include "services/axis/axis_notices.hpp"
 #include "services/axis/device_window.hpp"
 #include "services/axis/position_file.hpp"
+#include "services/documents/edit/kept_settings.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
@@ -272,19 +273,20 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
 }  // namespace
 
 int serve_axis(const AxisServiceOptions& options) {
-    const auto machine = load_machine_file(options.machine_file);
-    if (!machine) {
-        std::cerr << to_text(options.machine_file.string(), machine.error());
+    const auto loaded = load_machine(options.machine_file);
+    if (!loaded) {
+        std::cerr << to_text(options.machine_file.string(), loaded.error());
         return kServiceBadInput;
     }
-    const auto axis = axis_to_run(*machine, options.axis, host_name());
+    const MachineConfig& machine = loaded->config;
+    const auto axis = axis_to_run(machine, options.axis, host_name());
     if (!axis) {
         std::cerr << options.machine_file.string() << ": " << axis.error() << '\n';
         return kServiceBadInput;
     }
-    const AxisConfig& config = machine->axes[*axis];
+    const AxisConfig& config = machine.axes[*axis];
     const bool simulated = (options.fpga.empty() ? config.device : options.fpga) == "sim";
-    if (options.clock_error != ClockError{} && machine->timing.time_source != TimeSource::Network) {
+    if (options.clock_error != ClockError{} && machine.timing.time_source != TimeSource::Network) {
         std::cerr << "--clock-error: the machine's time_source is not NETWORK; nothing would correct the clock\n";
         return kServiceBadInput;
     }
@@ -300,7 +302,8 @@ int serve_axis(const AxisServiceOptions& options) {
         std::cerr << log.error() << '\n';
         return kServiceBadInput;
     }
-    return run(options, *machine, *axis);
+    if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
+    return run(options, machine, *axis);
 }
 
 }  // namespace lockstep

@@ -17,6 +17,7 @@
 #include "services/coordinator/file_rows.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "services/coordinator/values_store.hpp"
+#include "services/documents/edit/kept_settings.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/files/directories.hpp"
 #include "services/flight/check_report.hpp"
@@ -351,17 +352,18 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, 
 }  // namespace
 
 int serve_coordinator(const CoordinatorServiceOptions& options) {
-    const auto machine = load_machine_file(options.machine_file);
-    if (!machine) {
-        std::cerr << to_text(options.machine_file.string(), machine.error());
+    const auto loaded = load_machine(options.machine_file);
+    if (!loaded) {
+        std::cerr << to_text(options.machine_file.string(), loaded.error());
         return kServiceBadInput;
     }
-    if (options.standby && machine->timing.time_source == TimeSource::Network) {
+    const MachineConfig& machine = loaded->config;
+    if (options.standby && machine.timing.time_source == TimeSource::Network) {
         std::cerr << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "
                      "another host's clock cannot continue it; use SHARED (one host) or PTP\n";
         return kServiceBadInput;
     }
-    if (options.on_takeover == OnTakeover::Continue && machine->coordination == StepMethod::Lai) {
+    if (options.on_takeover == OnTakeover::Continue && machine.coordination == StepMethod::Lai) {
         std::cerr << "--on-takeover continue: coordination LAI plans a block in parts, and another "
                      "coordinator cannot distinguish them; use stop, or coordination: RANADE\n";
         return kServiceBadInput;
@@ -370,13 +372,14 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
         std::cerr << log.error() << '\n';
         return kServiceBadInput;
     }
-    auto values = read_values(values_file(machine->name));
+    if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
+    auto values = read_values(values_file(machine.name));
     if (!values) {
-        log_error(to_text(values_file(machine->name).string(), values.error()) +
+        log_error(to_text(values_file(machine.name).string(), values.error()) +
                   "correct the file; or remove it, to begin without offsets and tools");
         return kServiceBadInput;
     }
-    return run(options, *machine, *std::move(values));
+    return run(options, machine, *std::move(values));
 }
 
 }  // namespace lockstep

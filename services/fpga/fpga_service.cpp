@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "services/documents/machine_file.hpp"
+#include "services/documents/edit/kept_settings.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
@@ -65,13 +65,14 @@ private:
 };
 
 std::expected<Board, std::string> set_up(const FpgaOptions& options) {
-    const auto machine = load_machine_file(options.machine_file);
-    if (!machine) { return std::unexpected(to_text(options.machine_file, machine.error())); }
-    const auto axis = std::ranges::find(machine->axes, options.axis, &AxisConfig::name);
-    if (axis == machine->axes.end()) {
+    const auto loaded = load_machine(options.machine_file);
+    if (!loaded) { return std::unexpected(to_text(options.machine_file, loaded.error())); }
+    const MachineConfig& machine = loaded->config;
+    const auto axis = std::ranges::find(machine.axes, options.axis, &AxisConfig::name);
+    if (axis == machine.axes.end()) {
         return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\"");
     }
-    Board board(options, *axis, *machine);
+    Board board(options, *axis, machine);
     if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
     return board;
 }

@@ -5,7 +5,7 @@
 
 #include "clients/doctor/probes.hpp"
 #include "clients/text/format.hpp"
-#include "services/documents/timing_edit.hpp"
+#include "services/documents/edit/timing_edit.hpp"
 
 namespace lockstep {
 namespace {

@@ -7,9 +7,9 @@
 #include "clients/lockstep/live/timing_report.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/supervisor/edit_machine.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "services/documents/timing_edit.hpp"
-#include "services/files/text_file.hpp"
+#include "services/documents/edit/timing_edit.hpp"
 
 namespace lockstep {
 namespace {
@@ -26,19 +26,6 @@ doctor::StallFacts facts_of(const TimingOptions& options, std::int64_t slot_us, 
     return watch_for_stalls(slot_us, options.seconds, output);
 }
 
-/// Under the file's own name, where a link leads to it.
-std::expected<void, Failure> write_slots(const std::filesystem::path& named, const ProtocolTiming& timing) {
-    std::error_code error;
-    const std::filesystem::path found = std::filesystem::canonical(named, error);
-    const std::filesystem::path file = error ? named : found;
-    const auto text = read_text_file(file);
-    if (!text) { return std::unexpected(bad_file(file.string(), {text.error()})); }
-    const auto edited = with_slots(*text, timing);
-    if (!edited) { return std::unexpected(bad_file(file.string(), edited.error())); }
-    const auto written = replace_text_file(file, *edited);
-    return written ? std::expected<void, Failure>{} : std::unexpected(failed(written.error()));
-}
-
 ExitCode apply(const TimingOptions& options) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
@@ -46,7 +33,8 @@ ExitCode apply(const TimingOptions& options) {
     const ProtocolTiming& today = machine->config.timing;
     const doctor::StallFacts facts = facts_of(options, today.slot_us, output);
     const ProtocolTiming proposed = doctor::timing_for(facts, doctor::least_slot_us(today));
-    if (const auto written = write_slots(machine->file, proposed); !written) { return output.fail(written.error()); }
+    const auto written = edit_machine(machine->file, [&](std::string_view text) { return with_slots(text, proposed); });
+    if (!written) { return output.fail(written.error()); }
     print_timing(facts, proposed, today, output);
     output.print("written to " + machine->file.string() + "; give all hosts of the machine the same file");
     output.print("in force after: lockstep down; lockstep up");

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "services/documents/edit/timing_edit.hpp"
 #include "services/documents/machine_file.hpp"
-#include "services/documents/timing_edit.hpp"
 
 namespace lockstep {
 namespace {
