@@ -53,6 +53,10 @@ void MachineLink::carry_out(Request&& request, Grbl& grbl) {
         case Request::Kind::Reset:
         case Request::Kind::Home: return send(command_of(request), request.number);
         case Request::Kind::SetValues: return set_values(request, grbl);
+        case Request::Kind::KeepSettings:
+        case Request::Kind::DropSettings:
+            if (change_settings(request, grbl)) { grbl.answer(request.number, {.is_done = true}); }
+            return;
         case Request::Kind::RunLine: lines_.take(request.number, std::move(request.line)); return pass_lines(grbl);
         case Request::Kind::Jog:
             jog_.press(request.jogs);
@@ -142,7 +146,16 @@ void MachineLink::follow_jog(Grbl& grbl) {
     grbl.end_jog();
 }
 
+bool MachineLink::change_settings(const Request& request, Grbl& grbl) {
+    const bool keeps = request.kind == Request::Kind::KeepSettings;
+    const auto changed = keeps ? settings_.keep(request.settings) : settings_.drop();
+    if (!changed) { grbl.answer(request.number, {.text = changed.error().text, .error = changed.error().error}); }
+    grbl.see_next(settings_.next());
+    return changed.has_value();
+}
+
 void MachineLink::set_values(const Request& request, Grbl& grbl) {
+    if (request.drops_settings && !change_settings(request, grbl)) { return; }
     const auto before = session_.values();
     if (!before) { return grbl.answer(request.number, {.text = before.error().errors.front().message}); }
     RevisedValues values = *before;

@@ -8,6 +8,7 @@
 #include "clients/grbl/lines/line_runner.hpp"
 #include "clients/grbl/protocol/grbl.hpp"
 #include "clients/grbl/sender_lease.hpp"
+#include "clients/grbl/settings_store.hpp"
 #include "clients/session/control/jog_link.hpp"
 #include "clients/session/session.hpp"
 
@@ -30,8 +31,9 @@ private:
 class MachineLink {
 public:
     /// `takes_over`: the sender's work takes the machine from another writer, too.
-    MachineLink(Session& session, bool takes_over)
+    MachineLink(Session& session, SettingsStore& settings, bool takes_over)
         : session_(session),
+          settings_(settings),
           lease_(session, takes_over),
           jog_(session),
           port_(session),
@@ -61,10 +63,13 @@ private:
     void follow_jog(Grbl& grbl);
     void pass_lines(Grbl& grbl);
     void set_values(const Request& request, Grbl& grbl);
+    /// False: it was refused, and answered with that.
+    bool change_settings(const Request& request, Grbl& grbl);
     bool rests() const;
     MachineView view();
 
     Session& session_;
+    SettingsStore& settings_;
     SenderLease lease_;
     JogLink jog_;
     SessionPort port_;

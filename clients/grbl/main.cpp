@@ -27,6 +27,22 @@ struct Options {
 /// `place`: where the sender's bytes come from, its address or the terminal.
 LeaseHolder writer_at(const std::string& place) { return {.name = "the grbl sender at " + place, .host = host_name()}; }
 
+/// The machine was brought up again with another configuration, and its file describes it.
+class Renewal {
+public:
+    explicit Renewal(std::string machine_file) : machine_file_(std::move(machine_file)) {}
+    bool is_due(const Session& session) {
+        if (!session.config_differs() || session.state()->state.config_hash == tried_) { return false; }
+        tried_ = session.state()->state.config_hash;
+        const auto machine = choose_machine(machine_file_);
+        return machine && machine->hash == tried_;
+    }
+
+private:
+    std::string machine_file_;
+    std::uint64_t tried_ = 0;
+};
+
 /// An answer may lead to the next request.
 void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
     for (auto requests = protocol.take_requests(); !requests.empty(); requests = protocol.take_requests()) {
@@ -34,11 +50,14 @@ void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
     }
 }
 
-/// One sender at a time: it is served until it leaves, or a signal comes.
-void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Session& session, const Options& options,
-           const StopSignal& stop) {
-    grbl::MachineLink link(session, options.take);
+/// One sender at a time: it is served until it leaves, a signal comes, or the machine is another.
+void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, const ChosenMachine& machine,
+           Session& session, const Options& options, const StopSignal& stop) {
+    grbl::SettingsStore settings(machine);
+    grbl::MachineLink link(session, settings, options.take);
     grbl::Grbl protocol(session.config(), LOCKSTEP_VERSION);
+    protocol.see_next(settings.next());
+    Renewal renewal(options.machine_file);
     link.pass(50ms, protocol);
     protocol.greet();
     while (!stop.requested()) {
@@ -47,7 +66,7 @@ void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Ses
         protocol.receive(*bytes);
         carry_out(link, protocol);
         link.pass(2ms, protocol);
-        if (!grbl::write_to(sender, protocol.take_output())) { break; }
+        if (!grbl::write_to(sender, protocol.take_output()) || renewal.is_due(session)) { break; }
         if (const auto second = grbl::accept_from(listener)) {
             (void)grbl::write_to(*second, "[MSG:another sender is connected]\r\n");
         }
@@ -55,26 +74,26 @@ void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, Ses
     link.release();
 }
 
-int serve_all(const grbl::Descriptor& listener, const std::optional<grbl::Terminal>& terminal, Session& session,
-              const Options& options) {
-    const StopSignal stop;
-    while (!stop.requested()) {
+/// Until a signal comes, or the machine is another.
+void serve_all(const grbl::Descriptor& listener, const std::optional<grbl::Terminal>& terminal,
+               const ChosenMachine& machine, Session& session, const Options& options, const StopSignal& stop) {
+    Renewal renewal(options.machine_file);
+    while (!stop.requested() && !renewal.is_due(session)) {
         if (const auto sender = grbl::accept_from(listener)) {
             session.write_as(writer_at(grbl::peer_of(*sender)));
-            serve(*sender, listener, session, options, stop);
+            serve(*sender, listener, machine, session, options, stop);
         }
         if (terminal && terminal->is_used()) {
             session.write_as(writer_at(options.terminal));
-            serve(terminal->descriptor(), listener, session, options, stop);
+            serve(terminal->descriptor(), listener, machine, session, options, stop);
         }
         session.receive(20ms);
     }
-    return kExitDone;
 }
 
 int run(const Options& options) {
     Output output(false);
-    const auto machine = choose_machine(options.machine_file);
+    auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
     const auto listener = grbl::listen_at(options.address, options.port);
     if (!listener) { return output.fail(failed(listener.error())); }
@@ -84,13 +103,19 @@ int run(const Options& options) {
         if (!opened) { return output.fail(failed(opened.error())); }
         terminal.emplace(std::move(*opened));
     }
-    auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return output.fail(session.error()); }
     std::signal(SIGPIPE, SIG_IGN);
-    output.print("machine '" + machine->config.name + "' takes grbl's protocol at " + options.address + ", port " +
-                 std::to_string(options.port) + (terminal ? ", and at " + options.terminal : ""));
-    std::cout << std::flush;
-    return serve_all(*listener, terminal, *session, options);
+    const StopSignal stop;
+    while (!stop.requested()) {
+        auto session = Session::open(*machine, Purpose::Command);
+        if (!session) { return output.fail(session.error()); }
+        output.print("machine '" + machine->config.name + "' takes grbl's protocol at " + options.address + ", port " +
+                     std::to_string(options.port) + (terminal ? ", and at " + options.terminal : ""));
+        std::cout << std::flush;
+        serve_all(*listener, terminal, *machine, *session, options, stop);
+        machine = choose_machine(options.machine_file);
+        if (!machine) { return output.fail(machine.error()); }
+    }
+    return kExitDone;
 }
 
 }  // namespace

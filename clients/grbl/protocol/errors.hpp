@@ -12,6 +12,7 @@ enum class Error : int {
     ExpectedLetter = 1,
     BadNumber = 2,
     UnknownCommand = 3,
+    NegativeValue = 4,
     NotIdle = 8,
     Locked = 9,
     LineTooLong = 11,
@@ -24,6 +25,10 @@ enum class Error : int {
     RepeatedWord = 25,
     NoAxisWords = 26,
     BadTarget = 33,
+    // Not grbl's own:
+    SettingFixed = 100,
+    SettingOutOfRange = 101,
+    NotKept = 102,
 };
 
 /// A line that was refused: the number, and a sentence for a person.

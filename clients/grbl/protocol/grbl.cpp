@@ -33,7 +33,7 @@ std::string capitals(std::string_view text) {
 }  // namespace
 
 Grbl::Grbl(const MachineConfig& machine, std::string version)
-    : machine_(machine), version_(std::move(version)), lines_(machine) {}
+    : machine_(machine), next_machine_(machine), version_(std::move(version)), lines_(machine) {}
 
 void Grbl::greet() {
     output_ += "\r\n";
@@ -78,7 +78,8 @@ void Grbl::answer(std::uint64_t number, const Answer& answer) {
         ok();
     } else {
         has_jog_ = false;
-        refuse(answer.why == FaultCode::OutsideTravel ? Error::TravelExceeded : Error::Locked, answer.text);
+        const Error of_fault = answer.why == FaultCode::OutsideTravel ? Error::TravelExceeded : Error::Locked;
+        refuse(answer.error.value_or(of_fault), answer.text);
     }
     advance();
 }

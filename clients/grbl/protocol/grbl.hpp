@@ -27,6 +27,8 @@ public:
     void receive(std::string_view bytes);
     /// The machine as it is now.
     void see(const MachineView& view);
+    /// The machine as it is when it is next brought up, with the settings that are kept until then.
+    void see_next(const MachineConfig& next) { next_machine_ = next; }
     /// A request has ended; one that was given up meanwhile is ignored.
     void answer(std::uint64_t number, const Answer& answer);
     /// The jog that was answered before is over.
@@ -60,6 +62,7 @@ private:
     void restore(std::string_view what);
     void do_startup_block(std::string_view text);
     void write_setting(std::string_view text);
+    void keep_setting(int number, double value);
     void print_settings();
     void print_parameters();
     void print_build();
@@ -73,6 +76,7 @@ private:
     bool is_quiet() const;
 
     MachineConfig machine_;
+    MachineConfig next_machine_;
     std::string version_;
     ReceivedBytes bytes_;
     MachineView view_;

@@ -9,6 +9,7 @@ namespace lockstep::grbl {
 namespace {
 
 constexpr const char* kHelp = "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]";
+constexpr const char* kInForce = "in force when the machine is next brought up";
 
 }  // namespace
 
@@ -71,12 +72,9 @@ void Grbl::restore(std::string_view what) {
     if (!is_quiet()) { return refuse(Error::NotIdle); }
     if (what != "$" && what != "#" && what != "*") { return refuse(Error::UnknownCommand); }
     if (what != "#") { options_ = {}; }
-    if (what == "$") {
-        say("[MSG:Restoring defaults]");
-        return ok();
-    }
-    Request& request = ask(Request::Kind::SetValues);
+    Request& request = ask(what == "$" ? Request::Kind::DropSettings : Request::Kind::SetValues);
     request.values = {.tools = view_.values.tools};
+    request.drops_settings = what == "*";
     waits_for_ = request.number;
     before_ok_ = "[MSG:Restoring defaults]";
 }
@@ -103,14 +101,31 @@ void Grbl::write_setting(std::string_view text) {
     if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size() || !std::isfinite(value)) {
         return refuse(Error::BadNumber);
     }
-    const auto written = grbl::write_setting(machine_, number, value, options_);
-    written ? ok() : refuse(Error::UnknownCommand, written.error());
+    keep_setting(number, value);
 }
 
+void Grbl::keep_setting(int number, double value) {
+    const auto written = grbl::write_setting(next_machine_, number, value, options_);
+    if (!written) { return refuse(written.error().error, written.error().text); }
+    if (written->empty()) { return ok(); }
+    if (!is_quiet()) { return refuse(Error::NotIdle); }
+    Request& request = ask(Request::Kind::KeepSettings);
+    request.settings = *written;
+    waits_for_ = request.number;
+    before_ok_ = "[MSG:$" + std::to_string(number) + " is kept; " + kInForce + "]";
+}
+
+/// As they were written, and which of them are not in force yet.
 void Grbl::print_settings() {
-    for (const Setting& setting : settings_of(machine_, options_)) {
-        say("$" + std::to_string(setting.number) + "=" + setting.value);
+    const auto in_force = settings_of(machine_, options_);
+    std::string later;
+    for (const Setting& setting : settings_of(next_machine_, options_)) {
+        const std::string name = "$" + std::to_string(setting.number);
+        say(name + "=" + setting.value);
+        const auto now = std::ranges::find(in_force, setting.number, &Setting::number);
+        if (now->value != setting.value) { later += name + " "; }
     }
+    if (!later.empty()) { say_message(later + kInForce); }
     ok();
 }
 

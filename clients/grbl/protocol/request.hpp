@@ -1,14 +1,17 @@
 // What a sender's bytes ask of the machine.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "clients/grbl/protocol/errors.hpp"
 #include "core/faults.hpp"
 #include "core/gcode/kept_values.hpp"
 #include "core/overrides.hpp"
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/documents/edit/kept_settings.hpp"
 
 namespace lockstep::grbl {
 
@@ -33,10 +36,12 @@ struct Request {
         Override,   // to `overrides`
         CancelJog,  // those above are real-time and not answered; those below are, by their number
         Reset,
-        Home,       // `axes`; answered at its end
-        Jog,        // `jogs`; answered when it has begun
-        SetValues,  // to `values`
-        RunLine     // `line`; answered when it is accepted, or was run where it says so
+        Home,          // `axes`; answered at its end
+        Jog,           // `jogs`; answered when it has begun
+        SetValues,     // to `values`; and where `drops_settings`, that too
+        KeepSettings,  // `settings`
+        DropSettings,  // all that were kept
+        RunLine        // `line`; answered when it is accepted, or was run where it says so
     };
     Kind kind = Kind::Stop;
     std::uint64_t number = 0;
@@ -44,6 +49,8 @@ struct Request {
     Overrides overrides;
     std::vector<JogAxis> jogs;
     gcode::KeptValues values;
+    bool drops_settings = false;
+    KeptSettings settings;
     LineToRun line;
 };
 
@@ -51,6 +58,7 @@ struct Answer {
     bool is_done = false;
     FaultCode why = FaultCode::None;  // of a refusal or a failure
     std::string text;                 // for a person
+    std::optional<Error> error = {};  // where it is not that of the fault
 };
 
 }  // namespace lockstep::grbl

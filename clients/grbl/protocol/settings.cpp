@@ -1,6 +1,7 @@
 #include "clients/grbl/protocol/settings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,78 +11,134 @@ namespace {
 
 constexpr std::size_t kMostAxes = 6;
 constexpr double kSame = 0.0005;  // of a value that is written with three digits
+constexpr int kHomingMask = 23;
+constexpr int kTravel = 130;
 
-std::string number(double value, int digits) {
+/// A setting of each axis from number `first` on, or of all axes in one.
+struct AxisKey {
+    int first = 0;
+    bool is_of_all = false;
+    const char* key;
+    double factor = 1;  // of grbl's unit in that of the machine's file
+    double (*value)(const AxisConfig&);
+};
+constexpr std::array<AxisKey, 6> kAxisKeys{{
+    {24, true, "homing.latch_velocity_mm_s", 60,
+     [](const AxisConfig& axis) { return axis.homing.latch_velocity_mm_s; }},
+    {25, true, "homing.search_velocity_mm_s", 60,
+     [](const AxisConfig& axis) { return axis.homing.search_velocity_mm_s; }},
+    {27, true, "homing.pulloff_mm", 1, [](const AxisConfig& axis) { return axis.homing.pulloff_mm; }},
+    {100, false, "steps_per_mm", 1, [](const AxisConfig& axis) { return axis.steps_per_mm; }},
+    {110, false, "max_velocity_mm_s", 60, [](const AxisConfig& axis) { return axis.max_velocity_mm_s; }},
+    {120, false, "max_accel_mm_s2", 1, [](const AxisConfig& axis) { return axis.max_accel_mm_s2; }},
+}};
+
+std::string number(double value, int digits = 3) {
     char text[400];
     std::snprintf(text, sizeof text, "%.*f", digits, value);
     return text;
 }
 
+std::size_t axes_of(const MachineConfig& machine) { return std::min(machine.axes.size(), kMostAxes); }
+
 /// The axes that home towards their lower end.
 int homing_mask(const MachineConfig& machine) {
     int mask = 0;
-    for (std::size_t i = 0; i < std::min(machine.axes.size(), kMostAxes); ++i) {
+    for (std::size_t i = 0; i < axes_of(machine); ++i) {
         if (machine.axes[i].homing.toward_min) { mask |= 1 << i; }
     }
     return mask;
 }
 
-void add_axes(const MachineConfig& machine, int first, const char* key, double (*value_of)(const AxisConfig&),
-              std::vector<Setting>& settings) {
-    for (std::size_t i = 0; i < std::min(machine.axes.size(), kMostAxes); ++i) {
-        settings.push_back({first + static_cast<int>(i), number(value_of(machine.axes[i]), 3),
-                            "axis " + machine.axes[i].name + ": " + key});
+double travel_of(const AxisConfig& axis) { return axis.position_max_mm - axis.position_min_mm; }
+
+Refused out_of_range(int number, const std::string& range) {
+    return {Error::SettingOutOfRange, "$" + std::to_string(number) + " is " + range};
+}
+
+std::expected<KeptSettings, Refused> write_homing_mask(const MachineConfig& machine, double value) {
+    const int all = (1 << axes_of(machine)) - 1;
+    if (value != std::floor(value) || value > all) {
+        return std::unexpected(out_of_range(kHomingMask, "a whole number from 0 to " + std::to_string(all)));
     }
+    KeptSettings settings;
+    for (std::size_t i = 0; i < axes_of(machine); ++i) {
+        const bool toward_min = ((static_cast<int>(value) >> i) & 1) != 0;
+        if (toward_min == machine.axes[i].homing.toward_min) { continue; }
+        settings.push_back({machine.axes[i].name, "homing.toward_min", toward_min ? "true" : "false"});
+    }
+    return settings;
+}
+
+/// The end with the switch stays where it is.
+KeptSetting travel_setting(const AxisConfig& axis, double length_mm) {
+    if (axis.homing.toward_min) { return {axis.name, "position_max_mm", value_text(axis.position_min_mm + length_mm)}; }
+    return {axis.name, "position_min_mm", value_text(axis.position_max_mm - length_mm)};
+}
+
+/// `number`: one of a machine's own that may be written.
+std::expected<KeptSettings, Refused> keys_for(const MachineConfig& machine, int number, double value) {
+    if (number == kHomingMask) { return write_homing_mask(machine, value); }
+    if (number >= kTravel) {
+        return KeptSettings{travel_setting(machine.axes[static_cast<std::size_t>(number - kTravel)], value)};
+    }
+    KeptSettings settings;
+    for (const AxisKey& key : kAxisKeys) {
+        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+            if (number != key.first + (key.is_of_all ? 0 : static_cast<int>(i))) { continue; }
+            settings.push_back({machine.axes[i].name, key.key, value_text(value / key.factor)});
+        }
+    }
+    return settings;
 }
 
 }  // namespace
 
 std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptions& options) {
-    const HomingConfig& homing = machine.axes.front().homing;
+    constexpr const char* kSignals = "the device behind the axis has its own signals";
+    constexpr const char* kSpindle = "the machine has no spindle";
     std::vector<Setting> settings{
-        {0, "10", ""},
-        {1, "255", ""},
-        {2, "0", ""},
-        {3, "0", ""},
-        {4, "0", ""},
-        {5, "0", ""},
-        {6, "0", ""},
-        {10, std::to_string(options.mask), "the connection"},
-        {11, "0.000", ""},
-        {12, "0.001", ""},
-        {13, options.inches ? "1" : "0", "the connection"},
-        {20, "1", ""},
-        {21, "1", ""},
-        {22, "1", ""},
-        {23, std::to_string(homing_mask(machine)), "homing.toward_min"},
-        {24, number(homing.latch_velocity_mm_s * 60, 3), "homing.latch_velocity_mm_s"},
-        {25, number(homing.search_velocity_mm_s * 60, 3), "homing.search_velocity_mm_s"},
-        {26, "0", ""},
-        {27, number(homing.pulloff_mm, 3), "homing.pulloff_mm"},
-        {30, "1000", ""},
-        {31, "0", ""},
-        {32, "0", ""},
+        {0, "10", "the device behind the axis has its own pulses"},
+        {1, "255", "motors stay on"},
+        {2, "0", kSignals},
+        {3, "0", kSignals},
+        {4, "0", kSignals},
+        {5, "0", kSignals},
+        {6, "0", "there is no probe"},
+        {10, std::to_string(options.mask), ""},
+        {11, "0.000", "corners are planned by start_velocity_mm_s of the axes"},
+        {12, "0.001", "arcs are as close as a step of the axes"},
+        {13, options.inches ? "1" : "0", ""},
+        {20, "1", "the travel is always watched"},
+        {21, "1", "limit switches are always watched"},
+        {22, "1", "an axis is always homed before programs move it"},
+        {kHomingMask, std::to_string(homing_mask(machine)), ""},
+        {26, "0", "a switch is touched twice instead"},
+        {30, "1000", kSpindle},
+        {31, "0", kSpindle},
+        {32, "0", kSpindle},
     };
-    add_axes(
-        machine, 100, "steps_per_mm", [](const AxisConfig& axis) { return axis.steps_per_mm; }, settings);
-    add_axes(
-        machine, 110, "max_velocity_mm_s", [](const AxisConfig& axis) { return axis.max_velocity_mm_s * 60; },
-        settings);
-    add_axes(
-        machine, 120, "max_accel_mm_s2", [](const AxisConfig& axis) { return axis.max_accel_mm_s2; }, settings);
-    add_axes(
-        machine, 130, "position_min_mm, position_max_mm",
-        [](const AxisConfig& axis) { return axis.position_max_mm - axis.position_min_mm; }, settings);
+    for (const AxisKey& key : kAxisKeys) {
+        for (std::size_t i = 0; i < (key.is_of_all ? 1 : axes_of(machine)); ++i) {
+            settings.push_back({key.first + static_cast<int>(i), number(key.value(machine.axes[i]) * key.factor), ""});
+        }
+    }
+    for (std::size_t i = 0; i < axes_of(machine); ++i) {
+        settings.push_back({kTravel + static_cast<int>(i), number(travel_of(machine.axes[i])), ""});
+    }
+    std::ranges::sort(settings, {}, &Setting::number);
     return settings;
 }
 
-std::expected<void, std::string> write_setting(const MachineConfig& machine, int number, double value,
-                                               ReportOptions& options) {
+std::expected<KeptSettings, Refused> write_setting(const MachineConfig& machine, int number, double value,
+                                                   ReportOptions& options) {
     const auto settings = settings_of(machine, options);
     const auto found = std::ranges::find(settings, number, &Setting::number);
-    if (found == settings.end()) { return std::unexpected("there is no $" + std::to_string(number)); }
+    const std::string name = "$" + std::to_string(number);
+    if (found == settings.end()) { return std::unexpected(Refused{Error::UnknownCommand, "there is no " + name}); }
+    if (value < 0) { return std::unexpected(Refused{Error::NegativeValue, {}}); }
     if (number == 10) {
-        options.mask = static_cast<int>(std::clamp(value, 0.0, 255.0));
+        options.mask = static_cast<int>(std::min(value, 255.0));
         return {};
     }
     if (number == 13) {
@@ -89,11 +146,9 @@ std::expected<void, std::string> write_setting(const MachineConfig& machine, int
         return {};
     }
     if (std::abs(std::strtod(found->value.c_str(), nullptr) - value) <= kSame) { return {}; }
-    if (found->source.empty()) {
-        return std::unexpected("$" + std::to_string(number) + " is always " + found->value + " here");
-    }
-    return std::unexpected("$" + std::to_string(number) + " is " + found->value + " by the machine's file (" +
-                           found->source + "): change it there and restart the machine");
+    if (found->why_fixed.empty()) { return keys_for(machine, number, value); }
+    return std::unexpected(
+        Refused{Error::SettingFixed, name + " is always " + found->value + " here: " + found->why_fixed});
 }
 
 }  // namespace lockstep::grbl

@@ -235,6 +235,27 @@ TEST_F(GrblSender, MayUseATerminalAndComeAgain) {
     }
 }
 
+TEST_F(GrblSender, WritesSettingsThatAreInForceAfterARestart) {
+    ASSERT_TRUE(eventually([&] { return ::access(terminal_.c_str(), R_OK | W_OK) == 0; }));
+    auto sender = Sender::over_terminal(terminal_);
+    ASSERT_TRUE(sender);
+    EXPECT_TRUE(sender->answers("$110=3000", "[MSG:$110 is kept; in force when the machine is next brought up]"));
+    EXPECT_TRUE(sender->receives("ok"));
+    EXPECT_TRUE(sender->answers("$$", "$110=3000.000"));
+    EXPECT_TRUE(sender->receives("[MSG:$110 in force when the machine is next brought up]"));
+    EXPECT_TRUE(sender->answers("$110=1", "below start_velocity_mm_s 10"));
+    EXPECT_TRUE(sender->receives("error:101"));
+    EXPECT_TRUE(sender->answers("$0=5", "error:100"));
+    EXPECT_EQ(run_lockstep({"down"}).code, 0);
+    EXPECT_THAT(run_lockstep({"up"}).out, HasSubstr("X.max_velocity_mm_s: 50"));
+    EXPECT_TRUE(sender->receives("Grbl 1.1h")) << "the machine is another";
+    EXPECT_TRUE(sender->answers("$$", "$110=3000.000"));
+    EXPECT_TRUE(sender->answers("$H", "ok"));
+    EXPECT_TRUE(sender->answers("$RST=$", "ok"));
+    EXPECT_TRUE(sender->answers("$$", "$110=9000.000"));
+    EXPECT_EQ(run_lockstep({"config", "--json"}).json<proto::SettingsReport>().settings_size(), 0);
+}
+
 TEST_F(GrblSender, OfGarbageAFloodAndAMegabyteDoesNoHarm) {
     Sender sender = connected();
     std::string garbage;

@@ -66,17 +66,75 @@ TEST_F(Sender, SeesEachStateByItsName) {
     EXPECT_THAT(status(), StartsWith("<Alarm|"));
 }
 
-TEST_F(Sender, ReadsTheMachinesSettingsAndMayChangeOnlyItsOwn) {
+TEST_F(Sender, ReadsTheMachinesSettingsAndThoseOfItsConnection) {
     const auto settings = send("$$\n");
     EXPECT_THAT(settings, testing::IsSupersetOf({"$10=1", "$23=7", "$24=60.000", "$25=300.000", "$27=2.000",
                                                  "$100=100.000", "$112=3000.000", "$121=500.000", "$130=200.000"}));
     EXPECT_EQ(settings.back(), "ok");
     EXPECT_THAT(send("$110=3000\n"), ElementsAre("ok")) << "as it is";
-    EXPECT_THAT(send("$110=9\n"),
-                ElementsAre(AllOf(HasSubstr("axis X: max_velocity_mm_s"), HasSubstr("restart")), "error:3"));
-    EXPECT_THAT(send("$32=1\n"), ElementsAre("[MSG:$32 is always 0 here]", "error:3"));
-    EXPECT_THAT(send("$99=1\n$10=x\n$10=\n$=1\n"),
-                ElementsAre("[MSG:there is no $99]", "error:3", "error:2", "error:2", "error:3"));
+    EXPECT_THAT(send("$32=1\n"), ElementsAre("[MSG:$32 is always 0 here: the machine has no spindle]", "error:100"));
+    EXPECT_THAT(send("$99=1\n$10=x\n$10=\n$=1\n$110=-5\n"),
+                ElementsAre("[MSG:there is no $99]", "error:3", "error:2", "error:2", "error:3", "error:4"));
+    EXPECT_THAT(send("$23=8\n"), ElementsAre("[MSG:$23 is a whole number from 0 to 7]", "error:101"));
+    EXPECT_THAT(asked(), ElementsAre());
+}
+
+TEST_F(Sender, WritesSettingsThatAreInForceLater) {
+    EXPECT_THAT(send("$111=1500\n"), ElementsAre()) << "answered when it is kept";
+    ASSERT_THAT(asked(), ElementsAre(Kind::KeepSettings));
+    EXPECT_EQ(requests[0].settings, (KeptSettings{{"Y", "max_velocity_mm_s", "25"}}));
+    MachineConfig next = mill();
+    next.axes[1].max_velocity_mm_s = 25;
+    grbl.see_next(next);
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre("[MSG:$111 is kept; in force when the machine is next brought up]", "ok"));
+    const auto settings = send("$$\n");
+    EXPECT_THAT(settings, testing::Contains("$111=1500.000"));
+    EXPECT_EQ(settings[settings.size() - 2], "[MSG:$111 in force when the machine is next brought up]");
+    EXPECT_THAT(send("$111=1500\n"), ElementsAre("ok")) << "it is kept already";
+    EXPECT_THAT(asked(), ElementsAre());
+}
+
+TEST_F(Sender, WritesEachSettingAsKeysOfTheMachinesFile) {
+    const auto keys = [&](const std::string& line) {
+        (void)send(line + "\n");
+        if (asked().size() != 1) { return KeptSettings{}; }
+        grbl.answer(requests[0].number, {.is_done = true});
+        return requests[0].settings;
+    };
+    EXPECT_EQ(keys("$100=80"), (KeptSettings{{"X", "steps_per_mm", "80"}}));
+    EXPECT_EQ(keys("$110=1000"), (KeptSettings{{"X", "max_velocity_mm_s", "16.666666666666668"}}));
+    EXPECT_EQ(keys("$122=250.5"), (KeptSettings{{"Z", "max_accel_mm_s2", "250.5"}}));
+    EXPECT_EQ(keys("$131=150"), (KeptSettings{{"Y", "position_max_mm", "150"}}));
+    EXPECT_EQ(keys("$23=5"), (KeptSettings{{"Y", "homing.toward_min", "false"}}));
+    EXPECT_EQ(keys("$27=1"),
+              (KeptSettings{
+                  {"X", "homing.pulloff_mm", "1"}, {"Y", "homing.pulloff_mm", "1"}, {"Z", "homing.pulloff_mm", "1"}}));
+    EXPECT_EQ(keys("$25=600")[2], (KeptSetting{"Z", "homing.search_velocity_mm_s", "10"}));
+    EXPECT_EQ(keys("$24=30")[0], (KeptSetting{"X", "homing.latch_velocity_mm_s", "0.5"}));
+    MachineConfig upward = mill();
+    upward.axes[2].homing.toward_min = false;
+    grbl.see_next(upward);
+    EXPECT_EQ(keys("$132=150"), (KeptSettings{{"Z", "position_min_mm", "50"}})) << "its switch is above";
+}
+
+TEST_F(Sender, IsToldWhyASettingIsNotKept) {
+    (void)send("$110=1\n");
+    (void)asked();
+    grbl.answer(requests[0].number, {.text = "axis X: too slow", .error = Error::SettingOutOfRange});
+    EXPECT_THAT(lines(), ElementsAre("[MSG:axis X: too slow]", "error:101"));
+    change(MachinePhase::Running);
+    EXPECT_THAT(send("$110=1000\n"), ElementsAre("error:8"));
+}
+
+TEST_F(Sender, ForgetsTheSettingsThatItHasWritten) {
+    (void)send("$RST=$\n");
+    ASSERT_THAT(asked(), ElementsAre(Kind::DropSettings));
+    grbl.answer(requests[0].number, {.is_done = true});
+    EXPECT_THAT(lines(), ElementsAre("[MSG:Restoring defaults]", "ok"));
+    (void)send("$RST=*\n");
+    ASSERT_THAT(asked(), ElementsAre(Kind::SetValues));
+    EXPECT_TRUE(requests[0].drops_settings);
 }
 
 TEST_F(Sender, ReadsTheOffsets) {
