@@ -153,6 +153,7 @@ void Api::serve(Request&& request, const Answer& answer) {
 }
 
 void Api::open_session(Request&& request, const Answer& answer) {
+    if (const auto other = refuse_other_type(request)) { return answer(to_response(*other)); }
     const auto body = read_object(request.body);
     if (!body) { return answer(to_response(body.error())); }
     std::optional<Problem> problem;

@@ -22,17 +22,6 @@ Problem replayed(const std::string& key) {
         .remedy = "read the state to see what the first one did"};
 }
 
-Problem no_json(const std::string& type) {
-    return {.status = 415,
-            .code = "not-json",
-            .title = "the body is no JSON",
-            .detail = "Content-Type is '" + type.substr(0, 100) + "'",
-            .place = "content-type",
-            .value = type.substr(0, 100),
-            .limit = "application/json",
-            .remedy = "send JSON with this type"};
-}
-
 Problem too_busy() {
     return {.status = 429,
             .code = "too-many-commands",
@@ -64,11 +53,7 @@ Problem other_program(std::uint64_t wanted, std::uint64_t loaded) {
 }  // namespace
 
 void Api::take_command(Request&& request, const Answer& answer) {
-    const std::string* type = request.header("content-type");
-    const std::string type_text = type == nullptr ? "" : *type;
-    if (!request.body.empty() && !type_text.starts_with("application/json")) {
-        return answer(to_response(no_json(type_text)));
-    }
+    if (const auto other = refuse_other_type(request)) { return answer(to_response(*other)); }
     const std::string verb = request.path.substr(request.path.rfind('/') + 1);
     const auto order = read_order(verb, request.body, parts_.machine);
     if (!order) { return answer(to_response(order.error())); }

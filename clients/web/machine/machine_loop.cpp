@@ -144,8 +144,10 @@ bool MachineLoop::is_own_job() const {
 
 /// A job that is held waits for a person, who may be another.
 bool MachineLoop::has_work() const {
-    const bool is_paused = session_.state() && session_.state()->state.phase == MachinePhase::Paused;
-    return jog_.is_pressed() || !tasks_.is_empty() || (is_own_job() && !is_paused);
+    if (jog_.is_pressed() || !tasks_.is_empty()) { return true; }
+    if (!is_own_job()) { return false; }
+    const MachinePhase phase = session_.state()->state.phase;
+    return phase != MachinePhase::Holding && phase != MachinePhase::Paused;
 }
 
 /// A program that is being sent, by a task or while it runs, is not replaced by another.

@@ -16,19 +16,22 @@ namespace {
 constexpr std::size_t kShort_bytes = 2'000'000;  // as in `lockstep run`: read as a whole before anything moves
 constexpr std::size_t kMostNotes = 100;
 
+bool is_picture(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG") || bytes.starts_with("\xff\xd8") || bytes.starts_with("GIF8");
+}
+
 bool is_text(std::string_view text) {
-    return std::ranges::none_of(text, [](char c) {
+    return !is_picture(text) && std::ranges::none_of(text, [](char c) {
         const bool is_control = static_cast<unsigned char>(c) < ' ';
         return is_control && c != '\t' && c != '\n' && c != '\r' && c != '\f' && c != '\x1a';
     });
 }
 
 Problem no_text(std::string_view text) {
-    const bool is_picture = text.starts_with("\x89PNG") || text.starts_with("\xff\xd8") || text.starts_with("GIF8");
     return {.status = 415,
             .code = "not-text",
             .title = "the body is no text",
-            .detail = is_picture ? "the body is a picture" : "the body has bytes that no text has",
+            .detail = is_picture(text) ? "the body is a picture" : "the body has bytes that no text has",
             .place = "body",
             .limit = "a program in G-code",
             .remedy = "choose the program's file"};

@@ -74,6 +74,20 @@ std::expected<Json, Problem> read_object(std::string_view text) {
     return json;
 }
 
+std::optional<Problem> refuse_other_type(const Request& request) {
+    const std::string* header = request.header("content-type");
+    const std::string type = header == nullptr ? "" : header->substr(0, 100);
+    if (request.body.empty() || type.starts_with("application/json")) { return std::nullopt; }
+    return Problem{.status = 415,
+                   .code = "not-json",
+                   .title = "the body is no JSON",
+                   .detail = "Content-Type is '" + type + "'",
+                   .place = "content-type",
+                   .value = type,
+                   .limit = "application/json",
+                   .remedy = "send JSON with this type"};
+}
+
 Problem wrong_value(int status, const std::string& place, const Json& value, const std::string& limit) {
     return {.status = status,
             .code = status == 422 ? "out-of-range" : "bad-value",

@@ -18,6 +18,9 @@ namespace lockstep::web {
 std::expected<Json, Problem> read_object(std::string_view text);
 inline constexpr int kMostDepth = 8;
 
+/// The request has a body that is not declared as JSON (415).
+std::optional<Problem> refuse_other_type(const Request& request);
+
 /// A value is out of its range (422) or of another kind (400).
 Problem wrong_value(int status, const std::string& place, const Json& value, const std::string& limit);
 
