@@ -29,9 +29,12 @@ class Answer:
 
 
 class Client:
-    def __init__(self, port, token):
+    """Each answer is compared with the contract."""
+
+    def __init__(self, port, token, contract):
         self.port = port
         self.token = token
+        self.contract = contract
 
     def request(self, method, path, body=None, headers=None, token=None):
         all_headers = {}
@@ -45,7 +48,9 @@ class Client:
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
         try:
             connection.request(method, path, body, all_headers)
-            return Answer(connection.getresponse())
+            answer = Answer(connection.getresponse())
+            self.contract.check(method, path, answer)
+            return answer
         finally:
             connection.close()
 

@@ -9,6 +9,7 @@ import sys
 import tempfile
 
 from client import Client
+from contract import Contract
 
 
 def own_network():
@@ -51,7 +52,7 @@ class Machine:
 
     def operator(self):
         """A client that may operate, once the machine is ready."""
-        client = Client(self.port, self.tokens["operate"])
+        client = Client(self.port, self.tokens["operate"], Contract(self.root))
         client.await_state(lambda s: s["mode"] == "Idle" and s["offsets"])
         return client
 
