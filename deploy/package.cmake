@@ -6,6 +6,7 @@ install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockst
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep
   USE_SOURCE_PERMISSIONS)
+install(DIRECTORY deploy/grbl/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/grbl COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
 # Documents keep their relative paths, so that their links work.
 install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE NOTICE

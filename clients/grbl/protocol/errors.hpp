@@ -1,6 +1,8 @@
-// grbl's numbers for what is wrong with a line, and for alarms. The numbers are part of its protocol.
+// grbl's numbers for what is wrong with a line, and for alarms. The numbers are part of its protocol; code_table.hpp
+// has their names and meanings.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -29,6 +31,12 @@ enum class Error : int {
     SettingFixed = 100,
     SettingOutOfRange = 101,
     NotKept = 102,
+};
+inline constexpr std::array kAllErrors{
+    Error::ExpectedLetter, Error::BadNumber,    Error::UnknownCommand,    Error::NegativeValue, Error::NotIdle,
+    Error::Locked,         Error::LineTooLong,  Error::TravelExceeded,    Error::BadJog,        Error::Unsupported,
+    Error::SameModalGroup, Error::NoFeed,       Error::TwoAxisCommands,   Error::RepeatedWord,  Error::NoAxisWords,
+    Error::BadTarget,      Error::SettingFixed, Error::SettingOutOfRange, Error::NotKept,
 };
 
 /// A line that was refused: the number, and a sentence for a person.
