@@ -4,6 +4,7 @@
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
+#include "tests/simulation/simtest/draw/draw_stream.hpp"
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
 
@@ -121,6 +122,15 @@ void give_dense_curves(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x0de05ecc0de05eccU);
     for (Task& task : scenario.tasks) {
         if (draw.chance(0.5)) { task.program = with_dense_curve(draw, scenario.machine, std::move(task.program)); }
+    }
+}
+
+/// Programs that are sent while they run. The random numbers are separate, as for overrides.
+void give_streams(std::uint64_t seed, bool mixed, Scenario& scenario) {
+    Draw draw(seed ^ 0x57ea357ea357ea30U);
+    if (mixed && draw.chance(0.5)) { return; }
+    for (Task& task : scenario.tasks) {
+        if (draw.chance(0.8)) { send_in_parts(draw, task); }
     }
 }
 
@@ -258,6 +268,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
         scenario.resets_early = Draw(seed ^ 0x0ea717ea717ea717U).chance(0.3);
     }
     give_dense_curves(seed, scenario);
+    if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
     return scenario;
 }
 

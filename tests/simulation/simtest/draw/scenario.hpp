@@ -34,12 +34,13 @@ struct FaultKinds {
     bool standby = false;  // a second coordinator, and faults in takeovers
     bool limit = false;    // switches, slides, and the content of a device
     bool device = false;   // devices die, stop for a while, are overwritten
+    bool stream = false;   // no fault: programs are sent while they run
 
     bool breaks_processes() const {
         return freeze || crash || partition || stall || clock || standby || limit || device;
     }
     static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, true};
+        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, true, true};
     }
 };
 
@@ -95,12 +96,19 @@ struct Interrupt {
     Overrides overrides;
 };
 
+/// So many blocks of a program, sent so long after those before were taken.
+struct SentPart {
+    std::size_t blocks = 0;
+    double after_s = 0;
+};
+
 /// A program that starts at the machine's current position, and the events during the job.
 struct Task {
     Program program;  // start_mm is set when the program is sent
     std::vector<WrongCommand> before;
     std::vector<Interrupt> interrupts;
     std::vector<PlannedFault> faults;  // in the order in which they are placed
+    std::vector<SentPart> parts = {};  // empty: the program is sent whole, before it runs
 };
 
 /// Stop or EmergencyStop, so long after the homing began.

@@ -66,10 +66,23 @@ void Bench::object(const std::string& rule, const std::string& text) {
     over_ = true;
 }
 
+void Bench::advance() {
+    if (stream_) { stream_->tend(); }
+    vm_.advance();
+}
+
+bool Bench::advance_until(const std::function<bool()>& done, Ticks limit) {
+    const auto tended = [&] {
+        if (stream_) { stream_->tend(); }
+        return done();
+    };
+    return vm_.advance_until(tended, limit);
+}
+
 bool Bench::await(const std::function<bool()>& done, double seconds, const std::string& what) {
     if (over_) { return false; }
     const Ticks limit{static_cast<std::int64_t>(std::ceil((seconds + outage_s_) * machine().ticks_per_second()))};
-    const bool in_time = vm_.advance_until([&] { return done() || faulted(); }, limit);
+    const bool in_time = advance_until([&] { return done() || faulted(); }, limit);
     if (done()) { return true; }
     if (faulted() && !explains(played_.recording, watch_.fault())) {
         object("fault", "while " + what + ": " + std::string(name_of(watch_.fault())));
@@ -81,7 +94,7 @@ bool Bench::await(const std::function<bool()>& done, double seconds, const std::
 
 void Bench::wait(double seconds) {
     const Tick until = vm_.now() + Ticks{static_cast<std::int64_t>(seconds * machine().ticks_per_second())};
-    while (vm_.now() < until) { vm_.advance(); }
+    while (vm_.now() < until) { advance(); }
 }
 
 /// As an impatient person does: an axis or a device may still be missing, so the machine can do nothing then.
@@ -113,7 +126,7 @@ void Bench::settle(double seconds) {
                std::ranges::all_of(watch_.axes(), has_device) && vm_.now() - from > rest &&
                vm_.now() - watch_.moved() > rest;
     };
-    if (!vm_.advance_until(settled, limit + rest)) { object("liveness", "the machine did not come to rest"); }
+    if (!advance_until(settled, limit + rest)) { object("liveness", "the machine did not come to rest"); }
 }
 
 const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
@@ -156,13 +169,22 @@ const Reply* Bench::await_reply(std::uint64_t sequence) {
         if (vm_.reply_to(sequence) == nullptr) { vm_.repeat_command(); }
     }
     const Tick deadline = vm_.now() + machine().slot_ticks() * static_cast<std::int64_t>(kAnswerSlots);
-    while (vm_.reply_to(sequence) == nullptr && vm_.now() < deadline) { vm_.advance(); }
+    while (vm_.reply_to(sequence) == nullptr && vm_.now() < deadline) { advance(); }
     if (vm_.reply_to(sequence) == nullptr) { object("liveness", "no answer to a command"); }
     return vm_.reply_to(sequence);
 }
 
 std::uint64_t Bench::send_program(Program program) {
     vm_.give_program(++programs_, std::move(program));
+    return programs_;
+}
+
+std::uint64_t Bench::stream_program(Program program, const std::vector<SentPart>& parts) {
+    stream_.emplace(vm_, ++programs_, std::move(program), parts);
+    const Tick asked = vm_.now();
+    (void)await([&] { return stream_->may_run() || stream_->refusal() || disturbed_since(asked); }, 10,
+                "the first part of a program");
+    if (stream_->refusal() && !disturbed_since(asked)) { object("stream", "refused: " + stream_->refusal()->text); }
     return programs_;
 }
 

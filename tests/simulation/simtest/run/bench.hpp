@@ -7,6 +7,7 @@
 #include "tests/simulation/simtest/record/claims.hpp"
 #include "tests/simulation/simtest/run/fault_placer.hpp"
 #include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/stream_sender.hpp"
 #include "tests/simulation/simtest/run/watch.hpp"
 
 namespace lockstep::simtest {
@@ -45,6 +46,9 @@ public:
     /// No further fault begins. Runs until no fault is left and every axis has rested long enough to stay at rest.
     void settle(double seconds);
     std::uint64_t send_program(Program program);
+    /// Sends it in parts from now on, until the next is sent or end_stream(). Returns when the first part is taken.
+    std::uint64_t stream_program(Program program, const std::vector<SentPart>& parts);
+    void end_stream() { stream_.reset(); }
 
     bool asks_in_fault() const { return scenario_.asks_in_fault; }
     const Watch& watch() const { return watch_; }
@@ -58,6 +62,8 @@ public:
     std::vector<std::size_t> steps_made() const;
 
 private:
+    void advance();
+    bool advance_until(const std::function<bool()>& done, Ticks limit);
     const Reply* await_reply(std::uint64_t sequence);
     void reset_early();
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of the process that answers
@@ -79,6 +85,7 @@ private:
     CoverageWatch coverage_;
     double outage_s_;  // of all planned faults, and as long again until all peers are received
     std::uint64_t programs_ = 0;
+    std::optional<StreamSender> stream_;
     bool over_ = false;
 };
 

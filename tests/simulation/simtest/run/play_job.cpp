@@ -169,8 +169,7 @@ void JobPlayer::play() {
     job_.began = bench_.vm().now();
     if (!start()) { return; }
     const double seconds =
-        2 * job_.course.seconds +
-        protocol_seconds(bench_) * static_cast<double>(1 + task_.interrupts.size() + job_.course.pauses);
+        ample_seconds() + protocol_seconds(bench_) * static_cast<double>(task_.interrupts.size() + job_.course.pauses);
     const Tick deadline =
         bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
     do {
@@ -181,7 +180,7 @@ void JobPlayer::play() {
             }
         }
         if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
-            bench_.settle(2 * job_.course.seconds + protocol_seconds(bench_));
+            bench_.settle(ample_seconds());
         } else {
             (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
         }
@@ -192,13 +191,22 @@ void JobPlayer::play() {
 bool JobPlayer::start() {
     job_.course = course_of(task_.program, bench_.machine(), at_, bench_.most_feed());
     job_.first_step = bench_.steps_made();
-    const std::uint64_t program = bench_.send_program(starting_at(at_, bench_.machine(), task_.program));
+    Program whole = starting_at(at_, bench_.machine(), task_.program);
+    const std::uint64_t program = task_.parts.empty() ? bench_.send_program(std::move(whole))
+                                                      : bench_.stream_program(std::move(whole), task_.parts);
     const Reply* reply = bench_.ask_in_time(CommandKind::Run, program);
     if (reply == nullptr) { return false; }
     begun_ = reply->status == ReplyStatus::Accepted;
     if (!begun_) { refused("refusal", *reply); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
+}
+
+/// An upper bound of the job's duration without interrupts. Each part may find the machine at rest.
+double JobPlayer::ample_seconds() const {
+    double seconds = 2 * job_.course.seconds + protocol_seconds(bench_) * static_cast<double>(1 + task_.parts.size());
+    for (const SentPart& part : task_.parts) { seconds += part.after_s; }
+    return seconds;
 }
 
 /// Records a refusal that an undisturbed machine must not give.
@@ -212,9 +220,8 @@ void JobPlayer::go_on() {
     const bool more = next_ < task_.interrupts.size();
     const double after_s = more ? task_.interrupts[next_].after_s : 0;
     const Tick due = moving_since_ + Ticks{static_cast<std::int64_t>(after_s * bench_.machine().ticks_per_second())};
-    const double ample = 2 * job_.course.seconds + protocol_seconds(bench_);
-    (void)bench_.await([&] { return ended() || in(MachinePhase::Paused) || (more && bench_.vm().now() >= due); }, ample,
-                       "a motion");
+    (void)bench_.await([&] { return ended() || in(MachinePhase::Paused) || (more && bench_.vm().now() >= due); },
+                       ample_seconds(), "a motion");
     if (!bench_.over() && more && in(MachinePhase::Running) && bench_.vm().now() >= due) {
         interrupt(task_.interrupts[next_++]);
     }
@@ -289,6 +296,7 @@ void JobPlayer::resume() {
 }
 
 void JobPlayer::record() {
+    bench_.end_stream();
     job_.end_step = bench_.steps_made();
     job_.outcome = begun_ ? bench_.watch().outcome().value_or(JobOutcome::Failed) : JobOutcome::Failed;
     for (std::size_t i = 0; i < at_.size(); ++i) {

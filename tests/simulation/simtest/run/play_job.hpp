@@ -15,6 +15,7 @@ public:
 
 private:
     bool start();
+    double ample_seconds() const;
     void go_on();
     void interrupt(const Interrupt& interrupt);
     void hold(const Interrupt& interrupt);
