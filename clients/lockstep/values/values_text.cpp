@@ -5,6 +5,7 @@
 
 #include "clients/session/move_program.hpp"
 #include "core/gcode/gcode.hpp"
+#include "core/gcode/system_names.hpp"
 #include "core/number_text.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/documents/values/values_document.hpp"

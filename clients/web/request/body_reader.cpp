@@ -7,11 +7,13 @@
 namespace lockstep::web {
 namespace {
 
+constexpr std::size_t kMostRepeated = 300;  // bytes of what a client has sent
+
 Problem not_json(const std::string& why, const std::string& limit) {
     return {.status = 400,
             .code = "bad-json",
             .title = "the body is not what the request takes",
-            .detail = why,
+            .detail = why.substr(0, kMostRepeated),
             .limit = limit,
             .remedy = "send a JSON object as openapi.yaml describes it"};
 }
@@ -179,11 +181,12 @@ void BodyReader::finish() {
         if (known_.contains(name)) { continue; }
         std::string names;
         for (const std::string& known : known_) { names += (names.empty() ? "" : ", ") + known; }
+        const std::string place = place_of(name.substr(0, kMostRepeated));
         refuse({.status = 400,
                 .code = "unknown-member",
                 .title = "a member is not known",
-                .detail = place_of(name) + " is not known",
-                .place = place_of(name),
+                .detail = place + " is not known",
+                .place = place,
                 .limit = names.empty() ? "no members" : names,
                 .remedy = "leave it out, or correct its name"});
     }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "clients/session/move_program.hpp"
 #include "clients/web/request/body_reader.hpp"
 #include "core/gcode/kept_values.hpp"
+#include "core/gcode/system_names.hpp"
 #include "core/overrides.hpp"
-#include "services/documents/values/values_document.hpp"
+#include "services/documents/names.hpp"
 
 namespace lockstep::web {
 namespace {
@@ -20,8 +20,9 @@ using Read = std::optional<Order> (*)(const Json& body, const MachineConfig& mac
 
 std::optional<std::size_t> axis_of(const std::string& name, const std::string& place, const MachineConfig& machine,
                                    BodyReader& reader) {
-    const auto axis = find_axis(machine, name);
-    if (axis) { return *axis; }
+    const auto found =
+        std::ranges::find_if(machine.axes, [&](const AxisConfig& one) { return same_name(one.name, name); });
+    if (found != machine.axes.end()) { return static_cast<std::size_t>(found - machine.axes.begin()); }
     std::string names;
     for (const AxisConfig& one : machine.axes) { names += (names.empty() ? "" : ", ") + one.name; }
     reader.refuse(wrong_value(422, place, name, "one of the machine's axes: " + names));

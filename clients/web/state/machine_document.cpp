@@ -4,9 +4,8 @@
 #include "clients/web/state/limits.hpp"
 #include "core/axis_unit.hpp"
 #include "core/faults.hpp"
-#include "core/gcode/state.hpp"
+#include "core/gcode/system_names.hpp"
 #include "core/overrides.hpp"
-#include "services/documents/values/values_document.hpp"
 
 namespace lockstep::web {
 namespace {

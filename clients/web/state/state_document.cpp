@@ -6,6 +6,7 @@
 #include "clients/web/state/axis_document.hpp"
 #include "clients/web/state/writer_document.hpp"
 #include "core/gcode/motion.hpp"
+#include "core/gcode/system_names.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep::web {

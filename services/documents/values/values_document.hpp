@@ -27,10 +27,6 @@ struct RevisedValues {
     bool operator==(const RevisedValues&) const = default;
 };
 
-/// "G54" is 0, "G59.3" is 8.
-std::string name_of_system(std::size_t system);
-std::optional<std::size_t> find_system(std::string_view name);
-
 proto::KeptValues values_to_proto(const RevisedValues& values);
 /// Error: the value that is out of range, and the range.
 std::expected<RevisedValues, std::string> values_from_proto(const proto::KeptValues& message);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/gcode/block.hpp"
+#include "core/gcode/system_names.hpp"
 #include "core/number_text.hpp"
 #include "idl/proto/values.pb.h"
 #include "services/documents/values/values_document.hpp"
@@ -16,8 +17,6 @@ using gcode::KeptValues;
 using gcode::kMaxNumber;
 using gcode::Point;
 
-constexpr std::array<std::string_view, gcode::kSystems> kSystemNames{"G54", "G55",   "G56",   "G57",  "G58",
-                                                                     "G59", "G59.1", "G59.2", "G59.3"};
 constexpr int kMaxToolNumber = 99'999;
 constexpr int kMaxOrientation = 9;
 
@@ -100,15 +99,6 @@ void read_tool(const proto::Tool& message, KeptValues& values, Reader& reader) {
 }
 
 }  // namespace
-
-std::string name_of_system(std::size_t system) { return std::string(kSystemNames[system]); }
-
-std::optional<std::size_t> find_system(std::string_view name) {
-    for (std::size_t i = 0; i < kSystemNames.size(); ++i) {
-        if (kSystemNames[i] == name) { return i; }
-    }
-    return std::nullopt;
-}
 
 proto::KeptValues values_to_proto(const RevisedValues& revised) {
     const KeptValues& values = revised.values;

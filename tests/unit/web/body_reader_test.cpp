@@ -122,9 +122,13 @@ TEST_F(Body, KeepsTheFirstProblem) {
               "400 bad-value /at/a");
 }
 
-TEST(WrongValue, RepeatsNoLongValueInFull) {
-    const Problem problem = wrong_value(422, "/a", std::string(10'000, 'x'), "short");
-    EXPECT_LT(dumped(problem_json(problem)).size(), 1000u);
+TEST_F(Body, ARefusalIsShortHoweverLongTheRequestIs) {
+    const std::string name(10'000, 'x');
+    const auto size_of = [](const Problem& problem) { return dumped(problem_json(problem)).size(); };
+    EXPECT_LT(size_of(wrong_value(422, "/a", name, "short")), 1000u);
+    EXPECT_LT(refused({{name, 1}}, [](BodyReader& reader) { reader.finish(); }).size(), 1000u);
+    EXPECT_LT(size_of(read_object("{\"" + name + "\":1,\"" + name + "\":1}").error()), 1000u);
+    EXPECT_LT(size_of(read_object("{\"a\":\"" + name).error()), 1000u);
 }
 
 }  // namespace
