@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/faults.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -87,8 +89,19 @@ bool ProgramSender::take_answer(const Reply& reply) {
         parts_.pop_front();
     }
     if (reply.parts == taken_) { room_ = reply.free_blocks; }
+    lacking_ = reply.parts < taken_ ? lacking_ + 1 : 0;
     if (reply.status == ReplyStatus::Refused) { refusal_ = reply; }
+    if (lacking_ >= kMostLacking && !refusal_) { give_up(reply); }
     return true;
+}
+
+void ProgramSender::give_up(const Reply& reply) {
+    refusal_ = reply;
+    refusal_->status = ReplyStatus::Refused;
+    refusal_->fault = static_cast<std::uint16_t>(FaultCode::ProgramCutShort);
+    refusal_->text =
+        "the coordinator that has taken over lacks a part of the program that was sent before; the machine "
+        "runs what it has and rests; then: lockstep run FILE --from-line LINE";
 }
 
 }  // namespace lockstep

@@ -56,6 +56,9 @@ public:
     static constexpr std::size_t kPartsWaiting = 16;
     static constexpr std::chrono::milliseconds kRepeatAfter{300};
     static constexpr std::chrono::milliseconds kAskAfter{300};
+    /// So many replies that count fewer parts than one before are not late ones: another coordinator has taken over,
+    /// and lacks parts that are not kept here.
+    static constexpr int kMostLacking = 2 * kPartsInFlight;
 
 private:
     struct Part {
@@ -65,7 +68,7 @@ private:
         std::optional<std::chrono::nanoseconds> sent;
     };
     ProgramChunk chunk(std::uint32_t index, std::vector<std::uint8_t> bytes, double share) const;
-    std::size_t unsent() const;
+    void give_up(const Reply& reply);
 
     Identity client_;
     std::uint64_t first_sequence_;
@@ -78,6 +81,7 @@ private:
     double share_ = 0;
     bool is_begun_ = false;  // the first part is in parts_, or was
     bool is_ended_ = false;
+    int lacking_ = 0;  // replies in a row
     std::optional<Reply> refusal_;
     std::chrono::nanoseconds asked_{};  // or sent anything
 };

@@ -116,6 +116,25 @@ TEST_F(Sender, StopsAtARefusalAndIgnoresRepliesToOthers) {
     EXPECT_TRUE(due(1s).empty());
 }
 
+TEST_F(Sender, GivesUpWhenACoordinatorThatHasTakenOverLacksParts) {
+    append(3000);
+    auto now = 0ns;
+    const auto sent = static_cast<std::uint32_t>(due(now).size());
+    ASSERT_GT(sent, 2u);
+    answer(sent);
+    for (std::uint32_t late = 0; late < ProgramSender::kPartsInFlight; ++late) { answer(sent - 1); }
+    answer(sent);
+    for (int asked = 0; asked < ProgramSender::kMostLacking; ++asked) {
+        EXPECT_FALSE(sender.refusal()) << asked;
+        now += ProgramSender::kAskAfter;
+        ASSERT_EQ(due(now).size(), 1u) << "a question";
+        answer(sent - 1);
+    }
+    ASSERT_TRUE(sender.refusal());
+    EXPECT_NE(sender.refusal()->text.find("--from-line"), std::string::npos);
+    EXPECT_TRUE(due(now + ProgramSender::kAskAfter).empty());
+}
+
 TEST_F(Sender, ACutSaysWhyTheProgramEndsBeforeItsEnd) {
     append(1);
     sender.cut("line 2 is unreadable");
