@@ -94,6 +94,16 @@ struct RealTimeConfig {
     bool operator==(const RealTimeConfig&) const = default;
 };
 
+/// The page to operate the machine (lockstep-web). Nothing in motion depends on it.
+struct WebConfig {
+    std::string address = "127.0.0.1";  // where it listens; beyond this host only with a certificate
+    int port = 2302;
+    std::string certificate_file;  // PEM; empty: no TLS
+    std::string key_file;
+    std::vector<std::string> host_names;  // under which it may be opened, besides the address and this host's own
+    bool operator==(const WebConfig&) const = default;
+};
+
 struct MachineConfig {
     std::string name;
     std::int64_t tick_ns = 1000;
@@ -107,6 +117,7 @@ struct MachineConfig {
     RealTimeConfig real_time;
     UnassignedWords unassigned;
     std::string subroutine_directory;  // of programs; empty: where the program is
+    std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
 
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

@@ -117,6 +117,19 @@ UnassignedWords read_unassigned(const proto::Unassigned& message, Reader reader)
     };
 }
 
+std::optional<WebConfig> read_web(const proto::Machine& message) {
+    if (!message.has_web()) { return std::nullopt; }
+    const proto::Web& web = message.web();
+    const WebConfig preset;
+    return WebConfig{
+        .address = web.has_address() ? web.address() : preset.address,
+        .port = web.has_port() ? web.port() : preset.port,
+        .certificate_file = web.certificate_file(),
+        .key_file = web.key_file(),
+        .host_names = {web.host_names().begin(), web.host_names().end()},
+    };
+}
+
 /// Without std::clamp, which requires ordered limits: a file may violate that.
 double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
@@ -215,6 +228,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.real_time = read_real_time(message.real_time());
     draft.machine.unassigned = read_unassigned(message.unassigned(), Reader(draft.missing));
     draft.machine.subroutine_directory = message.subroutine_directory();
+    draft.machine.web = read_web(message);
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {

@@ -121,6 +121,26 @@ void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {
     }
 }
 
+void check_web(const WebConfig& web, ProblemList& problems) {
+    problems.require(is_ip_address(web.address), "web.address",
+                     "web.address is \"" + web.address + "\"; an IP address, such as 127.0.0.1, ::1 or 0.0.0.0");
+    problems.require_range("web.port", web.port, 1, 65535);
+    check_directory("web.certificate_file", web.certificate_file, problems);
+    check_directory("web.key_file", web.key_file, problems);
+    const bool has_certificate = !web.certificate_file.empty();
+    const std::string lacking = has_certificate ? "key_file" : "certificate_file";
+    problems.require(has_certificate == !web.key_file.empty(), "web",
+                     "web." + lacking + " is missing; HTTPS needs certificate_file and key_file, plain HTTP neither");
+    problems.require_between({"web.address", "web"}, has_certificate || is_loopback_address(web.address),
+                             "web.address is \"" + web.address +
+                                 "\", beyond this host, where the page is served with TLS only; add certificate_file "
+                                 "and key_file, or listen at 127.0.0.1 and use an SSH tunnel");
+    for (const std::string& name : web.host_names) {
+        problems.require(is_host_name(name), "web",
+                         "web.host_names has \"" + name + "\"; the name of a host: letters, digits, - and .");
+    }
+}
+
 /// Different hosts have different clocks, and cannot exchange messages over lo.
 void check_hosts(const MachineConfig& machine, ProblemList& problems) {
     problems.require(
@@ -155,6 +175,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_directory("position_directory", machine.position_directory, problems);
     check_directory("subroutine_directory", machine.subroutine_directory, problems);
     check_real_time(machine.real_time, problems);
+    if (machine.web) { check_web(*machine.web, problems); }
     check_hosts(machine, problems);
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
                      "the machine has " + std::to_string(machine.axes.size()) +

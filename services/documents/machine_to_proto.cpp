@@ -56,6 +56,14 @@ void write_unassigned(const UnassignedWords& rules, proto::Unassigned& message) 
     message.set_coolant(rule_to_proto(rules.coolant));
 }
 
+void write_web(const WebConfig& web, proto::Web& message) {
+    message.set_address(web.address);
+    message.set_port(web.port);
+    if (!web.certificate_file.empty()) { message.set_certificate_file(web.certificate_file); }
+    if (!web.key_file.empty()) { message.set_key_file(web.key_file); }
+    for (const std::string& name : web.host_names) { message.add_host_names(name); }
+}
+
 void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_sequence(homing.sequence);
     message.set_toward_min(homing.toward_min);
@@ -114,6 +122,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
         write_unassigned(machine.unassigned, *message.mutable_unassigned());
     }
     if (!machine.subroutine_directory.empty()) { message.set_subroutine_directory(machine.subroutine_directory); }
+    if (machine.web) { write_web(*machine.web, *message.mutable_web()); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     return message;

@@ -1,6 +1,9 @@
 #include "services/documents/names.hpp"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
+#include <optional>
 
 namespace lockstep {
 namespace {
@@ -14,6 +17,16 @@ bool is_name(std::string_view name, std::size_t longest, std::string_view marks)
     return !name.empty() && name.size() <= longest && is_letter(name.front()) && std::ranges::all_of(name, may_stand);
 }
 
+std::optional<in_addr> four_of(const std::string& text) {
+    in_addr address{};
+    return inet_pton(AF_INET, text.c_str(), &address) == 1 ? std::optional(address) : std::nullopt;
+}
+
+std::optional<in6_addr> six_of(const std::string& text) {
+    in6_addr address{};
+    return inet_pton(AF_INET6, text.c_str(), &address) == 1 ? std::optional(address) : std::nullopt;
+}
+
 }  // namespace
 
 bool is_axis_name(std::string_view name) { return is_name(name, kMaxAxisName, "_"); }
@@ -25,6 +38,14 @@ bool is_host_name(std::string_view name) {
     const auto may_stand = [](char c) { return is_letter(c) || is_digit(c) || c == '-' || c == '.'; };
     return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, may_stand) &&
            !std::string_view("-.").contains(name.front());
+}
+
+bool is_ip_address(const std::string& text) { return four_of(text) || six_of(text); }
+
+bool is_loopback_address(const std::string& text) {
+    if (const auto four = four_of(text)) { return ntohl(four->s_addr) >> 24 == IN_LOOPBACKNET; }
+    const auto six = six_of(text);
+    return six && IN6_IS_ADDR_LOOPBACK(&*six);
 }
 
 bool is_device_name(std::string_view name) {

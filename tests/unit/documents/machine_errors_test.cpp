@@ -93,6 +93,18 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{machine_with("network { one_host: true peers: \"10.0.0.1\" }"), 11, 11, "leave one of them"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Web, MachineRefused,
+    testing::Values(Refusal{machine_with("web { port: 0 }"), 11, 7, "web.port is 0; it goes from 1 to 65535"},
+                    Refusal{machine_with("web { address: \"localhost\" }"), 11, 7, "an IP address, such as 127.0.0.1"},
+                    Refusal{machine_with("web { address: \"0.0.0.0\" }"), 11, 7, "with TLS only; add certificate_file"},
+                    Refusal{machine_with("web { address: \"::\" }"), 11, 7, "with TLS only"},
+                    Refusal{machine_with("web { certificate_file: \"/a.crt\" }"), 11, 1, "web.key_file is missing"},
+                    Refusal{machine_with("web { key_file: \"/a.key\" }"), 11, 1, "web.certificate_file is missing"},
+                    Refusal{machine_with("web { certificate_file: \"a.crt\" key_file: \"/a\" }"), 11, 7,
+                            "an absolute path"},
+                    Refusal{machine_with("web { host_names: \"a b\" }"), 11, 1, "web.host_names has \"a b\""}));
+
+INSTANTIATE_TEST_SUITE_P(
     Hosts, MachineRefused,
     testing::Values(Refusal{axis_with("host: \"a b\""), 10, 3, "host is \"a b\"; the name of a host"},
                     Refusal{axis_with("device: \"usb\""), 10, 3, "sim, shm:NAME or uio:PATH"},

@@ -76,6 +76,20 @@ TEST(MachineFile, WordsForMissingDevicesAreRefusedExceptCoolant) {
     EXPECT_EQ(parse(machine_text(machine)).unassigned, machine.unassigned);
 }
 
+TEST(MachineFile, ThePageIsServedToThisHostAloneUnlessConfigured) {
+    EXPECT_FALSE(parse(kShortest).web);
+    const MachineConfig machine = parse(machine_with("web { }"));
+    EXPECT_EQ(machine.web, WebConfig{});
+    EXPECT_EQ(machine.web->address, "127.0.0.1");
+    EXPECT_EQ(config_hash(machine), config_hash(parse(kShortest))) << "the page is no part of the machine";
+    EXPECT_TRUE(parse(machine_with("web { address: \"127.9.9.9\" }")).web);
+    EXPECT_TRUE(parse(machine_with("web { address: \"::1\" }")).web);
+    const std::string files = " certificate_file: \"/a.crt\" key_file: \"/a.key\" host_names: \"mill\" }";
+    const MachineConfig open = parse(machine_with("web { address: \"::\" port: 443" + files));
+    EXPECT_EQ(open.web, (WebConfig{"::", 443, "/a.crt", "/a.key", {"mill"}}));
+    EXPECT_EQ(parse(machine_text(open)).web, open.web);
+}
+
 TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     const HomingConfig homing = parse(kShortest).axes.at(0).homing;
     EXPECT_TRUE(homing.toward_min);
@@ -125,7 +139,9 @@ TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
           machine_with("network { peers: \"10.0.0.1\" peers: \"mill-x\" }"), machine_with("network { one_host: true }"),
           axis_with("homing { toward_min: false park_mm: 0.1 }"), axis_with("method: SPIELAUER"),
           axis_with("method: CARRICA"), machine_with("unassigned { inputs: IGNORE }"),
-          machine_with("subroutine_directory: \"/srv/subroutines\"")}) {
+          machine_with("subroutine_directory: \"/srv/subroutines\""), machine_with("web { }"),
+          machine_with("web { address: \"0.0.0.0\" port: 443 certificate_file: \"/a.crt\" key_file: \"/a.key\" "
+                       "host_names: \"mill\" host_names: \"mill.example\" }")}) {
         const MachineConfig machine = parse(text);
         EXPECT_EQ(machine_text(parse(machine_text(machine))), machine_text(machine));
         EXPECT_EQ(config_hash(parse(machine_text(machine))), config_hash(machine));

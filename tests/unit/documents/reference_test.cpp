@@ -53,6 +53,7 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Flight", {"record { flight { ", " } }"}},
         {"RealTime", {"real_time { ", " }"}},
         {"Unassigned", {"unassigned { ", " }"}},
+        {"Web", {"web { ", " }"}},
         {"Homing", {"homing { ", " }"}},
         {"Plant", {"plant { ", " }"}},
         {"Axis", {"", ""}}};
@@ -129,7 +130,8 @@ TEST(MachineReference, EveryDefaultStatedIsTheOneTaken) {
         ASSERT_TRUE(text) << key.block << " is not in this test's table";
         const auto given = parse_machine(*text);
         ASSERT_TRUE(given) << to_text("machine", given.error());
-        EXPECT_EQ(machine_text(*given), machine_text(parse_machine(kShortest).value())) << key.name << " " << stated[0];
+        const std::string without = std::string(kShortest) + (key.block == "Web" ? "web { }\n" : "");
+        EXPECT_EQ(machine_text(*given), machine_text(parse_machine(without).value())) << key.name << " " << stated[0];
         ++checked;
     }
     EXPECT_GE(checked, 18);
