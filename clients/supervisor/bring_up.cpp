@@ -3,9 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "clients/doctor/probes.hpp"
 #include "clients/session/parts.hpp"
 #include "clients/supervisor/own_parts.hpp"
@@ -83,6 +80,8 @@ std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDire
     }
     state.forget_processes();
     state.remove_logs();
+    std::error_code none;
+    std::filesystem::remove(state.page_file(), none);
     if (auto written = state.write_machine_file(machine_text(machine.config)); !written) {
         return std::unexpected(failed(written.error()));
     }
@@ -113,7 +112,7 @@ std::string with_log(const std::string& what, const std::string& process, const 
 std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts& parts, const StateDirectory& state,
                                    const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
     for (const ProcessRecord& process : state.recorded()) {
-        if (process.pid == 0) {
+        if (process.pid == 0 && process.name != kWeb) {
             return with_log(process.name + " ended and is not started again", process.name, state);
         }
     }

@@ -8,7 +8,8 @@
 namespace lockstep {
 namespace {
 
-bool is_device(const std::string& line) { return line.starts_with("fpga-"); }
+/// A device, or the page.
+bool is_not_on_network(const std::string& line) { return line.starts_with("fpga-") || line == kWeb; }
 
 bool is_present(const ProcessRecord& record, const std::vector<PresentProcess>& present) {
     return std::ranges::any_of(present, [here = host_name(), &record](const PresentProcess& process) {
@@ -39,7 +40,7 @@ bool are_present(const std::vector<ServiceLine>& lines, const std::vector<Proces
                  const std::vector<PresentProcess>& present) {
     return std::ranges::all_of(lines, [&](const ServiceLine& line) {
         const auto record = std::ranges::find(recorded, line.name, &ProcessRecord::name);
-        return is_device(line.name) || (record != recorded.end() && is_present(*record, present));
+        return is_not_on_network(line.name) || (record != recorded.end() && is_present(*record, present));
     });
 }
 

@@ -14,7 +14,7 @@
 
 namespace lockstep {
 
-/// Whether every line but a device's runs, and is on the network.
+/// Whether every line but a device's and the page's runs, and is on the network.
 bool are_present(const std::vector<ServiceLine>& lines, const std::vector<ProcessRecord>& recorded,
                  const std::vector<PresentProcess>& present);
 

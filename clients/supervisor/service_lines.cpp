@@ -47,6 +47,9 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         if (layout.fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", shared_device(machine, axis)}); }
         lines.push_back(line(name, begin("lockstep-axis"), more));
     }
+    if (placed.coordinator && (layout.web || machine.web)) {
+        lines.push_back(line(kWeb, begin("lockstep-web"), {"--page-file", state.page_file().string()}));
+    }
     return lines;
 }
 

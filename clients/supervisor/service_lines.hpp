@@ -18,6 +18,7 @@ struct Layout {
     FpgaKind fpga = FpgaKind::AsConfigured;
     bool standby = false;    // a second coordinator stands by
     bool continues = false;  // and continues a program in motion when it takes over
+    bool web = false;        // serves the page although the configuration does not say so
 };
 
 struct ServiceLine {
@@ -25,11 +26,14 @@ struct ServiceLine {
     std::vector<std::string> words;  // the program's path and its arguments
 };
 
+/// The name of lockstep-web in the record. The machine is up without it.
+inline constexpr const char* kWeb = "web";
+
 /// The device of an axis whose FPGA is a process of its own, as open_window takes it.
 std::string shared_device(const MachineConfig& machine, const AxisConfig& axis);
 
-/// The machine's parts that are `placed` on this host. Devices first: an axis attaches to its own. `programs`:
-/// the directory of the services' executables.
+/// The machine's parts that are `placed` on this host. Devices first: an axis attaches to its own. Last, beside the
+/// coordinator, the page. `programs`: the directory of the services' executables.
 std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state);
 

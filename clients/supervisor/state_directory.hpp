@@ -22,6 +22,8 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path machine_file() const { return path_ / "machine.textproto"; }
+    /// The addresses of the page, with their tokens, while it is served.
+    std::filesystem::path page_file() const { return path_ / "page"; }
     std::filesystem::path log_file(const std::string& process) const { return path_ / (process + ".log"); }
 
     /// Creates the directory. Error: why not, and the remedy.

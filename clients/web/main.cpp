@@ -1,12 +1,15 @@
 // lockstep-web: the command line.
 #include <csignal>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
+#include "clients/web/private_file.hpp"
 #include "clients/web/site.hpp"
 #include "clients/web/token_file.hpp"
 #include "services/files/directories.hpp"
@@ -21,18 +24,30 @@ using namespace std::chrono_literals;
 
 struct Options {
     std::string machine_file;
-    std::string address = "127.0.0.1";
-    std::uint16_t port = 2302;
-    std::string certificate;
-    std::string key;
+    std::optional<std::string> address;
+    std::optional<std::uint16_t> port;
+    std::optional<std::string> certificate;
+    std::optional<std::string> key;
     std::vector<std::string> host_names;
     std::string token_file;
+    std::string page_file;
     std::string reports;
 };
 
-std::expected<web::TlsFiles, Failure> read_tls(const Options& options) {
+/// What the machine's file says, and over it what the command line does.
+WebConfig merged(const Options& options, const MachineConfig& machine) {
+    WebConfig web = machine.web.value_or(WebConfig{});
+    web.address = options.address.value_or(web.address);
+    web.port = options.port.value_or(web.port);
+    web.certificate_file = options.certificate.value_or(web.certificate_file);
+    web.key_file = options.key.value_or(web.key_file);
+    web.host_names.insert(web.host_names.end(), options.host_names.begin(), options.host_names.end());
+    return web;
+}
+
+std::expected<web::TlsFiles, Failure> read_tls(const WebConfig& web) {
     web::TlsFiles tls;
-    for (const auto& [file, text] : {std::pair{&options.certificate, &tls.certificate}, {&options.key, &tls.key}}) {
+    for (const auto& [file, text] : {std::pair{&web.certificate_file, &tls.certificate}, {&web.key_file, &tls.key}}) {
         if (file->empty()) { continue; }
         auto read = read_text_file(*file);
         if (!read) { return std::unexpected(bad_file(*file, {read.error()})); }
@@ -41,64 +56,82 @@ std::expected<web::TlsFiles, Failure> read_tls(const Options& options) {
     return tls;
 }
 
-std::string address_text(const Options& options, const web::Listener& listener) {
-    const bool is_six = options.address.contains(':');
-    return (options.certificate.empty() ? "http://" : "https://") +
-           (is_six ? "[" + options.address + "]" : options.address) + ":" + std::to_string(listener.port) + "/";
+std::string address_text(const WebConfig& web, const web::Listener& listener) {
+    const bool is_six = web.address.contains(':');
+    return (web.certificate_file.empty() ? "http://" : "https://") + (is_six ? "[" + web.address + "]" : web.address) +
+           ":" + std::to_string(listener.port) + "/";
 }
 
-web::AccessRules rules_of(const Options& options, const web::Listener& listener, const web::Tokens& tokens) {
+web::AccessRules rules_of(const WebConfig& web, const web::Listener& listener, const web::Tokens& tokens) {
     web::AccessRules rules{.tokens = tokens,
-                           .hosts = {"localhost", "127.0.0.1", "::1", options.address},
+                           .hosts = {"localhost", "127.0.0.1", "::1", web.address},
                            .port = listener.port,
-                           .is_tls = !options.certificate.empty()};
+                           .is_tls = !web.certificate_file.empty()};
     if (!listener.is_loopback) { rules.hosts.push_back(host_name()); }
-    rules.hosts.insert(rules.hosts.end(), options.host_names.begin(), options.host_names.end());
+    rules.hosts.insert(rules.hosts.end(), web.host_names.begin(), web.host_names.end());
     return rules;
 }
 
-void print(const Options& options, const web::Listener& listener, const web::Tokens& tokens,
-           const std::filesystem::path& file, const std::string& machine, Output& output) {
-    const std::string address = address_text(options, listener);
-    output.print("machine '" + machine + "': the page to operate it, and the one to view it; the tokens are also in " +
-                 file.string() + "\n" + address + "#token=" + tokens.operate + "\n" + address +
-                 "#token=" + tokens.view);
-    std::cout << std::flush;
+/// The addresses have tokens, which have no place in a log: there, they go to a file of their own.
+std::expected<void, std::string> publish(const Options& options, const std::string& address, const web::Tokens& tokens,
+                                         const std::string& heading) {
+    const std::string links = address + "#token=" + tokens.operate + "\n" + address + "#token=" + tokens.view + "\n";
+    if (options.page_file.empty()) {
+        std::cout << heading << '\n' << links << std::flush;
+        return {};
+    }
+    std::cout << heading << "; this address with them is in " << options.page_file << '\n' << address << std::endl;
+    std::error_code none;
+    std::filesystem::remove(options.page_file, none);
+    return web::make_private_file(options.page_file, links);
+}
+
+/// Serves until a signal asks to end.
+ExitCode serve(const Options& options, const WebConfig& web, const ChosenMachine& machine, const web::TlsFiles& tls,
+               const web::Listener& listener, Output& output) {
+    const std::filesystem::path root = record_directory(machine.config.name).parent_path();
+    const std::filesystem::path file =
+        options.token_file.empty() ? root / "web" / "tokens" : std::filesystem::path(options.token_file);
+    const auto tokens = web::tokens_of_file(file);
+    if (!tokens) { return output.fail(failed(tokens.error())); }
+    auto session = Session::join(machine, Purpose::Command);
+    if (!session) { return output.fail(session.error()); }
+    const StopSignal stop;
+    const auto site =
+        web::Site::open(*std::move(session),
+                        {.listener = listener,
+                         .tls = tls,
+                         .rules = rules_of(web, listener, *tokens),
+                         .reports = options.reports.empty() ? root / "reports" : std::filesystem::path(options.reports),
+                         .version = LOCKSTEP_VERSION,
+                         .writer = "the page at " + address_text(web, listener)});
+    if (!site) { return output.fail(failed(site.error())); }
+    const std::string heading = "machine '" + machine.config.name +
+                                "': the page to operate it, and the one to view it; " + "the tokens are also in " +
+                                file.string();
+    const auto published = publish(options, address_text(web, listener), *tokens, heading);
+    if (!published) { return output.fail(failed(published.error() + "; name another: --page-file FILE")); }
+    while (!stop.requested()) { std::this_thread::sleep_for(50ms); }
+    std::error_code none;
+    if (!options.page_file.empty()) { std::filesystem::remove(options.page_file, none); }
+    return kExitDone;
 }
 
 int run(const Options& options) {
     Output output(false);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
-    const auto tls = read_tls(options);
+    const WebConfig web = merged(options, machine->config);
+    const auto tls = read_tls(web);
     if (!tls) { return output.fail(tls.error()); }
-    const auto listener = web::listen_at(options.address, options.port);
+    const auto listener = web::listen_at(web.address, static_cast<std::uint16_t>(web.port));
     if (!listener) { return output.fail(failed(listener.error())); }
     if (!listener->is_loopback && !tls->is_used()) {
-        return output.fail(bad_input("--address " + options.address +
+        return output.fail(bad_input("--address " + web.address +
                                      ": beyond this host the page is served with TLS only: add --certificate FILE and "
                                      "--key FILE, or listen at 127.0.0.1 and use an SSH tunnel"));
     }
-    const std::filesystem::path root = record_directory(machine->config.name).parent_path();
-    const std::filesystem::path file =
-        options.token_file.empty() ? root / "web" / "tokens" : std::filesystem::path(options.token_file);
-    const auto tokens = web::tokens_of_file(file);
-    if (!tokens) { return output.fail(failed(tokens.error())); }
-    auto session = Session::join(*machine, Purpose::Command);
-    if (!session) { return output.fail(session.error()); }
-    const StopSignal stop;
-    const auto site =
-        web::Site::open(*std::move(session),
-                        {.listener = *listener,
-                         .tls = *tls,
-                         .rules = rules_of(options, *listener, *tokens),
-                         .reports = options.reports.empty() ? root / "reports" : std::filesystem::path(options.reports),
-                         .version = LOCKSTEP_VERSION,
-                         .writer = "the page at " + address_text(options, *listener)});
-    if (!site) { return output.fail(failed(site.error())); }
-    print(options, *listener, *tokens, file, machine->config.name, output);
-    while (!stop.requested()) { std::this_thread::sleep_for(50ms); }
-    return kExitDone;
+    return serve(options, web, *machine, *tls, *listener, output);
 }
 
 }  // namespace
@@ -111,9 +144,9 @@ int main(int argc, char** argv) {
     app.add_option("--machine", options.machine_file,
                    "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
                    "host, else /etc/lockstep/machine.textproto");
-    app.add_option("--address", options.address, "where to listen; beyond this host only with a certificate")
-        ->capture_default_str();
-    app.add_option("--port", options.port, "the TCP port; 0: a free one")->capture_default_str();
+    app.add_option("--address", options.address,
+                   "where to listen; beyond this host only with a certificate; default: 127.0.0.1");
+    app.add_option("--port", options.port, "the TCP port; 0: a free one; default: 2302");
     CLI::Option* certificate = app.add_option("--certificate", options.certificate, "serve HTTPS: the PEM file");
     CLI::Option* key = app.add_option("--key", options.key, "the certificate's key, a PEM file");
     certificate->needs(key);
@@ -122,10 +155,14 @@ int main(int argc, char** argv) {
                    "another name under which the page may be opened, besides localhost and the address");
     app.add_option("--token-file", options.token_file,
                    "where the tokens are, and are made if they are missing; default: beside the machine's record");
+    app.add_option("--page-file", options.page_file,
+                   "write the page's addresses, with their tokens, into this file that only its user can read, and not "
+                   "to standard output, which may be a log; it is removed at the end");
     app.add_option("--reports", options.reports,
                    "the directory of report pages to show; default: beside the machine's record");
     app.footer(
-        "Examples:\n  lockstep-web\n  lockstep-web --machine mill.textproto --port 8080\n"
+        "Address, port, certificate and names of hosts are those of web { } in the machine's file, unless they are "
+        "given here.\nExamples:\n  lockstep-web\n  lockstep-web --machine mill.textproto --port 8080\n"
         "  lockstep-web --address 0.0.0.0 --certificate mill.crt --key mill.key --host-name mill.example\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");
     try {

@@ -1,15 +1,13 @@
 #include "clients/web/token_file.hpp"
 
-#include <fcntl.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
+#include "clients/web/private_file.hpp"
 #include "services/files/directories.hpp"
 
 namespace lockstep::web {
@@ -46,15 +44,10 @@ std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) 
 
 std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) {
     const Tokens tokens{.view = new_token(), .operate = new_token()};
-    const std::string text = "operate " + tokens.operate + "\nview " + tokens.view + "\n";
-    const int made = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
-    const bool is_written =
-        !tokens.view.empty() && made >= 0 && write(made, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    const int error = errno;
-    if (made >= 0) { close(made); }
-    if (is_written) { return tokens; }
-    return std::unexpected(file.string() + ": cannot be made: " + std::strerror(error) +
-                           "; name another place: --token-file FILE");
+    if (tokens.view.empty() || tokens.operate.empty()) { return std::unexpected("this host gives no random numbers"); }
+    const auto made = make_private_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n");
+    if (!made) { return std::unexpected(made.error() + "; name another place: --token-file FILE"); }
+    return tokens;
 }
 
 }  // namespace

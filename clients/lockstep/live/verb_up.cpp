@@ -14,6 +14,7 @@
 #include "clients/supervisor/bring_up.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/supervisor/other_hosts.hpp"
+#include "clients/supervisor/page.hpp"
 #include "clients/supervisor/take_down.hpp"
 #include "services/network/host_name.hpp"
 
@@ -24,11 +25,13 @@ struct UpOptions : LiveOptions {
     std::string fpga;
     bool standby = false;
     std::string on_takeover = "stop";
+    bool web = false;
     bool foreground = false;
     std::optional<double> wait_s;  // for the parts of other hosts
     AllHosts all;
 };
 
+constexpr std::chrono::seconds kPagePatience{20};
 constexpr double kGlance_s = 2;       // for the parts of other hosts: the last host to start reports that all is ready
 constexpr double kWaitForAll_s = 60;  // if all of them are started
 
@@ -36,6 +39,14 @@ std::string names_here(const MachineConfig& machine, const Placement& placed) {
     std::string names = placed.coordinator ? "the coordinator" : "";
     for (const std::size_t i : placed.axes) { names += (names.empty() ? "" : ", ") + machine.axes[i].name; }
     return names;
+}
+
+void print_page(const OwnParts& parts, const StateDirectory& state, Output& output) {
+    if (std::ranges::find(parts.lines, kWeb, &ServiceLine::name) == parts.lines.end()) { return; }
+    const auto page = await_page(state, kPagePatience);
+    if (!page) { return output.warn(page.error()); }
+    output.print("the page to operate it, and the one to view it:\n" +
+                 page->substr(0, page->find_last_not_of('\n') + 1));
 }
 
 ExitCode report_up(const Session& session, const StateDirectory& state, Output& output) {
@@ -86,7 +97,7 @@ ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Output&
     const std::map<std::string, FpgaKind> kinds{{"sim", FpgaKind::Sim}, {"shm", FpgaKind::Shared}};
     const auto kind = kinds.find(options.fpga);
     const Layout layout{kind == kinds.end() ? FpgaKind::AsConfigured : kind->second, options.standby,
-                        options.on_takeover == "continue"};
+                        options.on_takeover == "continue", options.web};
     const auto parts = prepare(machine, layout, state, output);
     if (!parts) { return output.fail(parts.error()); }
     if (options.foreground) {
@@ -97,8 +108,11 @@ ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Output&
     if (!supervisor) { return output.fail(supervisor.error()); }
     auto session = wait_until_up(machine, *parts, state, *supervisor);
     if (!session) { return give_up(machine, state, *supervisor, session.error(), output); }
-    return is_alone(machine.config, parts->placed) ? report_up(*session, state, output)
-                                                   : await_and_report(*session, options, parts->placed, state, output);
+    const ExitCode code = is_alone(machine.config, parts->placed)
+                              ? report_up(*session, state, output)
+                              : await_and_report(*session, options, parts->placed, state, output);
+    print_page(*parts, state, output);
+    return code;
 }
 
 /// If every part belongs on another host.
@@ -113,6 +127,7 @@ std::vector<std::string> words_of(const UpOptions& options) {
     std::vector<std::string> words{"up"};
     if (!options.fpga.empty()) { words.insert(words.end(), {"--fpga", options.fpga}); }
     if (options.standby) { words.insert(words.end(), {"--standby", "--on-takeover", options.on_takeover}); }
+    if (options.web) { words.emplace_back("--web"); }
     return words;
 }
 
@@ -146,6 +161,9 @@ void add_up(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"stop", "continue"}))
         ->needs(standby)
         ->capture_default_str();
+    verb->add_flag("--web", options->web,
+                   "also serve the page, beside the coordinator, and print its address; web { } in the machine's file "
+                   "does the same, and says where");
     CLI::Option* foreground =
         verb->add_flag("--foreground", options->foreground,
                        "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
@@ -163,7 +181,7 @@ void add_up(CLI::App& app, Action& action) {
         "/run/lockstep/MACHINE (root) or $XDG_RUNTIME_DIR/lockstep/MACHINE.\n" +
         footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"
                "  lockstep up --machine mill.textproto --standby --on-takeover continue\n"
-               "  lockstep up --wait 60\n  lockstep up --all --ssh 'ssh -i key'\n"));
+               "  lockstep up --web\n  lockstep up --wait 60\n  lockstep up --all --ssh 'ssh -i key'\n"));
     verb->callback([&action, options] { action = [options] { return up(*options); }; });
 }
 

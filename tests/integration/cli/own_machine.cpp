@@ -76,7 +76,7 @@ void OwnMachine::start_guard() {
 
 void OwnMachine::TearDown() {
     if (HasFailure()) {
-        for (const char* log : {"supervisor", "coordinator", "coordinator-2", "axis-X", "axis-Y"}) {
+        for (const char* log : {"supervisor", "coordinator", "coordinator-2", "axis-X", "axis-Y", "web"}) {
             std::cerr << log << ":\n" << tail_of(state().log_file(log), 20);
         }
     }

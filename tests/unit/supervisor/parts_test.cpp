@@ -99,7 +99,7 @@ TEST(OwnParts, ThatAnotherHostRunsAreForeign) {
 }
 
 TEST(OwnParts, ArePresentWhenTheirProcessesAreOnTheNetwork) {
-    const std::vector<ServiceLine> lines{{"fpga-X", {}}, {"axis-X", {}}};
+    const std::vector<ServiceLine> lines{{"fpga-X", {}}, {"axis-X", {}}, {kWeb, {}}};
     const std::vector<ProcessRecord> recorded{{"supervisor", 3, 1}, {"fpga-X", 4, 1}, {"axis-X", 5, 1}};
     EXPECT_TRUE(are_present(lines, recorded, {{0, host_name(), 5}}));
     EXPECT_FALSE(are_present(lines, recorded, {{0, "elsewhere", 5}}));
@@ -113,6 +113,7 @@ TEST(FoundProcesses, AreKnownByTheirMachineFile) {
     EXPECT_EQ(service_name({"/usr/bin/lockstep-fpga", "--machine", file, "--axis", "X"}, file), "fpga-X");
     EXPECT_EQ(service_name({"/usr/bin/lockstep-coordinator", "--machine", file}, file), "coordinator");
     EXPECT_EQ(service_name({"lockstep-coordinator", "--machine", file, "--second"}, file), "coordinator-2");
+    EXPECT_EQ(service_name({"/usr/bin/lockstep-web", "--machine", file, "--page-file", "/p"}, file), "web");
     EXPECT_EQ(service_name({"/usr/bin/lockstep-axis", "--machine", "/other", "--axis", "X"}, file), "");
     EXPECT_EQ(service_name({"/usr/bin/lockstep", "status", "--machine", file}, file), "");
 }

@@ -107,6 +107,19 @@ TEST(ServiceLines, WithAStandbyHaveTwoCoordinatorsOfEqualRank) {
     EXPECT_THAT(lines[1].words, Contains("--second")) << "it has its own keys";
 }
 
+TEST(ServiceLines, WithThePageHaveItBesideTheCoordinator) {
+    const StateDirectory state("mill");
+    const auto asked = service_lines(two_axes(), all(), {.web = true}, "/opt/bin", state);
+    EXPECT_THAT(names_of(asked), ElementsAre("coordinator", "axis-X", "axis-Y", "web"));
+    EXPECT_EQ(asked.back().words[0], "/opt/bin/lockstep-web");
+    EXPECT_THAT(asked.back().words, Contains(state.page_file().string())) << "a log has no tokens";
+    MachineConfig machine = two_axes();
+    machine.web = WebConfig{};
+    EXPECT_EQ(names_of(service_lines(machine, all(), {}, "/opt/bin", state)), names_of(asked));
+    EXPECT_THAT(names_of(service_lines(machine, {.axes = {1}}, {.web = true}, "/opt/bin", state)),
+                ElementsAre("axis-Y"));
+}
+
 TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
     const auto lines = service_lines(two_axes(), all(), {.fpga = FpgaKind::Shared}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(lines), ElementsAre("fpga-X", "fpga-Y", "coordinator", "axis-X", "axis-Y"));
