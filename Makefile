@@ -34,9 +34,9 @@ test: build
 demo:
 	@echo "== packages: a compiler, Cyclone DDS, LCM, Protobuf; none of those that only tests need"
 	@deploy/install-dependencies demo
-	@echo "== build: the command, the coordinator and the axis, in $(DEMO)"
+	@echo "== build: the command, the coordinator, the axis and the page, in $(DEMO)"
 	@[ -e $(DEMO)/CMakeCache.txt ] || { $(call configure,$(DEMO),$(QUICK)); }
-	@cmake --build $(DEMO) -j $(JOBS) --target lockstep lockstep-coordinator lockstep-axis
+	@cmake --build $(DEMO) -j $(JOBS) --target lockstep lockstep-coordinator lockstep-axis lockstep-web
 	@deploy/demo $(DEMO)
 
 # lockstep_*.deb and lockstep-dev_*.deb, in the build directory.

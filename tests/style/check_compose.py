@@ -64,7 +64,7 @@ for count in (1, 2, 6):
     expect(re.findall(r"(?m)^  (\w+):\n    <<: \*axis\n    hostname: \1$", text) == hosts, f"{count} axes: the services")
     expect(re.findall(r"- (\w+):/records/\1:ro", text) == ["coordinator"] + hosts, f"{count} axes: the client's records")
     volumes = re.findall(r"(\w+): \{\}", re.search(r"(?m)^volumes: .*", text).group(0))
-    expect(volumes == ["coordinator", *hosts, "log"], f"{count} axes: the volumes")
+    expect(volumes == ["coordinator", *hosts, "log", "web"], f"{count} axes: the volumes")
     expect("hostname: planner\n" in text and "axis-x" not in text.split("services:")[1], f"{count} axes: the rest")
 for wrong, message in ((made_of([("X", "a"), ("Y", "a")]), "host of its own"), (made_of([("X", "")]), "name the host"),
                     (made_of([("X", "a")], coordinator=""), "coordinator_host"), (make("/nothing"), "no such file"),
