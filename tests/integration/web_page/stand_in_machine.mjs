@@ -71,8 +71,8 @@ export class StandInMachine {
   command(verb, body) {
     if (verb !== "jog" || this.commands.at(-1)?.verb !== "jog" || body.jogs.length === 0) this.commands.push({ verb, body });
     const { state } = this;
-    const needs = { run: "Idle", hold: "Running", resume: "Paused", home: "Idle", mdi: "Idle" }[verb];
-    if (needs !== undefined && state.mode !== needs) {
+    const needs = { run: "Idle", hold: "Running", resume: "Holding", home: "Idle", mdi: "Idle" }[verb];
+    if ((needs !== undefined && state.mode !== needs) || (verb === "resume" && state.hold.state !== "held")) {
       return { status: 409, code: "busy", title: "The machine is doing something else", detail: `mode is ${state.mode}`, remedy: "wait until it has ended" };
     }
     this[verb]?.(body);
@@ -85,9 +85,8 @@ export class StandInMachine {
     this.state.job = { number: (this.state.job?.number ?? 0) + 1, kind: "run", name: this.state.program.name, line: 1, blocks_done: 0, blocks_known: this.program.points.length, progress: 0, time_done_s: 0, time_left_s: 60, waits_for_program: false, outcome: null, ended_by: null };
   }
   hold() {
-    this.state.mode = "Paused";
-    this.state.hold = { state: "held", line: this.state.job.line };
-    this.rest();
+    this.state.mode = "Holding";
+    this.state.hold = { state: "braking", line: this.state.job.line };
   }
   resume() {
     this.state.mode = "Running";
@@ -140,6 +139,10 @@ export class StandInMachine {
   tick(pointsEachTick) {
     const { state } = this;
     if (state.mode === "Jogging") this.tickJog();
+    if (state.hold?.state === "braking") {
+      state.hold.state = "held";
+      this.rest();
+    }
     if (state.mode !== "Running") return;
     const points = this.program.points;
     this.at = Math.min(points.length - 1, this.at + pointsEachTick);

@@ -5,6 +5,7 @@ import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
+import { shownMode } from "../../../clients/web/page/src/state/shown_mode";
 import { workPlace } from "../../../clients/web/page/src/views/axis_places";
 import { shortcutVerb } from "../../../clients/web/page/src/views/shortcuts";
 
@@ -71,6 +72,15 @@ describe("another writer", () => {
   test("has had the machine since a time of the day", () => {
     expect(timeOfDay("2026-03-01T12:05:00")).toBe("12:05");
     expect(timeOfDay("never")).toBe("–");
+  });
+});
+
+describe("the mode", () => {
+  test("of a hold tells braking from rest", () => {
+    expect(shownMode({ mode: "Holding", hold: { state: "braking" } })).toBe("Holding");
+    expect(shownMode({ mode: "Holding", hold: { state: "held" } })).toBe("Paused");
+    expect(shownMode({ mode: "Paused", hold: { state: "held" } })).toBe("Paused");
+    expect(shownMode({ mode: "Running", hold: null })).toBe("Running");
   });
 });
 

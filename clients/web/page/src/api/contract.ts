@@ -102,7 +102,7 @@ export type Mode =
 
 export interface Job {
   number: number;
-  kind: "home" | "move" | "run" | "own-move" | "jog";
+  kind?: Maybe<"home" | "move" | "run" | "own-move" | "jog">;
   name?: Maybe<string>;
   line?: Maybe<number>;
   progress?: Maybe<number>;

@@ -66,7 +66,7 @@ export const de: Texts = {
     title: "Auftrag", none: "Noch kein Auftrag", left: "noch", progress: "Fortschritt", waits: "Ruht auf der Bahn, bis mehr vom Programm ankommt",
     line: "Zeile {line}", outcome: { Done: "Fertig", Stopped: "Gestoppt", Failed: "Fehlgeschlagen" },
     kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt" },
-    held: "Angehalten in Zeile {line}", braking: "Bremst …",
+    number: "Auftrag {number}", held: "Angehalten in Zeile {line}", braking: "Bremst …",
   },
   overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
   program: {

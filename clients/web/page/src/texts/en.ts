@@ -65,7 +65,7 @@ export const en = {
     title: "Job", none: "No job yet", left: "left", progress: "Progress", waits: "Rests on the path until more of the program arrives",
     line: "Line {line}", outcome: { Done: "Done", Stopped: "Stopped", Failed: "Failed" },
     kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog" },
-    held: "Held at line {line}", braking: "Braking …",
+    number: "Job {number}", held: "Held at line {line}", braking: "Braking …",
   },
   overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
   program: {

@@ -3,6 +3,7 @@ import { h, icon, setAttribute, setText } from "../dom/element";
 import { ICONS } from "../dom/icons";
 import { fill, switchLanguage, t } from "../texts";
 import { switchTheme } from "../dom/theme";
+import { shownMode } from "../state/shown_mode";
 import type { Model, View } from "./view";
 
 /** How a mode looks: by colour, and by a sign for those who do not see it. */
@@ -31,10 +32,11 @@ export class Header implements View {
   }
 
   show({ state, machine, role }: Model): void {
+    const mode = t.mode[shownMode(state)] ?? state.mode;
     setText(this.name, machine.name);
-    setText(this.mode, t.mode[state.mode] ?? state.mode);
+    setText(this.mode, mode);
     setAttribute(this.mode, "data-look", LOOK[state.mode] ?? "busy");
-    document.title = `${machine.name}: ${t.mode[state.mode] ?? state.mode}`;
+    document.title = `${machine.name}: ${mode}`;
     const writer = state.writer;
     const who = !writer ? "" : writer.is_this_server ? t.link.writerHere : fill(t.link.writer, { name: writer.name });
     setText(this.writer, role === "view" ? t.link.viewOnly : who);

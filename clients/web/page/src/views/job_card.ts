@@ -9,6 +9,11 @@ import { fill, t } from "../texts";
 import { button, type Give } from "./command_button";
 import type { Model, View } from "./view";
 
+/** Its name, else its kind; of another client's job that has ended neither is known. */
+export function jobName({ name, kind, number }: Job): string {
+  return name ?? (kind ? t.job.kind[kind] : fill(t.job.number, { number }));
+}
+
 /** What the job does now, in a few words. */
 export function jobSentence(job: Job, hold: State["hold"]): string {
   if (job.outcome) return t.job.outcome[job.outcome];
@@ -39,7 +44,7 @@ export class JobCard implements View {
     const { state, role } = model;
     const job = state.job ?? undefined;
     this.program = state.program?.id;
-    setText(this.name, job === undefined ? t.job.none : job.name ?? t.job.kind[job.kind]);
+    setText(this.name, job === undefined ? t.job.none : jobName(job));
     setText(this.sentence, job === undefined ? "" : jobSentence(job, state.hold));
     setAttribute(this.sentence, "data-look", job?.outcome === "Failed" ? "bad" : undefined);
     const old = ageNow(state.link.age_ms ?? undefined, model.contact_ms, model.now_ms);

@@ -25,8 +25,9 @@ export class SafetyBar implements View {
 
   show({ state, role }: Model): void {
     const mayOperate = role === "operate";
-    show(this.resume, state.mode === "Paused");
-    show(this.hold, state.mode !== "Paused");
+    const isHeld = state.hold?.state === "held";
+    show(this.resume, isHeld);
+    show(this.hold, !isHeld);
     show(this.reset, state.mode === "Fault");
     show(this.stop, state.mode !== "Fault");
     setAttribute(this.hold, "disabled", !mayOperate || state.mode !== "Running");
