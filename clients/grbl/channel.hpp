@@ -1,28 +1,14 @@
 // The two ways in which a sender connects: TCP, and a pseudo-terminal in place of a serial line.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <expected>
 #include <optional>
 #include <string>
 
+#include "clients/channel/descriptor.hpp"
+
 namespace lockstep::grbl {
-
-/// A file descriptor, closed with the object.
-class Descriptor {
-public:
-    explicit Descriptor(int fd = -1) : fd_(fd) {}
-    Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    ~Descriptor();
-    int get() const { return fd_; }
-    bool is_open() const { return fd_ >= 0; }
-    int release();
-
-private:
-    int fd_;
-};
 
 /// Listens there. Error: the address cannot be used, and why.
 std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port);
@@ -47,10 +33,5 @@ private:
     Descriptor master_;
     std::string link_;
 };
-
-/// The bytes that arrive within the time, perhaps none. nullopt: the other side has closed the connection.
-std::optional<std::string> read_from(const Descriptor& from, std::chrono::milliseconds within);
-/// False: the other side is gone, or has not read for long.
-bool write_to(const Descriptor& to, const std::string& bytes);
 
 }  // namespace lockstep::grbl

@@ -51,8 +51,8 @@ void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
 }
 
 /// One sender at a time: it is served until it leaves, a signal comes, or the machine is another.
-void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, const ChosenMachine& machine,
-           Session& session, const Options& options, const StopSignal& stop) {
+void serve(const Descriptor& sender, const Descriptor& listener, const ChosenMachine& machine, Session& session,
+           const Options& options, const StopSignal& stop) {
     grbl::SettingsStore settings(machine);
     grbl::MachineLink link(session, settings, options.take);
     grbl::Grbl protocol(session.config(), LOCKSTEP_VERSION);
@@ -61,22 +61,22 @@ void serve(const grbl::Descriptor& sender, const grbl::Descriptor& listener, con
     link.pass(50ms, protocol);
     protocol.greet();
     while (!stop.requested()) {
-        const auto bytes = grbl::read_from(sender, 2ms);
+        const auto bytes = read_from(sender, 2ms);
         if (!bytes) { break; }
         protocol.receive(*bytes);
         carry_out(link, protocol);
         link.pass(2ms, protocol);
-        if (!grbl::write_to(sender, protocol.take_output()) || renewal.is_due(session)) { break; }
+        if (!write_to(sender, protocol.take_output()) || renewal.is_due(session)) { break; }
         if (const auto second = grbl::accept_from(listener)) {
-            (void)grbl::write_to(*second, "[MSG:another sender is connected]\r\n");
+            (void)write_to(*second, "[MSG:another sender is connected]\r\n");
         }
     }
     link.release();
 }
 
 /// Until a signal comes, or the machine is another.
-void serve_all(const grbl::Descriptor& listener, const std::optional<grbl::Terminal>& terminal,
-               const ChosenMachine& machine, Session& session, const Options& options, const StopSignal& stop) {
+void serve_all(const Descriptor& listener, const std::optional<grbl::Terminal>& terminal, const ChosenMachine& machine,
+               Session& session, const Options& options, const StopSignal& stop) {
     Renewal renewal(options.machine_file);
     while (!stop.requested() && !renewal.is_due(session)) {
         if (const auto sender = grbl::accept_from(listener)) {

@@ -27,6 +27,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_jog(app, action);
     add_run(app, action);
     add_interrupts(app, action);
+    add_send(app, action);
     add_override(app, action);
     add_offsets(app, action);
     add_touch(app, action);

@@ -40,6 +40,7 @@ void add_home(CLI::App& app, Action& action);
 void add_move(CLI::App& app, Action& action);
 void add_jog(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
+void add_send(CLI::App& app, Action& action);
 void add_override(CLI::App& app, Action& action);
 void add_offsets(CLI::App& app, Action& action);  // set, clear
 void add_touch(CLI::App& app, Action& action);

@@ -1,0 +1,102 @@
+// Sends lines to a controller of grbl's protocol, as a state machine: its bytes and the time in, bytes for it out. It
+// does no I/O and reads no clock.
+//
+// The controller is asked how many bytes its buffer takes. A line that it refuses stops the machine: those behind it
+// mean another place. A stop is a hold, and at rest a reset, which drops what the controller has.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/sender/line_flow.hpp"
+
+namespace lockstep::sender {
+
+enum class Outcome : std::uint8_t { Goes, Done, Stopped, Failed, Silent };
+
+/// Why not all lines were run.
+struct Trouble {
+    std::int64_t line = 0;     // of the file; 0: none in particular
+    std::optional<int> error;  // the controller's number
+    std::optional<int> alarm;
+    std::string text;  // with the remedy
+};
+
+class GrblSender {
+public:
+    using Time = std::chrono::nanoseconds;
+    GrblSender(bool one_by_one, Time now) : flow_(one_by_one), since_(now), received_(now) {}
+
+    bool wants_line() const { return phase_ == Phase::Streaming && flow_.wants_line(); }
+    /// `text`: from line_to_send(), and not empty.
+    void add(std::int64_t number, std::string text) { flow_.add({number, std::move(text)}); }
+    void end() { flow_.end(); }
+
+    void receive(std::string_view bytes, Time now);
+    /// In each loop.
+    void pass(Time now);
+    std::string take_output() { return std::exchange(output_, {}); }
+
+    /// The machine comes to rest, and the controller drops its lines.
+    void stop(Time now);
+    /// The same, because the lines cannot be read on.
+    void stop(Trouble trouble, Time now);
+    /// After a hold or a pause (M0).
+    void resume() { output_ += '~'; }
+    /// The connection is gone.
+    void lose(const std::string& why);
+
+    Outcome outcome() const { return outcome_; }
+    const std::optional<Trouble>& trouble() const { return trouble_; }
+    std::int64_t answered() const { return flow_.answered(); }
+    std::size_t room() const { return flow_.room(); }
+    /// "Run|MPos:1.000,2.000,3.000": the newest status report; empty: there was none.
+    const std::string& status() const { return status_; }
+    /// What the controller says to a person.
+    std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
+
+    static constexpr std::chrono::milliseconds kGreetingPatience{2000};  // of controllers that do not greet
+    static constexpr std::chrono::seconds kPatience{10};
+    static constexpr std::chrono::minutes kHomingPatience{10};  // many do not answer meanwhile
+    static constexpr std::chrono::milliseconds kStatusEvery{200};
+    static constexpr std::chrono::seconds kStopPatience{5};
+
+private:
+    enum class Phase : std::uint8_t { Greeting, Asking, Streaming, Finishing, Holding, Resetting, Over };
+
+    void enter(Phase phase, Time now);
+    void end_as(Outcome outcome);
+    void ask(Time now);
+    void do_line(const std::string& line, Time now);
+    void do_greeting(Time now);
+    void do_ok(Time now);
+    void do_error(const std::string& line, Time now);
+    void do_alarm(const std::string& line);
+    void do_status(const std::string& line, Time now);
+    void read_options(const std::string& line);
+    void pass_streaming(Time now);
+    void pass_status(Time now);
+    bool is_silent(Time now) const;
+    bool is_moving() const;
+
+    LineFlow flow_;
+    Phase phase_ = Phase::Greeting;
+    Time since_;     // of the phase
+    Time received_;  // anything, last
+    Time asked_{};   // for a status, last
+    int rests_ = 0;  // status reports at rest, one after the other
+    std::string line_;
+    std::string output_;
+    std::string status_;
+    std::string message_;  // the newest
+    std::vector<std::string> messages_;
+    std::optional<Trouble> trouble_;
+    Outcome outcome_ = Outcome::Goes;
+};
+
+}  // namespace lockstep::sender

@@ -1,0 +1,63 @@
+#include "clients/sender/line_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <initializer_list>
+
+namespace lockstep::sender {
+namespace {
+
+std::string without_comments(std::string_view line) {
+    std::string text;
+    bool is_in = false;
+    for (const char c : line) {
+        if (!is_in && c == ';') { break; }
+        if (c == '(') { is_in = true; }
+        if (!is_in) { text += c; }
+        if (c == ')') { is_in = false; }
+    }
+    return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlank = " \t\r\n\v\f";
+    text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
+    return text.substr(0, text.find_last_not_of(kBlank) + 1);
+}
+
+bool is_obeyed(unsigned char byte) { return byte == '!' || byte == '?' || byte == '~' || byte == 0x18 || byte > 0x7F; }
+
+std::string name_of(unsigned char byte) {
+    char text[8];
+    std::snprintf(text, sizeof text, byte > 0x20 && byte < 0x7F ? "'%c'" : "0x%02X", byte);
+    return text;
+}
+
+}  // namespace
+
+std::expected<std::string, std::string> line_to_send(std::string_view line) {
+    const std::string plain = without_comments(line);
+    const std::string_view text = trimmed(plain);
+    if (text == "%") { return ""; }
+    const auto found = std::ranges::find_if(text, [](char c) { return is_obeyed(static_cast<unsigned char>(c)); });
+    if (found == text.end()) { return std::string(text); }
+    return std::unexpected("the byte " + name_of(static_cast<unsigned char>(*found)) +
+                           " is a command to the controller wherever it stands; remove it");
+}
+
+bool is_sent_alone(std::string_view line) {
+    if (line.starts_with('$')) { return true; }
+    std::string text;
+    for (const char c : line) {
+        if (std::isspace(static_cast<unsigned char>(c)) == 0) {
+            text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        }
+    }
+    for (const std::string_view word : {"G10L", "G28.1", "G30.1"}) {
+        if (text.find(word) != std::string::npos) { return true; }
+    }
+    return false;
+}
+
+}  // namespace lockstep::sender
