@@ -1,0 +1,23 @@
+#!/usr/bin/env python3
+"""A machine that is up, in a network of its own, while a program of Node drives its page in a browser.
+
+Usage: page_on_a_machine.py ROOT PROGRAMS COMMAND...    PROGRAMS: the folder of lockstep and lockstep-web
+"""
+import pathlib
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "web"))
+from machine import Machine, own_network  # noqa: E402
+
+
+def main():
+    own_network()
+    root, programs, *command = sys.argv[1:]
+    with Machine(root, programs, "three-axis") as machine:
+        sys.exit(subprocess.run(command, env={**machine.env, "PROGRAMS": programs}).returncode)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,248 @@
+// The page in a real browser, at lockstep-web beside a simulated machine: what a person does, and what the machine does then.
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, afterEach, before, beforeEach, describe, test } from "node:test";
+import { DESKTOP, openBrowser, openPage, shown } from "./browser.mjs";
+import { lockstep, pause, Server, startLockstep, until } from "./real_machine.mjs";
+
+const LONG = `G21 G90\n${"G1 X100 F1200\nG1 X20\n".repeat(40)}M2\n`;
+const WAIT = { timeout: 90_000 };
+let browser, open;
+const server = new Server();
+
+before(async () => {
+  browser = await openBrowser();
+  await server.start();
+});
+after(async () => {
+  await browser.close();
+  await server.end();
+});
+beforeEach(async () => {
+  open = [];
+  await server.settle();
+});
+afterEach(async () => {
+  for (const { context, complaints } of open) {
+    await context.close();
+    assert.deepEqual(complaints, []);
+  }
+});
+
+async function enter(role = "operate", options = DESKTOP) {
+  const opened = await openPage(browser, server.address(role), options);
+  open.push(opened);
+  await shown(opened.page);
+  return opened.page;
+}
+const button = (page, name) => page.getByRole("button", { name, exact: true });
+const mode = (page, text) => page.locator(".mode", { hasText: new RegExp(`^${text}$`) }).waitFor(WAIT);
+const upload = (page, name, text) => page.setInputFiles("#program-file", { name, mimeType: "text/plain", buffer: Buffer.from(text) });
+
+let programs = 0;
+/** Run is for the program that the page shows: it has to know the new one first. */
+async function runLong(page) {
+  const name = `long-${++programs}.gcode`;
+  await server.load(name, LONG);
+  await page.locator(".file-name", { hasText: name }).waitFor(WAIT);
+  await button(page, "Run").click(WAIT);
+  await mode(page, "Running");
+}
+
+describe("a job", () => {
+  test("runs from its upload to its end, with the time that is left", async () => {
+    const page = await enter();
+    await upload(page, "square.gcode", "G21 G90\nG0 X50 Y30\nG1 X90 F900\nY70\nX50\nY30\nM2\n");
+    await page.locator(".file-name", { hasText: "square.gcode" }).waitFor(WAIT);
+    await button(page, "Run").click(WAIT);
+    await mode(page, "Running");
+    await page.locator('.code li[aria-current="true"]').waitFor(WAIT);
+    const left = async () => /^(\d+):(\d\d) left$/.exec(await page.locator(".job .left").textContent());
+    await until("the time that is left", async () => (await left()) !== null);
+    const first = await left();
+    await page.locator(".job", { hasText: "Done" }).waitFor(WAIT);
+    assert.ok(60 * first[1] + Number(first[2]) <= 60, `of a job of 12 s were left: ${first[0]}`);
+    assert.equal(await page.locator(".job .left").textContent(), "");
+    const { axes } = await server.becomes("idle", (state) => state.mode === "Idle");
+    assert.ok(Math.abs(axes.X.position - 50) < 0.02 && Math.abs(axes.Y.position - 30) < 0.02, JSON.stringify(axes));
+    await page.locator('.axis[data-axis="X"] .position', { hasText: "50.000" }).waitFor(WAIT);
+  });
+
+  test("with errors is refused, each at its line", async () => {
+    const page = await enter();
+    await upload(page, "bad.gcode", "G21\nG1 X9999 F100\nHALLO\n");
+    await page.getByText("bad.gcode was not loaded").waitFor(WAIT);
+    assert.equal(await page.locator('.code li[data-look="bad"]').count(), 2);
+  });
+
+  test("is held at rest, resumed and stopped", async () => {
+    const page = await enter();
+    await runLong(page);
+    await button(page, "Hold").click();
+    await mode(page, "Held");
+    const held = await server.state();
+    assert.deepEqual([held.mode, held.hold.state], ["Holding", "held"]);
+    await button(page, "Resume").click();
+    await mode(page, "Running");
+    await server.becomes("moving", ({ axes }) => axes.X.velocity !== 0);
+    await button(page, "Stop").click();
+    await page.locator(".job", { hasText: "Stopped" }).waitFor(WAIT);
+    await mode(page, "Idle");
+  });
+});
+
+describe("the emergency stop", () => {
+  test("ends the job, says the way out, and the way leads out", async () => {
+    const page = await enter();
+    await runLong(page);
+    await button(page, "Emergency stop").click();
+    const alarm = page.locator(".alarm.fault", { hasText: "emergency-stopped" }).first();
+    await alarm.waitFor(WAIT);
+    assert.match(await alarm.locator(".remedy").textContent(), /lockstep reset/);
+    await button(page, "Reset").click();
+    await mode(page, "Idle");
+    await until("a homed machine", async () => {
+      if (await button(page, "Home").isEnabled()) await button(page, "Home").click();
+      return Object.values((await server.state()).axes).every(({ homed }) => homed);
+    });
+    await mode(page, "Idle");
+    await runLong(page);
+  });
+});
+
+describe("a jog", () => {
+  test("ends by itself when its tab is killed", async () => {
+    const page = await enter();
+    await page.locator("#jog-speed").fill("0"); // so that the axis does not come to the end of its travel meanwhile
+    await button(page, "Jog X plus").hover();
+    const moves = async () => (await server.state()).axes.X.velocity > 0;
+    await until("X moves", async () => {
+      await page.mouse.down(); // a host that stalls ends a jog: press again
+      for (let i = 0; i < 20; ++i, await pause(50)) if (await moves()) return true;
+      await page.mouse.up();
+      return false;
+    });
+    const session = await page.context().newCDPSession(page);
+    void session.send("Page.crash").catch(() => undefined);
+    await page.waitForEvent("crash", WAIT);
+    const { axes } = await server.becomes("at rest", (state) => state.mode === "Idle" && state.axes.X.at_rest);
+    await pause(1000);
+    assert.equal((await server.state()).axes.X.position, axes.X.position);
+    const { axes: limits } = await (await server.ask("/api/machine")).json();
+    assert.ok(axes.X.position < limits[0].position_max - 5, "it went to the end of its travel");
+  });
+});
+
+describe("two browsers", () => {
+  test("command the same machine: one begins, the other holds and resumes", async () => {
+    const [one, other] = [await enter(), await enter()];
+    await runLong(one);
+    await mode(other, "Running");
+    assert.ok(await button(other, "Run").isDisabled());
+    await button(other, "Hold").click();
+    await Promise.all([mode(one, "Held"), mode(other, "Held")]);
+    await button(other, "Resume").click();
+    await mode(one, "Running");
+    const viewer = await enter("view");
+    await mode(viewer, "Running");
+    assert.equal(await button(viewer, "Stop").count(), 0);
+    await button(one, "Stop").click();
+    await Promise.all([one, other, viewer].map((page) => mode(page, "Idle")));
+  });
+});
+
+describe("another client", () => {
+  test("has the machine for itself but for holds, until the page takes it over", async () => {
+    const page = await enter();
+    const folder = mkdtempSync(join(tmpdir(), "page-"));
+    writeFileSync(join(folder, "long.gcode"), LONG);
+    await server.command("give"); // an open page keeps the machine between two commands
+    await server.becomes("free", ({ writer }) => writer === null);
+    const other = startLockstep({ LOCKSTEP_WRITER: "anna" }, "run", join(folder, "long.gcode"));
+    await mode(page, "Running");
+    await page.locator(".writer-banner", { hasText: "anna" }).waitFor(WAIT);
+    await page.getByLabel("Feed", { exact: true }).fill("150");
+    await page.locator(".notice", { hasText: "anna" }).waitFor(WAIT);
+    assert.equal((await server.state()).override.feed_percent, 100);
+    await button(page, "Hold").click();
+    await mode(page, "Held");
+    await page.locator(".writer-banner").getByRole("button").click();
+    await page.locator(".writer-banner").waitFor({ state: "hidden", ...WAIT });
+    await button(page, "Resume").click();
+    await mode(page, "Running");
+    await button(page, "Stop").click();
+    await mode(page, "Idle");
+    await other.ended;
+    rmSync(folder, { recursive: true });
+  });
+});
+
+describe("access", () => {
+  test("a wrong token is refused with a reason, a right one enters", async () => {
+    const opened = await openPage(browser, `${server.origin}/#token=wrong`);
+    open.push(opened);
+    await opened.page.getByText("the token is wrong").waitFor(WAIT);
+    await opened.page.getByLabel("Token").fill(server.tokens.view);
+    await button(opened.page, "Sign in").click();
+    await shown(opened.page);
+    await opened.page.getByText("View only").waitFor(WAIT);
+    assert.equal(opened.page.url(), `${server.origin}/`);
+  });
+});
+
+describe("a page that stays open", () => {
+  const fresh = (page) => until("live values", async () => (await page.locator('.axis[data-fresh="stale"]').count()) === 0);
+  const stale = (page) => until("values that look old", async () => (await page.locator('.axis[data-fresh="live"]').count()) === 0);
+
+  test("looks old while the machine is down, and lives on when it is up again", async () => {
+    const page = await enter();
+    await fresh(page);
+    lockstep("down");
+    await page.locator(".banner", { hasText: "No coordinator is received" }).waitFor(WAIT);
+    await stale(page);
+    await mode(page, "Unreachable");
+    assert.ok(await button(page, "Jog X plus").isDisabled());
+    lockstep("up");
+    await mode(page, "Idle");
+    await fresh(page);
+    assert.equal(await page.locator(".banner:visible").count(), 0);
+    await button(page, "Home").click();
+    await server.becomes("homed", ({ axes }) => Object.values(axes).every(({ homed }) => homed));
+  });
+
+  test("looks old while its server is away, and lives on without a new token", async () => {
+    const page = await enter();
+    await fresh(page);
+    await server.end();
+    await page.locator(".banner", { hasText: "No connection to the server for" }).waitFor(WAIT);
+    await stale(page);
+    await server.start();
+    await fresh(page);
+    await mode(page, "Idle");
+  });
+
+  test("keeps neither memory nor elements", async () => {
+    const watched_ms = 1000 * Number(process.env.VIEWER_SECONDS ?? 60), settles_ms = 30_000; // until the chart is full
+    const page = await enter("view");
+    await server.load("long.gcode", LONG);
+    const session = await page.context().newCDPSession(page);
+    const samples = [];
+    for (const begin = Date.now(); Date.now() - begin < settles_ms + watched_ms; await pause(watched_ms / 12)) {
+      if ((await server.state()).mode === "Idle") await server.command("run");
+      if (Date.now() - begin < settles_ms) continue;
+      await session.send("HeapProfiler.collectGarbage");
+      const { usedSize } = await session.send("Runtime.getHeapUsage");
+      const { nodes, jsEventListeners } = await session.send("Memory.getDOMCounters");
+      samples.push({ at_s: Math.round((Date.now() - begin) / 1000), heap_kB: Math.round(usedSize / 1024), nodes, listeners: jsEventListeners });
+    }
+    console.log(samples.map((sample) => JSON.stringify(sample)).join("\n"));
+    const median = (name, part) => part.map((sample) => sample[name]).sort((a, b) => a - b)[Math.floor(part.length / 2)];
+    const half = Math.floor(samples.length / 2);
+    for (const [name, most] of [["heap_kB", 500], ["nodes", 100], ["listeners", 20]]) {
+      const growth = median(name, samples.slice(half)) - median(name, samples.slice(0, half));
+      assert.ok(growth < most, `${name} grew by ${growth}`);
+    }
+  });
+});
