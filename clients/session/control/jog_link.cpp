@@ -14,12 +14,15 @@ void JogLink::press(const std::vector<JogAxis>& jogs) {
 }
 
 /// A release is repeated too, until it is answered.
+bool JogLink::is_repeated() const { return is_pressed() || (command_.sequence != 0 && reply() == nullptr); }
+
 void JogLink::pass(std::chrono::nanoseconds until) {
     for (auto now = monotonic_now(); now < until; now = monotonic_now()) {
-        const bool is_due = now >= renewed_ + kPeriod && command_.sequence != 0;
-        if (is_due && (is_pressed() || reply() == nullptr)) { session_.repeat(command_); }
-        if (is_due) { renewed_ = now; }
-        session_.receive(std::min(until, renewed_ + kPeriod) - now);
+        if (is_repeated() && now >= renewed_ + kPeriod) {
+            session_.repeat(command_);
+            renewed_ = now;
+        }
+        session_.receive((is_repeated() ? std::min(until, renewed_ + kPeriod) : until) - now);
     }
 }
 

@@ -25,6 +25,8 @@ public:
     bool is_over() const;
 
 private:
+    bool is_repeated() const;
+
     static constexpr std::chrono::milliseconds kPeriod{5};
 
     Session& session_;
