@@ -1,4 +1,5 @@
 """A machine of its own with a server beside it, in a network of its own, for as long as a `with` lasts."""
+import contextlib
 import os
 import pathlib
 import re
@@ -33,6 +34,8 @@ class Machine:
         # Slots that allow a busy host to stall a process for 200 ms.
         text = re.sub(r"slot_us: \d+", "slot_us: 20000", text) if "slot_us" in text else text + "\ntiming { slot_us: 20000 }\n"
         (self.work / "machine.textproto").write_text(text)
+        self.reports = self.work / "reports"
+        self.reports.mkdir()
         self.env = {**os.environ, "LOCKSTEP_STATE": str(self.work / "state"),
                     "LOCKSTEP_MACHINE": str(self.work / "machine.textproto")}
         self.server = None
@@ -42,7 +45,7 @@ class Machine:
 
     def serve(self, *words):
         """Starts the server, and reads what it prints."""
-        self.server = subprocess.Popen([self.programs / "lockstep-web", "--port", "0", *words], env=self.env,
+        self.server = subprocess.Popen([self.programs / "lockstep-web", "--port", "0", "--reports", self.reports, *words], env=self.env,
                                        stdout=subprocess.PIPE, text=True)
         self.server.stdout.readline()
         operate, view = (re.match(r"https?://[^:]+:(\d+)/#token=(\w+)$", self.server.stdout.readline().strip())
@@ -71,3 +74,14 @@ class Machine:
             self.server.kill()
         self.lockstep("down", check=False)
         shutil.rmtree(self.work)
+
+
+@contextlib.contextmanager
+def served():
+    """(machine, client): of this program's arguments; the server and the machine end with it."""
+    own_network()
+    with Machine(*sys.argv[1:]) as machine:
+        machine.serve()
+        yield machine, machine.operator()
+        if machine.server is not None:
+            machine.end_server()

@@ -10,7 +10,7 @@ import sys
 
 sys.dont_write_bytecode = True
 from client import Events, expect, refused  # noqa: E402
-from machine import Machine, own_network  # noqa: E402
+from machine import served  # noqa: E402
 
 PROGRAM = "G21 G90\nG1 X40 Y30 F1500\nM2\n"
 
@@ -165,26 +165,20 @@ def check_all_seen(contract):
 
 
 def main():
-    own_network()
-    with Machine(*sys.argv[1:]) as machine:
-        reports = machine.work / "reports"
-        reports.mkdir()
-        machine.serve("--reports", str(reports))
-        client = machine.operator()
+    with served() as (machine, client):
         contract = client.contract
         check_routes(machine.root, contract)
         check_methods(client, contract)
         check_verbs(client, contract)
         check_program(client)
         check_accepted(client)
-        check_files(client, reports)
+        check_files(client, machine.reports)
         check_events(client, contract)
         check_access(client, machine.tokens["view"], contract)
         machine.lockstep("down")
         client.await_state(lambda s: s["mode"] == "Unreachable")
         refused(client.command("home"), 503, "unreachable")
         check_all_seen(contract)
-        machine.end_server()
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import time
 
 sys.dont_write_bytecode = True
 from client import Events, expect, refused  # noqa: E402
-from machine import Machine, own_network  # noqa: E402
+from machine import served  # noqa: E402
 
 PROGRAM = "G21 G90\nG1 X40 Y30 F1500\nG1 X60 Y20\nG0 X10 Y10\nM2\n"
 LONG = "G21 G90\n" + "G1 X100 F600\nG1 X10\n" * 20 + "M2\n"
@@ -211,10 +211,7 @@ def check_loss(machine, client):
 
 
 def main():
-    own_network()
-    with Machine(*sys.argv[1:]) as machine:
-        machine.serve()
-        client = machine.operator()
+    with served() as (machine, client):
         for check in (lambda c: check_session(c, machine.tokens), check_headers, check_bad_input, check_replay, check_motion,
                       check_hold, check_values, check_jog, check_stop, check_viewers, lambda c: check_loss(machine, c)):
             begin = time.monotonic()
@@ -224,7 +221,6 @@ def main():
         machine.end_server()
         machine.serve()
         expect(machine.tokens == tokens, "the tokens do not outlive the server")
-        machine.end_server()
     print(json.dumps({"result": "done"}))
 
 

@@ -10,7 +10,7 @@ import time
 
 sys.dont_write_bytecode = True
 from client import Events, expect, refused  # noqa: E402
-from machine import Machine, own_network  # noqa: E402
+from machine import served  # noqa: E402
 
 LONG = "G21 G90\n" + "G1 X100 F600\nG1 X10\n" * 40 + "M2\n"
 
@@ -75,10 +75,7 @@ def check_end(machine, client):
 
 
 def main():
-    own_network()
-    with Machine(*sys.argv[1:]) as machine:
-        machine.serve()
-        client = machine.operator()
+    with served() as (machine, client):
         check_first_command(client)
         check_watched(client)
         check_other_writer(machine, client)
