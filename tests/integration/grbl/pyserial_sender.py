@@ -1,4 +1,5 @@
-"""A sender in a few lines of Python: homes, streams a program by counting characters, falls behind, holds and resumes.
+"""A sender in a few lines of Python: homes, streams a program by counting characters, falls behind, holds and resumes,
+and turns the feed while it streams.
 
 Usage: pyserial_sender.py TERMINAL PROGRAM FOLDER
 """
@@ -70,6 +71,8 @@ def stream(to_send, between=lambda answered: None):
 
 def at_some(answered):
     """What a person does meanwhile, and what a busy host does."""
+    if answered % 500 == 0:  # the feed by 10 % and 1 % up, and by 10 % down; of a spindle nothing
+        port.write((b"\x91", b"\x93", b"\x92", b"\x99")[answered // 500 % 4])
     if answered == 800:
         time.sleep(1.5)  # the machine rests on the path
     if answered == 1500:
