@@ -10,7 +10,7 @@ void JogLink::press(const std::vector<JogAxis>& jogs) {
     if (jogs == command_.jogs) { return; }
     command_.jogs = jogs;
     session_.begin(command_);
-    renewed_ = monotonic_now();
+    repeat_.note_sent(monotonic_now());
 }
 
 /// A release is repeated too, until it is answered.
@@ -18,11 +18,11 @@ bool JogLink::is_repeated() const { return is_pressed() || (command_.sequence !=
 
 void JogLink::pass(std::chrono::nanoseconds until) {
     for (auto now = monotonic_now(); now < until; now = monotonic_now()) {
-        if (is_repeated() && now >= renewed_ + kPeriod) {
+        if (repeat_.is_due(is_repeated(), now)) {
             session_.repeat(command_);
-            renewed_ = now;
+            repeat_.note_sent(now);
         }
-        session_.receive((is_repeated() ? std::min(until, renewed_ + kPeriod) : until) - now);
+        session_.receive(repeat_.wake(is_repeated(), until) - now);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <vector>
 
+#include "clients/session/control/jog_repeat.hpp"
 #include "clients/session/session.hpp"
 
 namespace lockstep {
@@ -27,11 +28,9 @@ public:
 private:
     bool is_repeated() const;
 
-    static constexpr std::chrono::milliseconds kPeriod{5};
-
     Session& session_;
     Command command_{.kind = CommandKind::Jog};
-    std::chrono::nanoseconds renewed_{};
+    JogRepeat repeat_;
 };
 
 }  // namespace lockstep
