@@ -1,7 +1,7 @@
 #include "clients/grbl/channel.hpp"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
+#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -14,6 +14,8 @@
 #include <cstring>
 #include <utility>
 
+#include "clients/channel/listener.hpp"
+
 namespace lockstep::grbl {
 namespace {
 
@@ -24,21 +26,9 @@ std::unexpected<std::string> failure(const std::string& what) {
 }  // namespace
 
 std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port) {
-    sockaddr_in place{};
-    place.sin_family = AF_INET;
-    place.sin_port = htons(port);
-    if (inet_pton(AF_INET, address.c_str(), &place.sin_addr) != 1) {
-        return std::unexpected("'" + address + "' is no address such as 127.0.0.1");
-    }
-    Descriptor listener(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (!listener.is_open()) { return failure("a socket cannot be opened"); }
-    const int yes = 1;
-    setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    const std::string where = address + ", port " + std::to_string(port);
-    const auto* generic = reinterpret_cast<const sockaddr*>(&place);
-    if (bind(listener.get(), generic, sizeof place) != 0) { return failure("cannot listen at " + where); }
-    if (listen(listener.get(), 4) != 0) { return failure("cannot listen at " + where); }
-    return listener;
+    const auto listener = lockstep::listen_at(address, port);
+    if (!listener) { return std::unexpected(listener.error()); }
+    return Descriptor(listener->socket);
 }
 
 std::optional<Descriptor> accept_from(const Descriptor& listener) {
@@ -50,12 +40,12 @@ std::optional<Descriptor> accept_from(const Descriptor& listener) {
 }
 
 std::string peer_of(const Descriptor& connection) {
-    sockaddr_in place{};
+    sockaddr_storage place{};
     socklen_t size = sizeof place;
-    char text[INET_ADDRSTRLEN] = {};
-    const bool is_known = getpeername(connection.get(), reinterpret_cast<sockaddr*>(&place), &size) == 0 &&
-                          place.sin_family == AF_INET &&
-                          inet_ntop(AF_INET, &place.sin_addr, text, sizeof text) != nullptr;
+    auto* generic = reinterpret_cast<sockaddr*>(&place);
+    char text[NI_MAXHOST] = {};
+    const bool is_known = getpeername(connection.get(), generic, &size) == 0 &&
+                          getnameinfo(generic, size, text, sizeof text, nullptr, 0, NI_NUMERICHOST) == 0;
     return is_known ? text : "";
 }
 

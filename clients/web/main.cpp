@@ -56,13 +56,13 @@ std::expected<web::TlsFiles, Failure> read_tls(const WebConfig& web) {
     return tls;
 }
 
-std::string address_text(const WebConfig& web, const web::Listener& listener) {
+std::string address_text(const WebConfig& web, const Listener& listener) {
     const bool is_six = web.address.contains(':');
     return (web.certificate_file.empty() ? "http://" : "https://") + (is_six ? "[" + web.address + "]" : web.address) +
            ":" + std::to_string(listener.port) + "/";
 }
 
-web::AccessRules rules_of(const WebConfig& web, const web::Listener& listener, const web::Tokens& tokens) {
+web::AccessRules rules_of(const WebConfig& web, const Listener& listener, const web::Tokens& tokens) {
     web::AccessRules rules{.tokens = tokens,
                            .hosts = {"localhost", "127.0.0.1", "::1", web.address},
                            .port = listener.port,
@@ -88,7 +88,7 @@ std::expected<void, std::string> publish(const Options& options, const std::stri
 
 /// Serves until a signal asks to end.
 ExitCode serve(const Options& options, const WebConfig& web, const ChosenMachine& machine, const web::TlsFiles& tls,
-               const web::Listener& listener, Output& output) {
+               const Listener& listener, Output& output) {
     const std::filesystem::path root = record_directory(machine.config.name).parent_path();
     const std::filesystem::path file =
         options.token_file.empty() ? root / "web" / "tokens" : std::filesystem::path(options.token_file);
@@ -124,7 +124,7 @@ int run(const Options& options) {
     const WebConfig web = merged(options, machine->config);
     const auto tls = read_tls(web);
     if (!tls) { return output.fail(tls.error()); }
-    const auto listener = web::listen_at(web.address, static_cast<std::uint16_t>(web.port));
+    const auto listener = listen_at(web.address, static_cast<std::uint16_t>(web.port));
     if (!listener) { return output.fail(failed(listener.error())); }
     if (!listener->is_loopback && !tls->is_used()) {
         return output.fail(bad_input("--address " + web.address +

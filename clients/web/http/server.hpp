@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "clients/web/http/listener.hpp"
+#include "clients/channel/listener.hpp"
 #include "clients/web/http/message.hpp"
 
 namespace lockstep::web {

@@ -5,10 +5,10 @@
 #include <expected>
 #include <string>
 
-namespace lockstep::web {
+namespace lockstep {
 
 struct Listener {
-    int socket = -1;
+    int socket = -1;  // its owner closes it
     std::uint16_t port = 0;
     bool is_loopback = false;
 };
@@ -16,4 +16,4 @@ struct Listener {
 /// `address`: of IPv4 or IPv6; port 0: any free one. Error: why not, and the remedy.
 std::expected<Listener, std::string> listen_at(const std::string& address, std::uint16_t port);
 
-}  // namespace lockstep::web
+}  // namespace lockstep

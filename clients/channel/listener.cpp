@@ -1,4 +1,4 @@
-#include "clients/web/http/listener.hpp"
+#include "clients/channel/listener.hpp"
 
 #include <arpa/inet.h>
 #include <netdb.h>
@@ -11,7 +11,7 @@
 #include <cstring>
 #include <memory>
 
-namespace lockstep::web {
+namespace lockstep {
 namespace {
 
 constexpr int kBacklog = 128;
@@ -58,4 +58,4 @@ std::expected<Listener, std::string> listen_at(const std::string& address, std::
     return Listener{made, port_of(made), is_loopback(found->ai_addr)};
 }
 
-}  // namespace lockstep::web
+}  // namespace lockstep
