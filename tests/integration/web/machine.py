@@ -24,11 +24,11 @@ def own_network():
 class Machine:
     """Up on entry, down on exit. `port` and `tokens` are those of the server."""
 
-    def __init__(self, root, programs, example="two-axis"):
+    def __init__(self, root, programs, example="two-axis", name=None):
         self.root = pathlib.Path(root)
         self.programs = pathlib.Path(programs)
         self.work = pathlib.Path(tempfile.mkdtemp())
-        self.name = f"web{os.getpid()}"
+        self.name = name or f"web{os.getpid()}"
         text = (self.root / "deploy/examples" / f"{example}.textproto").read_text()
         text = re.sub(r'^name: .*', f'name: "{self.name}"', text, count=1, flags=re.M)
         # Slots that allow a busy host to stall a process for 200 ms.

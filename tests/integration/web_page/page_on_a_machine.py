@@ -2,7 +2,9 @@
 """A machine that is up, in a network of its own, while a program of Node drives its page in a browser.
 
 Usage: page_on_a_machine.py ROOT PROGRAMS COMMAND...    PROGRAMS: the folder of lockstep and lockstep-web
+MACHINE_NAME in the environment names the machine; otherwise it has a name of its own.
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -15,7 +17,7 @@ from machine import Machine, own_network  # noqa: E402
 def main():
     own_network()
     root, programs, *command = sys.argv[1:]
-    with Machine(root, programs, "three-axis") as machine:
+    with Machine(root, programs, "three-axis", os.environ.get("MACHINE_NAME")) as machine:
         sys.exit(subprocess.run(command, env={**machine.env, "PROGRAMS": programs}).returncode)
 
 

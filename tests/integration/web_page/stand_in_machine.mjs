@@ -99,7 +99,7 @@ export class StandInMachine {
   estop() {
     this.stop();
     this.state.mode = "Fault";
-    this.state.alarms = [{ ...FAULTS.emergency, severity: "fault" }];
+    this.state.alarms = [null, "X", "Y", "Z"].map((axis) => ({ ...FAULTS.emergency, axis, severity: "fault" }));
   }
   reset() {
     this.state.mode = "Idle";

@@ -4,6 +4,7 @@ import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
+import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { shownMode } from "../../../clients/web/page/src/state/shown_mode";
 import { workPlace } from "../../../clients/web/page/src/views/axis_places";
@@ -72,6 +73,22 @@ describe("another writer", () => {
   test("has had the machine since a time of the day", () => {
     expect(timeOfDay("2026-03-01T12:05:00")).toBe("12:05");
     expect(timeOfDay("never")).toBe("–");
+  });
+});
+
+describe("alarms", () => {
+  const stop = { severity: "fault", number: 118, code: "emergency-stopped", cause: "c", remedy: "r" } as const;
+  const silent = { severity: "warning", number: 0, code: "axis-not-received", cause: "c", remedy: "r" } as const;
+
+  test("of the machine stand for the same of its axes", () => {
+    const groups = groupedAlarms([stop, { ...stop, axis: "X" }, { ...stop, axis: "Y" }, { ...silent, axis: "Y" }]);
+    expect(groups.map(({ alarm, axes }) => [alarm.code, axes])).toEqual([["emergency-stopped", []], ["axis-not-received", ["Y"]]]);
+  });
+
+  test("of several axes are one, and others stay apart", () => {
+    const groups = groupedAlarms([{ ...silent, axis: "X" }, { ...silent, axis: "Z" }, { ...silent, axis: "Y", cause: "other" }]);
+    expect(groups.map(({ axes }) => axes)).toEqual([["X", "Z"], ["Y"]]);
+    expect(groupedAlarms([])).toEqual([]);
   });
 });
 

@@ -39,7 +39,7 @@ export const de: Texts = {
     estopHint: "Die Pulse enden sofort. Dies ist keine Sicherheitsfunktion: die Motoren bleiben unter Spannung.",
   },
   alarms: {
-    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", ended: "Der letzte Auftrag endete vorzeitig",
+    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", ended: "Der letzte Auftrag endete vorzeitig",
   },
   axes: {
     title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",

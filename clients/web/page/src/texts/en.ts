@@ -38,7 +38,7 @@ export const en = {
     estopHint: "Pulses cease at once. This is no safety function: it does not cut the power of the motors.",
   },
   alarms: {
-    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", ended: "The last job ended early",
+    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", ended: "The last job ended early",
   },
   axes: {
     title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",

@@ -2,17 +2,18 @@
 import type { Alarm, Fault } from "../api/contract";
 import { h, icon, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
+import { groupedAlarms } from "../state/grouped_alarms";
 import { fill, t } from "../texts";
 import type { Model, View } from "./view";
 
-function heading(fault: Fault): string {
-  const axis = fault.axis ? `${fill(t.alarms.axis, { axis: fault.axis })}: ` : "";
-  return `${axis}${fault.code}${fault.number > 0 ? ` (${fault.number})` : ""}`;
+function heading(fault: Fault, axes: readonly string[]): string {
+  const text = axes.length === 1 ? fill(t.alarms.axis, { axis: axes[0]! }) : fill(t.alarms.axes, { axes: axes.join(", ") });
+  return `${axes.length > 0 ? `${text}: ` : ""}${fault.code}${fault.number > 0 ? ` (${fault.number})` : ""}`;
 }
 
-function item(fault: Fault, kind: string, className: string): HTMLElement {
+function item(fault: Fault, axes: readonly string[], kind: string, className: string): HTMLElement {
   return h("li", { class: `alarm ${className}` }, icon(className === "fault" ? ICONS.emergency : ICONS.warning),
-    h("div", {}, h("strong", {}, `${kind} – ${heading(fault)}`), h("p", {}, fault.cause),
+    h("div", {}, h("strong", {}, `${kind} – ${heading(fault, axes)}`), h("p", {}, fault.cause),
       fault.remedy === "" ? undefined : h("p", { class: "remedy" }, fill(t.commands.remedy, { remedy: fault.remedy }))));
 }
 
@@ -28,8 +29,9 @@ export class Alarms implements View {
     if (now === this.shown) return;
     this.shown = now;
     this.list.replaceChildren(
-      ...alarms.map((alarm) => item(alarm, alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
-      ...(ended ? [item(ended, t.alarms.ended, "warning")] : []));
+      ...groupedAlarms(alarms).map(({ alarm, axes }) =>
+        item(alarm, axes, alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
+      ...(ended ? [item(ended, ended.axis ? [ended.axis] : [], t.alarms.ended, "warning")] : []));
     show(this.element, this.list.children.length > 0);
   }
 }
