@@ -66,9 +66,30 @@ def check_other_writer(machine, client):
     client.await_state(lambda s: s["mode"] == "Idle" and is_free(s))
 
 
+def check_taken_while_jogging(machine, client):
+    """The jog ends, and its key begins no other."""
+    jog = {"jogs": [{"axis": "X", "velocity": 5}], "press": 1}
+    for jog["press"] in range(1, 100):  # a host that stalls ends a jog, too
+        answer = client.command("jog", jog)
+        if answer.status == 200 and answer.json()["jogging"]:
+            break
+    taken = subprocess.Popen([machine.programs / "lockstep", "override", "--feed", "100", "--take"], stdout=subprocess.DEVNULL,
+                             env={**machine.env, "LOCKSTEP_WRITER": "anna"})
+    for _ in range(2000):
+        answer = client.command("jog", jog)
+        if answer.status != 200 or not answer.json()["jogging"]:
+            break
+        time.sleep(0.02)
+    expect(answer.status == 409 or not answer.json()["jogging"], f"it jogs on: {answer.body}")
+    expect(taken.wait(30) == 0, "not taken over")
+    client.await_state(lambda s: s["mode"] == "Idle" and s["axes"]["X"]["at_rest"] and not is_mine(s))
+    client.command("jog", {"jogs": [], "press": jog["press"]})
+    refused(client.command("jog", jog), 409, "jog-over")
+
+
 def check_end(machine, client):
-    expect(client.command("override", {"feed_percent": 100}).status == 200, "no override")
-    client.await_state(is_mine)
+    """The server learns within its period for keeping the lease that another took it, and asks anew."""
+    client.await_state(lambda s: client.command("override", {"feed_percent": 100}).status == 200 and is_mine(s))
     machine.end_server()
     status = machine.lockstep("status").stdout
     expect("writer:" not in status, f"a server that has ended gives the lease back: {status}")
@@ -79,6 +100,7 @@ def main():
         check_first_command(client)
         check_watched(client)
         check_other_writer(machine, client)
+        check_taken_while_jogging(machine, client)
         check_end(machine, client)
 
 
