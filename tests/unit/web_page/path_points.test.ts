@@ -31,6 +31,13 @@ describe("a path", () => {
 });
 
 describe("progress along a path", () => {
+  test("stays where it was when a job ends early and no line is in motion", () => {
+    const progress = new PathProgress(readPath(encode(SQUARE)));
+    const reached = progress.advance(5, [3, 10, 0]);
+    expect(progress.advance(0, [0, 0, 0])).toBe(reached);
+  });
+
+
   test("is the point that the head is on its way to", () => {
     const progress = new PathProgress(readPath(encode(SQUARE)));
     expect(progress.advance(3, [4, 0, 0])).toBe(1);

@@ -25,9 +25,9 @@ export class PathProgress {
 
   constructor(private readonly path: Path) {}
 
-  /** The point that the head is on its way to. All points before it are behind the head. */
+  /** The point that the head is on its way to. All points before it are behind the head. Line 0: none is in motion. */
   advance(line: number, head: Vector): number {
-    const first = this.find(line);
+    const first = line > 0 ? this.find(line) : undefined;
     if (first === undefined) return this.reached;
     let best = first, least = Infinity;
     for (let i = first; i < this.path.line.length && this.path.line[i] === this.path.line[first]; ++i) {
