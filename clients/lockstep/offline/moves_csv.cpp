@@ -1,11 +1,19 @@
 #include "clients/lockstep/offline/moves_csv.hpp"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include "core/gcode/chords.hpp"
+#include "core/gcode/interpreter.hpp"
 #include "core/gcode/program_builder.hpp"
 #include "core/number_text.hpp"
+#include "services/documents/program_file.hpp"
+#include "services/files/line_reader.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -14,11 +22,11 @@ using gcode::Point;
 
 class MovesTable {
 public:
-    explicit MovesTable(const ProgramInput& input)
-        : input_(input), places_(gcode::axis_places(input.setup)), at_(gcode::start_state(input.setup).machine) {
-        text_ = "line,kind";
-        for (const GcodeAxis& axis : input.setup.axes) { text_ += "," + axis.name; }
-        text_ += ",feed_mm_min,i,j,k\n";
+    MovesTable(const GcodeSetup& setup, std::ostream& out)
+        : setup_(setup), out_(out), places_(gcode::axis_places(setup)), at_(gcode::start_state(setup).machine) {
+        out_ << "line,kind";
+        for (const GcodeAxis& axis : setup.axes) { out_ << "," << axis.name; }
+        out_ << ",feed_mm_min,i,j,k\n";
     }
 
     void take(const gcode::Action& action, int line) {
@@ -28,14 +36,12 @@ public:
         } else if (const auto* arc = std::get_if<gcode::Arc>(&action)) {
             take_arc(*arc);
         } else if (const auto* spline = std::get_if<gcode::Spline>(&action)) {
-            gcode::cut(*spline, Point(at_), input_.setup.chord_tolerance_mm,
+            gcode::cut(*spline, Point(at_), setup_.chord_tolerance_mm,
                        [&](const Point& target) { add("feed", target, spline->feed); });
         } else if (std::holds_alternative<gcode::Dwell>(action)) {
             add("dwell", at_, 0);
         }
     }
-
-    std::string text() && { return std::move(text_); }
 
 private:
     /// Whole turns first, each with its part of the way; the last ends at the target.
@@ -62,30 +68,59 @@ private:
     }
 
     void add(const char* kind, const Point& target, double feed, const gcode::Vector* centre = nullptr) {
-        text_ += std::to_string(line_) + "," + kind;
+        out_ << line_ << "," << kind;
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            text_ += "," + number_text(places_[i] ? target[*places_[i]] : input_.setup.axes[i].start_mm);
+            out_ << "," << number_text(places_[i] ? target[*places_[i]] : setup_.axes[i].start_mm);
         }
-        text_ += "," + (feed > 0 ? number_text(feed) : std::string());
-        for (std::size_t i = 0; i < 3; ++i) { text_ += "," + (centre != nullptr ? number_text((*centre)[i]) : ""); }
-        text_ += "\n";
+        out_ << "," << (feed > 0 ? number_text(feed) : std::string());
+        for (std::size_t i = 0; i < 3; ++i) { out_ << "," << (centre != nullptr ? number_text((*centre)[i]) : ""); }
+        out_ << "\n";
         at_ = target;
     }
 
-    const ProgramInput& input_;
+    const GcodeSetup& setup_;
+    std::ostream& out_;
     std::vector<std::optional<std::size_t>> places_;
     Point at_;
-    std::string text_;
     int line_ = 0;
 };
 
+/// In such a file a subroutine stands before its call.
+std::expected<void, std::string> read_long(const std::string& file, const GcodeSetup& setup, MovesTable& table) {
+    auto lines = LineReader::open(file);
+    if (!lines) { return std::unexpected(lines.error()); }
+    gcode::Interpreter interpreter(gcode::interpreter_setup(setup), gcode::start_state(setup),
+                                   [&](const gcode::Action& action, int line) { table.take(action, line); });
+    for (int number = 1; !interpreter.ended(); ++number) {
+        const auto next = lines->next();
+        if (!next) { return std::unexpected(next.error()); }
+        if (next->state == LineReader::State::Ends) { break; }
+        (void)interpreter.take(next->line, number);
+    }
+    (void)interpreter.finish();
+    return {};
+}
+
+std::expected<void, std::string> read_short(const std::string& file, const GcodeSetup& setup, MovesTable& table) {
+    const auto text = read_text_file(file);
+    if (!text) { return std::unexpected(text.error().message); }
+    (void)gcode_actions(*text, setup, [&](const gcode::Action& action, int line) { table.take(action, line); });
+    return {};
+}
+
 }  // namespace
 
-std::string moves_csv(const ProgramInput& input) {
-    MovesTable table(input);
-    (void)gcode_actions(input.text, input.setup,
-                        [&](const gcode::Action& action, int line) { table.take(action, line); });
-    return std::move(table).text();
+std::expected<void, std::string> write_moves(const std::string& table, const std::string& program,
+                                             const GcodeSetup& setup) {
+    errno = 0;
+    std::ofstream out(table, std::ios::binary | std::ios::trunc);
+    MovesTable moves(setup, out);
+    auto read = is_long_program(program) ? read_long(program, setup, moves) : read_short(program, setup, moves);
+    out.close();
+    if (read && !out) { read = std::unexpected(table + ": cannot be written: " + std::strerror(errno)); }
+    std::error_code ignored;
+    if (!read && std::filesystem::is_regular_file(table, ignored)) { std::filesystem::remove(table, ignored); }
+    return read;
 }
 
 }  // namespace lockstep

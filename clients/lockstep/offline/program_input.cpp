@@ -76,16 +76,15 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
     if (!setup) { return std::unexpected(setup.error()); }
     auto lines = LineReader::open(options.file);
     if (!lines) { return std::unexpected(bad_file(options.file, {{.message = lines.error()}})); }
-    const auto text = std::make_shared<ProgramText>(
-        *std::move(lines),
-        program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values));
+    GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
+    const auto text = std::make_shared<ProgramText>(*std::move(lines), reading);
     Progress progress(options.file, *text, setup->machine.ticks_per_second(), output);
     auto plan = plan_blocks(setup->machine, text->head(), text,
                             {.start = start_counts(setup->machine, text->head()),
                              .each_frame = [&progress](Ticks planned) { progress.show(planned); }});
     if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
     if (!plan) { return std::unexpected(not_planned(options.file, plan.error())); }
-    return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes()};
+    return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes(), std::move(reading)};
 }
 
 }  // namespace
@@ -116,11 +115,10 @@ std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options)
     if (!plan) { return std::unexpected(not_planned(file, plan.error())); }
     const bool ends_open = !read->text.empty() && read->text.back() != '\n';
     const auto lines = std::ranges::count(read->text, '\n') + (ends_open ? 1 : 0);
-    return ProgramInput{
-        {std::move(setup->machine), *std::move(plan), static_cast<int>(lines), std::move(read->reading.notes)},
-        std::move(read->reading.program),
-        std::move(read->text),
-        std::move(read->setup)};
+    return ProgramInput{{std::move(setup->machine), *std::move(plan), static_cast<int>(lines),
+                         std::move(read->reading.notes), std::move(read->setup)},
+                        std::move(read->reading.program),
+                        std::move(read->text)};
 }
 
 std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output) {

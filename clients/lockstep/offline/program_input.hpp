@@ -37,13 +37,13 @@ struct PlannedFile {
     ProgramPlan plan;
     int lines = 0;                 // of the G-code
     std::vector<GcodeNote> notes;  // words that were passed over, and messages
+    GcodeSetup setup;              // that it was read with
 };
 
 /// A file that is held as a whole, too.
 struct ProgramInput : PlannedFile {
     Program program;
     std::string text;
-    GcodeSetup setup;  // that the text was read with
 };
 
 /// Errors: everything that is wrong with the configuration, the start, the values or the program, by line and column.

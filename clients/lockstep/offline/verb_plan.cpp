@@ -10,7 +10,6 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/planning/plan_figures.hpp"
 #include "clients/text/output.hpp"
-#include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,19 +19,22 @@ struct PlanOptions : ProgramOptions {
     std::string moves;
 };
 
-/// What needs all of the program at a time.
-std::expected<void, Failure> write_files(const PlanOptions& options, const ProgramInput& input) {
-    if (!options.moves.empty()) {
-        const auto written = write_text_file(options.moves, moves_csv(input));
-        if (!written) { return std::unexpected(bad_input("--moves: " + written.error())); }
-    }
-    if (options.svg_dir.empty()) { return {}; }
+/// Of a program that is held as a whole.
+std::expected<void, Failure> draw(const PlanOptions& options, const ProgramInput& input) {
     const auto legs = plan_legs(input.machine, input.program, start_counts(input.machine, input.program.head()));
     if (!legs) { return std::unexpected(bad_file(options.file, {{legs.error().line, 0, legs.error().text}})); }
     const auto drawn =
         write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input.machine, input.plan, *legs)},
                                         {"speed.svg", plan_speed_figure(input.machine, input.plan, *legs)}});
     return drawn ? std::expected<void, Failure>{} : std::unexpected(bad_input(drawn.error()));
+}
+
+std::expected<PlannedFile, Failure> plan_and_draw(const PlanOptions& options, Output& output) {
+    if (options.svg_dir.empty()) { return plan_file(options, output); }
+    auto input = read_program(options);
+    if (!input) { return std::unexpected(input.error()); }
+    if (const auto drawn = draw(options, *input); !drawn) { return std::unexpected(drawn.error()); }
+    return static_cast<PlannedFile&&>(*std::move(input));
 }
 
 ExitCode report(const PlannedFile& planned, Output& output) {
@@ -44,14 +46,13 @@ ExitCode report(const PlannedFile& planned, Output& output) {
 
 ExitCode plan(const PlanOptions& options) {
     Output output(options.json);
-    if (options.moves.empty() && options.svg_dir.empty()) {
-        const auto planned = plan_file(options, output);
-        return planned ? report(*planned, output) : output.fail(planned.error());
+    const auto planned = plan_and_draw(options, output);
+    if (!planned) { return output.fail(planned.error()); }
+    if (!options.moves.empty()) {
+        const auto written = write_moves(options.moves, options.file, planned->setup);
+        if (!written) { return output.fail(bad_input("--moves: " + written.error())); }
     }
-    const auto input = read_program(options);
-    if (!input) { return output.fail(input.error()); }
-    if (const auto written = write_files(options, *input); !written) { return output.fail(written.error()); }
-    return report(*input, output);
+    return report(*planned, output);
 }
 
 }  // namespace

@@ -98,6 +98,28 @@ TEST_F(Command, MovesAreListedBeforeArcsAreCut) {
               "3,dwell,40,20,5,,,,\n");
 }
 
+TEST_F(Command, MovesOfALongFileAreListedAsTheyAreRead) {
+    const std::string file = (directory / "long.ngc").string();
+    const std::string moves = (directory / "moves.csv").string();
+    constexpr int kLines = 120'000;
+    {
+        std::ofstream out(file);
+        out << "G0 X20 Y20 F6000\n";
+        for (int k = 0; k < kLines; ++k) { out << "G1 X" << 20 + 0.0001 * (k % 2) << " Y20.5000 Z5.0000\n"; }
+    }
+    EXPECT_EQ(run("plan " + file + kMachine + " --start X=0,Y=0,Z=5 --moves " + moves).exit, 0);
+    std::ifstream in(moves);
+    std::string row;
+    std::string last;
+    int rows = 0;
+    for (; std::getline(in, row); last = row) { ++rows; }
+    EXPECT_EQ(rows, kLines + 2);
+    EXPECT_EQ(last, "120001,feed,20.0001,20.5,5,6000,,,");
+    const auto full = run("plan " + file + kMachine + " --start X=0,Y=0,Z=5 --moves /dev/full 2>&1");
+    EXPECT_EQ(full.exit, 2);
+    EXPECT_NE(full.out.find("/dev/full: cannot be written"), std::string::npos) << full.out;
+}
+
 TEST_F(Command, CheckReportsErrorsAndWordsThatArePassedOver) {
     const std::string file = (directory / "words.ngc").string();
     std::ofstream(file) << "G0 X20 Y20\nM3 S100\n";
