@@ -24,7 +24,7 @@ struct Options {
     bool take = false;
 };
 
-/// `place`: where the sender's bytes come from, its address or the terminal.
+/// `place`: the sender's address, or the terminal.
 LeaseHolder writer_at(const std::string& place) { return {.name = "the grbl sender at " + place, .host = host_name()}; }
 
 /// The machine was brought up again with another configuration, and its file describes it.
@@ -122,20 +122,23 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Takes a machine's commands from a sender that speaks grbl 1.1's protocol, over TCP or a pseudo-terminal, one "
-        "sender at a time, until SIGTERM or SIGINT. When the sender leaves, its jog brakes."};
+        "Lets a sender of grbl 1.1's protocol use a machine, over TCP or a pseudo-terminal, one sender at a time, "
+        "until "
+        "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, and the lines that the machine has begun with "
+        "are run."};
     Options options;
     app.add_option("--machine", options.machine_file,
                    "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
                    "host, else /etc/lockstep/machine.textproto");
     app.add_option("--address", options.address,
-                   "where to listen. Whoever reaches it moves the machine: nothing asks for a password")
+                   "where to listen. There is no password: every sender that reaches this address can move the machine")
         ->capture_default_str();
     app.add_option("--port", options.port, "the TCP port")->capture_default_str();
     app.add_option("--pty", options.terminal, "also make a pseudo-terminal, and this symbolic link to it");
-    app.add_flag("--take", options.take,
-                 "a sender's work takes the machine over from another writer, whom lockstep status names; else it is "
-                 "refused");
+    app.add_flag(
+        "--take", options.take,
+        "a sender's lines, jogs and homing take the machine over from another writer; without it they are refused "
+        "while there is one. lockstep status names the writer");
     app.footer(
         "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2302 --pty /tmp/grbl\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");

@@ -16,7 +16,7 @@ void add_live_options(CLI::App& verb, LiveOptions& options) {
 
 void add_take(CLI::App& verb, LiveOptions& options) {
     verb.add_flag("--take", options.take,
-                  "take the machine over from another writer, whom lockstep status names; its job in motion goes on");
+                  "take the machine over from the writer that lockstep status names; a job in motion goes on");
 }
 
 CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {

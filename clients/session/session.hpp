@@ -83,7 +83,7 @@ public:
     void repeat(const Command& command) { (void)client_bus().commands.write(command); }
     // One writer at a time moves and changes the machine: its commands are accepted while it holds the lease. While
     // nobody does, those of every client are.
-    /// Who commands here, from now on; give the lease first. An identity of 0: this client alone is the writer.
+    /// Names this client as the writer, from now on. Give the lease back first. With an identity of 0 nobody shares it.
     void write_as(LeaseHolder writer) { lease_.write_as(std::move(writer)); }
     /// Waits for the lease; the reply refuses it where another writer has it. receive() keeps it until give_lease(),
     /// or until another takes it over. `takes_over`: from another writer, too. Error: as command().

@@ -14,7 +14,7 @@ class LeaseKeeper {
 public:
     LeaseKeeper(Identity client, LeaseHolder writer) : client_(client) { write_as(std::move(writer)); }
 
-    /// For what is asked from now on: give the lease first. An identity of 0: this client alone is the writer.
+    /// For what is asked from now on: give the lease first. With an identity of 0 no other client shares the lease.
     void write_as(LeaseHolder writer);
     const LeaseHolder& writer() const { return writer_; }
 
