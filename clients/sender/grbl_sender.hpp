@@ -57,7 +57,7 @@ public:
     std::size_t room() const { return flow_.room(); }
     /// "Run|MPos:1.000,2.000,3.000": the newest status report; empty: there was none.
     const std::string& status() const { return status_; }
-    /// What the controller says to a person.
+    /// The texts of [MSG:] lines since the last call.
     std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
     static constexpr std::chrono::milliseconds kGreetingPatience{2000};  // of controllers that do not greet

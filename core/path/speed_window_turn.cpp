@@ -72,8 +72,9 @@ void SpeedWindow::recut_behind(std::size_t piece) {
     for (const Quadratic& shape : ahead) { add(shape); }
 }
 
-/// From the beginning of an interval at w. What follows the last interval is limited by the speed before it, which may
-/// not be one that was raised here: so one more is asked for.
+/// From the beginning of an interval at w. An interval that arrives later is limited by the top of the last known one.
+/// If that top were raised here, the limit would differ from that of a path known as a whole. So this asks for one
+/// interval more.
 TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
     for (std::size_t k = number; w > 0; ++k) {
         if (k + 1 >= end() && !is_finished_) { return TurnResult::LacksPath; }

@@ -4,7 +4,7 @@
 
 namespace lockstep::web {
 
-/// A refusal holds for one loop: what is asked later is asked anew.
+/// A refusal holds for one loop: a later command asks for the lease again.
 void WriterTurn::note(const Lease& lease) {
     if (state_ == State::Refused) { state_ = State::Free; }
     if (state_ == State::Held && !lease.is_held) { state_ = State::Free; }

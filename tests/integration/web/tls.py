@@ -70,7 +70,7 @@ def check_served(machine, certificate):
     expect(status == 200, f"a name that was allowed: {status} {body}")
 
 
-def check_strangers(machine):
+def check_refused_connections(machine):
     other, _ = make_certificate(machine.work, "other")
     try:
         request(machine, other, "GET", "/")
@@ -95,7 +95,7 @@ def main():
         machine.serve("--address", "0.0.0.0", "--certificate", certificate, "--key", key, "--host-name", "mill.example",
                       "--host-name", "127.0.0.1")
         check_served(machine, certificate)
-        check_strangers(machine)
+        check_refused_connections(machine)
         check_served(machine, certificate)
         machine.end_server()
 

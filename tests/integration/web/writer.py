@@ -88,7 +88,7 @@ def check_taken_while_jogging(machine, client):
 
 
 def check_end(machine, client):
-    """The server learns within its period for keeping the lease that another took it, and asks anew."""
+    """Within its renewal period the server learns that another client took the lease, and asks for it again."""
     client.await_state(lambda s: client.command("override", {"feed_percent": 100}).status == 200 and is_mine(s))
     machine.end_server()
     status = machine.lockstep("status").stdout
