@@ -1,5 +1,5 @@
-// What a sender has written applies instead of the machine's file, by the rules for that file, until it is folded into
-// it.
+// Settings that a sender has written: they replace values of the machine's file, must satisfy the rules for that file,
+// and can be folded into it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -54,7 +54,7 @@ TEST(CheckedStart, AnAxisWhosePlaceIsNotKnownCountsAsParked) {
     EXPECT_EQ(checked_start(snapshot, two_axes()).place_mm[0], two_axes().axes[0].homing.park_mm);
 }
 
-/// What a run is refused with where the machine is as `change` leaves it.
+/// The code with which a run is refused on a machine changed by `change`; empty: it is not refused.
 template <typename Change>
 std::string run_refusal(const Change& change) {
     Snapshot snapshot = snapshot_at_rest();

@@ -1,4 +1,4 @@
-// What a broken sender does while the machine moves: the motion is as planned, and the next sender is served.
+// Senders that break the protocol while the machine moves. The motion is as planned, and the next sender is served.
 #include <chrono>
 #include <iostream>
 #include <thread>
