@@ -8,13 +8,13 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kAnswerPatience = 3s;
+constexpr nanoseconds kLeasePatience = 3s;
 
 }  // namespace
 
 std::expected<Reply, Failure> Session::take_lease(bool takes_over, const StopSignal* stop) {
     ask_for_lease(takes_over);
-    const nanoseconds deadline = monotonic_now() + kAnswerPatience;
+    const nanoseconds deadline = monotonic_now() + kLeasePatience;
     while (!lease_.answer()) {
         if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
         if (monotonic_now() > deadline) { return std::unexpected(silent()); }

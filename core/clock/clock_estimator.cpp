@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kWindow_s = 8;
 constexpr double kStretch_s = 0.25;
-constexpr double kRounding = 1;   // ticks: a clock shows the last tick that has begun
-constexpr double kWander = 1e-6;  // a quartz's rate within the window, from warmth
+constexpr double kStampRounding = 1;  // ticks: a clock shows the last tick that has begun
+constexpr double kWander = 1e-6;      // a quartz's rate within the window, from warmth
 
 double ticks_in(double seconds, std::int64_t tick_ns) { return seconds * 1e9 / static_cast<double>(tick_ns); }
 
@@ -23,8 +23,8 @@ ClockEstimator::ClockEstimator(std::int64_t tick_ns)
 ClockEstimator::Sample ClockEstimator::sample_of(const ClockExchange& exchange) const {
     const double sent = between(own_origin_, exchange.sent);
     const double arrived = between(own_origin_, exchange.arrived);
-    const double least = between(other_origin_, exchange.answered) - arrived - kRounding;
-    const double most = between(other_origin_, exchange.received) - sent + kRounding;
+    const double least = between(other_origin_, exchange.answered) - arrived - kStampRounding;
+    const double most = between(other_origin_, exchange.received) - sent + kStampRounding;
     return {(sent + arrived) / 2, (least + most) / 2, (most - least) / 2 + kMaxRate * (arrived - sent)};
 }
 
@@ -77,7 +77,7 @@ bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
 /// What an older one proves has widened since: worth it from a tick on.
 bool ClockEstimator::proves_more(const Sample& newer, const Sample& older) const {
     const double widened = rate_error_ * (newer.own - older.own);
-    return newer.half < older.half || newer.half + kRounding < older.half + widened;
+    return newer.half < older.half || newer.half + kStampRounding < older.half + widened;
 }
 
 /// Of its stretch of time the one that now proves most; those that have left the window go.
@@ -163,7 +163,7 @@ ClockEstimator::Reading ClockEstimator::at(Tick own) const {
     const double since = between(own_origin_, own);
     const Span ahead = ahead_at(since);
     const auto other = static_cast<std::int64_t>(std::llround(ahead.middle()));
-    const auto error = static_cast<std::int64_t>(std::ceil(ahead.width() / 2 + doubt_ + kRounding));
+    const auto error = static_cast<std::int64_t>(std::ceil(ahead.width() / 2 + doubt_ + kStampRounding));
     return {other_origin_ + (own - own_origin_) + Ticks{other}, {error}};
 }
 

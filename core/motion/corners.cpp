@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kNoSpeedLimit = std::numeric_limits<double>::infinity();
 
 double least_acceleration(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
 
@@ -36,10 +36,10 @@ struct Joined {
 
 /// The speed at which no axis jumps by more than its start velocity, nor so often that it costs too much.
 double joint_speed(const Joined& joined, std::size_t j) {
-    const double before = j == 0 ? kUnbounded : joined.length(j - 1);
-    const double after = j == joined.moves.size() ? kUnbounded : joined.length(j);
+    const double before = j == 0 ? kNoSpeedLimit : joined.length(j - 1);
+    const double after = j == joined.moves.size() ? kNoSpeedLimit : joined.length(j);
     const double mm = std::min(before, after);
-    double speed = kUnbounded;
+    double speed = kNoSpeedLimit;
     for (std::size_t i = 0; i < joined.limits.size(); ++i) {
         const AxisLimits& axis = joined.limits[i];
         const double change = joined.turn_at(j, i);
@@ -61,7 +61,7 @@ using Tolls = StaticVector<Toll, kMaxAxes>;
 
 /// Whether a move of `mm` at up to `top` cannot speed up or brake for so long that its corners are not paid for.
 bool is_long(double mm, double top, const Tolls& tolls) {
-    double path_acceleration = kUnbounded;
+    double path_acceleration = kNoSpeedLimit;
     for (const Toll& t : tolls) {
         if (t.slope > 0) { path_acceleration = std::min(path_acceleration, t.acceleration / t.slope); }
     }
@@ -76,8 +76,8 @@ double charge(PathMove& move, double mm, double apex2, double entered, const Tol
               std::span<const AxisLimits> limits) {
     const double scale = move.mm_per_lead();
     const double top = std::max(move.limits.max_velocity * scale, entered);
-    if (is_long(mm, top, tolls)) { return kUnbounded; }
-    double allowed = kUnbounded;
+    if (is_long(mm, top, tolls)) { return kNoSpeedLimit; }
+    double allowed = kNoSpeedLimit;
     for (const Toll& t : tolls) {
         if (t.jump > 0) { allowed = std::min(allowed, kCornerShare * t.acceleration * mm / t.jump); }
     }
@@ -113,7 +113,7 @@ std::vector<double> speeds_at_joints(const Joined& joined) {
     const std::size_t n = joined.moves.size();
     std::vector<double> speed(n + 1);
     for (std::size_t j = 0; j <= n; ++j) {
-        double top = kUnbounded;
+        double top = kNoSpeedLimit;
         if (j > 0) { top = std::min(top, joined.moves[j - 1].top_speed()); }
         if (j < n) { top = std::min(top, joined.moves[j].top_speed()); }
         speed[j] = std::min(joint_speed(joined, j), std::max(top, joined.entry.least_at(j)));
@@ -149,7 +149,7 @@ std::vector<double> limit_corners(std::span<PathMove> moves, const Entry& entry,
 }
 
 double braking_left(std::span<const PathMove> moves, std::size_t m, double speed, std::span<const AxisLimits> limits) {
-    double left = kUnbounded;
+    double left = kNoSpeedLimit;
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const double share = std::abs(moves[m].share(i));
         if (share == 0) { continue; }

@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// How much of a squared speed the move can take away or add over a length: 2 a s.
 double brakes(const PathMove& move, double mm) { return 2 * move.limits.max_deceleration * move.mm_per_lead() * mm; }
@@ -24,7 +24,7 @@ std::optional<std::vector<double>> joint_speeds(std::span<PathMove> moves, const
     const std::size_t n = moves.size();
     // One move alone from rest to rest jumps away from rest and back to it: changes that do not add up.
     const bool alone = n == 1 && !entry.speed;
-    std::vector<double> speed = alone ? std::vector<double>(2, kUnbounded) : limit_corners(moves, entry, limits);
+    std::vector<double> speed = alone ? std::vector<double>(2, kNoLimit) : limit_corners(moves, entry, limits);
     const double first_mm = moves[0].remaining_mm(entry.along);
     if (!entry.speed) { speed[0] = std::min({speed[0], moves[0].start_speed(), moves[0].top_speed()}); }
     speed[n] = std::min({speed[n], moves[n - 1].start_speed(), moves[n - 1].top_speed()});
@@ -187,7 +187,7 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
     }
     if (move.lead == 0) { return move; }
     move.length_mm = std::sqrt(square);
-    move.own = {kUnbounded, kUnbounded, kUnbounded, kUnbounded};
+    move.own = {kNoLimit, kNoLimit, kNoLimit, kNoLimit};
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const double share = std::abs(move.share(i));
         if (share == 0) { continue; }

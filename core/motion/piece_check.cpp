@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kRounding = 1e-6;          // relative: what integers make of doubles
+constexpr double kCheckRounding = 1e-6;     // relative: what integers make of doubles
 constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: what they make of the speeds at a piece's ends
 
 /// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
@@ -16,13 +16,13 @@ constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
 double one_tick(const AxisLimits& limits) { return 2 * std::max(limits.max_acceleration, limits.max_deceleration); }
 
 bool within_speed(double velocity, const AxisLimits& limits) {
-    return std::abs(velocity) <= limits.max_velocity * (1 + kRounding) + one_tick(limits);
+    return std::abs(velocity) <= limits.max_velocity * (1 + kCheckRounding) + one_tick(limits);
 }
 
 bool within_acceleration(double before, double after, double ticks, const AxisLimits& limits) {
     const bool speeds_up = std::abs(after) > std::abs(before);
     const double most = speeds_up ? limits.max_acceleration : limits.max_deceleration;
-    return std::abs(after - before) <= most * ticks * (1 + kRounding) + kSpeedRounding;
+    return std::abs(after - before) <= most * ticks * (1 + kCheckRounding) + kSpeedRounding;
 }
 
 bool within_travel(Position at, const AxisLimits& limits) {
@@ -30,7 +30,7 @@ bool within_travel(Position at, const AxisLimits& limits) {
 }
 
 bool within_strain(const Strain& strain, const AxisLimits& limits) {
-    return strain.most() <= limits.start_velocity * (1 + kRounding) + one_tick(limits);
+    return strain.most() <= limits.start_velocity * (1 + kCheckRounding) + one_tick(limits);
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, 
         const bool fits = within_speed(before, limits) && within_speed(after, limits) &&
                           within_acceleration(before, after, ticks, limits) && within_strain(strain, limits);
         if (!fits) { return FaultCode::FrameBeyondLimits; }
-        strain.add(after - before, ticks, steepest * (1 + kRounding));
+        strain.add(after - before, ticks, steepest * (1 + kCheckRounding));
         point = {point.position + piece.covered(), after, strain};
         if (!within_travel(point.position, limits)) { return FaultCode::FrameOutsideTravel; }
     }

@@ -9,7 +9,7 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-constexpr std::size_t kMaxDiagnostics = 50;
+constexpr std::size_t kMaxMachineErrors = 50;
 
 /// Maps the keys of a machine to places in the text.
 struct Text {
@@ -58,7 +58,7 @@ Diagnostics machine_errors(const MachineDraft& draft, const TextSource& source,
         errors.push_back({place.line, place.column, problem.message});
     }
     std::ranges::stable_sort(errors, {}, [](const Diagnostic& d) { return std::tuple(d.line, d.column); });
-    if (errors.size() > kMaxDiagnostics) { errors.resize(kMaxDiagnostics); }
+    if (errors.size() > kMaxMachineErrors) { errors.resize(kMaxMachineErrors); }
     return errors;
 }
 

@@ -73,18 +73,20 @@ void FlightRecorder::serve(const std::stop_token& stop) {
     leave_real_time();
     say_left(save_left_rings(directory_, source_.directory));
     std::uint64_t seen = 0;
-    std::optional<std::chrono::nanoseconds> first;
+    bool has_seen = false;
+    std::chrono::nanoseconds first{};
     std::chrono::nanoseconds last{};
     for (bool goes_on = true; goes_on;) {
         goes_on = sleep(stop);
         const std::chrono::nanoseconds now = monotonic_now();
         const std::uint64_t noted = incidents_.load(std::memory_order_acquire);
         if (noted != seen) { last = now; }
-        if (noted != seen && !first) { first = now; }
+        if (noted != seen && !has_seen) { first = now; }
+        has_seen = has_seen || noted != seen;
         seen = noted;
-        if (!first || (goes_on && now - last < kAftermath && now - *first < kLongestWait)) { continue; }
+        if (!has_seen || (goes_on && now - last < kAftermath && now - first < kLongestWait)) { continue; }
         write();
-        first.reset();
+        has_seen = false;
     }
 }
 

@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-constexpr int kLooks = 40;
+constexpr int kLooksAtEnd = 40;
 constexpr std::string_view kWhy = "did not end in the time given: a disk may hang; ends at once\n";
 
 /// Without the log: a thread that hangs may hold it.
@@ -26,12 +26,13 @@ constexpr std::string_view kWhy = "did not end in the time given: a disk may han
 }  // namespace
 
 EndGuard::EndGuard(const StopSignal& stop, std::chrono::milliseconds longest)
-    : between_looks_(longest / kLooks), thread_([this, &stop](const std::stop_token& ended) { watch(ended, stop); }) {}
+    : between_looks_(longest / kLooksAtEnd),
+      thread_([this, &stop](const std::stop_token& ended) { watch(ended, stop); }) {}
 
 void EndGuard::watch(const std::stop_token& ended, const StopSignal& stop) const {
     std::mutex mutex;
     std::condition_variable_any wake;
-    for (int looks = 0; looks < kLooks;) {
+    for (int looks = 0; looks < kLooksAtEnd;) {
         std::unique_lock lock(mutex);
         if (wake.wait_for(lock, ended, between_looks_, [&] { return ended.stop_requested(); })) { return; }
         looks = stop.requested() ? looks + 1 : 0;

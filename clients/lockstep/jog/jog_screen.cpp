@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kReadPeriod = 5ms;
-constexpr nanoseconds kRedrawPeriod = 100ms;
+constexpr nanoseconds kJogRedrawPeriod = 100ms;
 
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(width, text.size()), ' ');
@@ -71,7 +71,7 @@ ExitCode jog_by_keys(Session& session, Output&) {
         last = now;
         link.press(keys.jogs(now));
         if (const std::string newest = note_of(session, link); link.is_pressed() || !newest.empty()) { note = newest; }
-        if (now - drawn >= kRedrawPeriod) {
+        if (now - drawn >= kJogRedrawPeriod) {
             drawn = now;
             screen.draw(screen_text(session, keys, note));
         }

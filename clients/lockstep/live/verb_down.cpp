@@ -25,7 +25,7 @@ struct DownOptions : LiveOptions {
     AllHosts all;
 };
 
-constexpr auto kRestPatience = 10s;
+constexpr auto kDownPatience = 10s;
 constexpr auto kLastStates = 300ms;  // for clients that wait for the final states of the job's axes
 
 /// Brings a machine in motion or homing to rest first, on its path. One that does not answer is taken down directly.
@@ -40,7 +40,7 @@ void bring_to_rest(const ChosenMachine& machine, Output& output) {
     if (!moves()) { return; }
     output.print("stopping first ...");
     if (!session->command({.kind = CommandKind::Stop})) { return; }
-    const auto deadline = monotonic_now() + kRestPatience;
+    const auto deadline = monotonic_now() + kDownPatience;
     while (moves() && monotonic_now() < deadline) { session->receive(50ms); }
     const auto until = monotonic_now() + kLastStates;
     while (monotonic_now() < until) { session->receive(until - monotonic_now()); }

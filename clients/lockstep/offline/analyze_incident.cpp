@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kIncidentEnd = ".flight.lcm";
 
 /// Highlights the story.
-std::string coloured(const std::string& text) {
+std::string coloured_incident(const std::string& text) {
     const std::size_t from = text.find("\n\n") + 2;
     const std::size_t to = text.find("\n\n", from);
     return text.substr(0, from) + painted(text.substr(from, to - from), kBold) + text.substr(to);
@@ -97,7 +97,7 @@ ExitCode analyze_incident(const IncidentOptions& options) {
     report.set_earlier(static_cast<std::int64_t>(earlier));
     std::string text = incident::to_text(
         incident, evaluation, {.least = options.all ? incident::Weight::Routine : incident::Weight::Notable});
-    if (wants_colour() && !options.no_colour) { text = coloured(text); }
+    if (wants_colour() && !options.no_colour) { text = coloured_incident(text); }
     if (earlier > 0) { text += earlier_text(options.back, earlier) + "\n"; }
     const auto page = write_page(options, report, output);
     if (!page) { return output.fail(bad_input(page.error())); }

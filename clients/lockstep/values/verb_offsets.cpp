@@ -14,7 +14,7 @@ struct OffsetOptions : LiveOptions {
     ChangeWords words;
 };
 
-void add_set(CLI::App& offsets, Action& action) {
+void add_set_offset(CLI::App& offsets, Action& action) {
     const auto options = std::make_shared<OffsetOptions>();
     CLI::App* verb = offsets.add_subcommand("set", "set one; axes that are not named keep theirs");
     verb->add_option("name", options->name, "G54 to G59, G59.1 to G59.3, G92, G28 or G30")->required();
@@ -70,7 +70,7 @@ void add_offsets(CLI::App& app, Action& action) {
             action = [options] { return show_values(*options, offsets_text); };
         }
     });
-    add_set(*verb, action);
+    add_set_offset(*verb, action);
     add_clear(*verb, action);
 }
 

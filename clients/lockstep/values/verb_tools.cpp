@@ -18,7 +18,7 @@ void add_number(CLI::App& verb, ToolOptions& options) {
     verb.add_option("number", options.number, "the tool's number in T and H")->required()->check(CLI::Range(1, 99'999));
 }
 
-void add_set(CLI::App& tools, Action& action) {
+void add_set_tool(CLI::App& tools, Action& action) {
     const auto options = std::make_shared<ToolOptions>();
     CLI::App* verb = tools.add_subcommand("set", "add a tool, or change it; words that are not given stay");
     add_number(*verb, *options);
@@ -72,7 +72,7 @@ void add_tools(CLI::App& app, Action& action) {
             action = [options] { return show_values(*options, tools_text); };
         }
     });
-    add_set(*verb, action);
+    add_set_tool(*verb, action);
     add_remove(*verb, action);
 }
 

@@ -5,11 +5,11 @@
 namespace lockstep::scenario {
 namespace {
 
-using Act = Asked::Act;
-
-constexpr double kMostSeconds = 60;
+constexpr double kMostActSeconds = 60;
 
 class ActRules {
+    using Act = Asked::Act;
+
 public:
     ActRules(const std::string& path, const Asked& asked, const std::vector<std::string>& processes, Problems& problems)
         : path_(path), asked_(asked), processes_(processes), problems_(problems) {}
@@ -19,7 +19,7 @@ public:
         const bool can_be_undone = act.has_pause() || act.has_cut() || act.has_lose();
         problems_.require(can_be_undone || !act.has_for_s(), path_ + ".for_s",
                           "for_s goes with pause, cut and lose: other acts are not undone automatically");
-        if (act.has_for_s()) { problems_.require_range(path_, "for_s", act.for_s(), 0, kMostSeconds); }
+        if (act.has_for_s()) { problems_.require_range(path_, "for_s", act.for_s(), 0, kMostActSeconds); }
     }
 
 private:
@@ -102,8 +102,8 @@ private:
 
 }  // namespace
 
-void check_act(const Act& act, const std::string& path, const Asked& asked, const std::vector<std::string>& processes,
-               Problems& problems) {
+void check_act(const Asked::Act& act, const std::string& path, const Asked& asked,
+               const std::vector<std::string>& processes, Problems& problems) {
     ActRules(path, asked, processes, problems).check(act);
 }
 

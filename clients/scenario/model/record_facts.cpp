@@ -34,7 +34,7 @@ private:
     std::map<std::string, bool> was_at_rest_;
 };
 
-std::string text_of(const std::string& axis, const EpochEnd& end) {
+std::string rest_text(const std::string& axis, const EpochEnd& end) {
     return axis + " with " + (end.tail ? "the tail of " : "") + "frame " + std::to_string(end.frame);
 }
 
@@ -67,8 +67,8 @@ std::optional<std::string> RecordFacts::parting(const std::vector<std::string>& 
             if (std::ranges::find(axes, axis) == axes.end()) { continue; }
             if (!first) { first = {axis, end}; }
             if (end != first->second) {
-                return "epoch " + std::to_string(epoch) + ": " + text_of(first->first, first->second) + ", " +
-                       text_of(axis, end);
+                return "epoch " + std::to_string(epoch) + ": " + rest_text(first->first, first->second) + ", " +
+                       rest_text(axis, end);
             }
         }
     }

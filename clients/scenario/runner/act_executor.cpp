@@ -26,7 +26,7 @@ std::vector<Asked::Act> undo_of(const Asked::Act& act) {
     return acts;
 }
 
-std::string text_of(const Failure& failure) { return failure.errors.front().message; }
+std::string failure_text(const Failure& failure) { return failure.errors.front().message; }
 
 }  // namespace
 
@@ -106,7 +106,7 @@ Done ActExecutor::stop_at_once() {
 
 Done ActExecutor::ask(const Command& command) {
     const auto reply = session_.command(command);
-    if (!reply) { return std::unexpected(text_of(reply.error())); }
+    if (!reply) { return std::unexpected(failure_text(reply.error())); }
     if (reply->status == ReplyStatus::Accepted) { return {}; }
     return std::unexpected("refused: " + reply->text);
 }

@@ -16,8 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kEndPatience = 4s;     // after SIGTERM
-constexpr auto kStartPatience = 20s;  // for the started program to start the process
+constexpr auto kEndPatience = 4s;            // after SIGTERM
+constexpr auto kProcessStartPatience = 20s;  // for the started program to start the process
 constexpr std::size_t kTailLines = 4;
 
 std::string how(int status) {
@@ -52,7 +52,7 @@ std::expected<ProcessSet::Process*, std::string> ProcessSet::running(const std::
 
 pid_t ProcessSet::pid_of(const Process& process) const {
     if (pid_folder_.empty()) { return process.pid; }
-    const auto deadline = monotonic_now() + kStartPatience;
+    const auto deadline = monotonic_now() + kProcessStartPatience;
     while (monotonic_now() < deadline && !has_ended(process.pid)) {
         pid_t pid = 0;
         if (std::ifstream(pid_file(process)) >> pid && pid > 0) { return pid; }

@@ -52,8 +52,6 @@ Json problem_json(const Problem& problem) {
     return json;
 }
 
-std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 Response to_response(const Problem& problem) {
     return {.status = problem.status,
             .body = dumped(problem_json(problem)) + "\n",

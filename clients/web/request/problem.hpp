@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/web/http/json_text.hpp"
 #include "clients/web/http/message.hpp"
 #include "core/faults.hpp"
 #include "services/files/diagnostic.hpp"
@@ -35,8 +36,5 @@ Problem unanswered(const std::string& why);
 Json problem_json(const Problem& problem);
 Response to_response(const Problem& problem);
 Response json_response(int status, const Json& body);
-
-/// As text in UTF-8, whatever bytes the strings have.
-std::string dumped(const Json& json);
 
 }  // namespace lockstep::web

@@ -2,16 +2,10 @@
 
 #include <charconv>
 
+#include "clients/web/http/json_text.hpp"
 #include "clients/web/state/merge_patch.hpp"
 
 namespace lockstep::web {
-namespace {
-
-std::string dumped(const nlohmann::json& json) {
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-}  // namespace
 
 std::string EventLog::id_text(std::uint64_t number) const {
     return "id: " + run_ + "-" + std::to_string(number) + "\n";

@@ -6,7 +6,7 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr int kCancel = 800;  // G80
+constexpr int kCancelCycles = 800;  // G80
 constexpr std::string_view kLettersOfCodes = "DEHIJKLPQR";
 
 /// G10 G28 G30 G52 G92 use the block's axis words, and so does no motion of the block.
@@ -54,7 +54,7 @@ Result choose_motion(Context& context) {
     const int length = block.code(Group::ToolLength);
     const bool axes = block.has_axes();
     const bool taken = uses_axes(other) || length == 431 || length == 432;
-    if (code != Block::kNoCode && code != kCancel) {
+    if (code != Block::kNoCode && code != kCancelCycles) {
         if (uses_axes(other)) {
             return context.refuse(Group::Motion, " and " + word_text(context.line, block.place(Group::NonModal)) +
                                                      " both use the block's axis words; use two lines");
@@ -63,7 +63,7 @@ Result choose_motion(Context& context) {
         return {};
     }
     if (axes && !taken) {
-        const int motion = code == kCancel ? kNoMotion : context.state.modal.motion;
+        const int motion = code == kCancelCycles ? kNoMotion : context.state.modal.motion;
         if (motion == kNoMotion) { return no_motion(context); }
         context.motion = motion;
     } else if (code == Block::kNoCode && is_arc(context.state.modal.motion) && !taken && block.has_any("IJK")) {

@@ -21,8 +21,6 @@ struct Cycle {
     int repeats = 1;
 };
 
-bool is_cycle(int motion) { return motion == 730 || (motion > 800 && motion < 900); }
-
 /// The block's word, or that of the same cycle before it.
 Result keep_word(const Context& context, char letter, std::optional<double> word, std::optional<double>& kept) {
     if (context.state.modal.motion != context.motion) { kept.reset(); }

@@ -9,8 +9,6 @@ namespace {
 
 constexpr int kCancel = 800;
 
-bool is_cycle(int motion) { return motion == 730 || (motion > 800 && motion < 900); }
-
 /// G53: the block's axis words are machine coordinates.
 Point machine_words(const Context& context) {
     Point machine = context.state.machine;

@@ -72,4 +72,7 @@ void move(Context& context, const Point& target, double feed);
 Point machine_target(const Offsets& offsets, const Standing& from, const Point& program);
 Point machine_target(const State& state, const Point& program);
 
+/// G73 and G81 to G89; `motion` is the G code's number times ten.
+constexpr bool is_cycle(int motion) { return motion == 730 || (motion > 800 && motion < 900); }
+
 }  // namespace lockstep::gcode

@@ -44,7 +44,7 @@ proto::Tool write(int number, const gcode::Tool& tool) {
 }
 
 /// Reads numbers; notes the first that is out of range.
-class Reader {
+class ValuesReader {
 public:
     double number(double value, const std::string& what) { return within(value, -kMaxNumber, kMaxNumber, what); }
     int whole(int value, int least, int most, const std::string& what) {
@@ -73,7 +73,7 @@ private:
     std::optional<std::string> refusal_;
 };
 
-void read_system(const proto::CoordinateSystem& message, KeptValues& values, Reader& reader) {
+void read_system(const proto::CoordinateSystem& message, KeptValues& values, ValuesReader& reader) {
     const auto system = find_system(message.name());
     if (!system) {
         return reader.refuse("there is no coordinate system '" + message.name() + "'; they are G54 to G59, G59.1, " +
@@ -85,7 +85,7 @@ void read_system(const proto::CoordinateSystem& message, KeptValues& values, Rea
             reader.number(message.rotation(), message.name() + ": the rotation")};
 }
 
-void read_tool(const proto::Tool& message, KeptValues& values, Reader& reader) {
+void read_tool(const proto::Tool& message, KeptValues& values, ValuesReader& reader) {
     const std::string what = "tool " + std::to_string(message.number());
     const int number = reader.whole(message.number(), 1, kMaxToolNumber, "a tool's number");
     const gcode::Tool tool{
@@ -126,7 +126,7 @@ std::expected<RevisedValues, std::string> values_from_proto(const proto::KeptVal
     }
     RevisedValues revised{.revision = message.revision(), .values = {}};
     KeptValues& values = revised.values;
-    Reader reader;
+    ValuesReader reader;
     for (const auto& system : message.system()) { read_system(system, values, reader); }
     values.g92 = reader.place(message.g92(), "G92");
     values.g92_applies = message.g92_applies();

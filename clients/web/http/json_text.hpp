@@ -1,0 +1,13 @@
+// JSON in one line. Text that is no UTF-8 is replaced.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lockstep::web {
+
+inline std::string dumped(const nlohmann::json& json) {
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace lockstep::web
