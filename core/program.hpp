@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,11 +16,38 @@ inline constexpr double kMaxFeed_mm_s = 1e6;
 inline constexpr double kMaxPlace_mm = 1e6;  // either way
 inline constexpr double kMaxDwell_s = 86'400;
 
-/// A straight move to an absolute place in machine coordinates, one number per axis of the program.
-struct LinearMove {
+/// How the path follows the program.
+enum class PathMode : std::uint8_t {
+    Blend,      // moves are joined where the deviation stays within the tolerance (G64)
+    ExactPath,  // every corner is reached exactly, at the speed that the start velocity allows there (G61)
+    ExactStop,  // the machine rests at the end of every move (G61.1)
+};
+
+/// The way of a move between its ends: an arc in the plane of two axes. All other axes move in proportion to its angle
+/// (a helix). Where the distances of its ends from the centre differ, the radius changes in proportion to the angle.
+struct ArcShape {
+    std::size_t first = 0;   // axes of the plane, by their places in the move's target:
+    std::size_t second = 1;  // counter-clockwise is from the first to the second
+    double centre_first_mm = 0;
+    double centre_second_mm = 0;
+    bool is_clockwise = false;
+    std::int32_t turns = 1;  // from 1: the arc ends when it reaches its end for this number of times
+    bool operator==(const ArcShape&) const = default;
+};
+
+inline constexpr std::int32_t kMaxTurns = 100'000;
+inline constexpr double kMaxCentre_mm = 1e9;      // either way: nearly straight arcs have theirs far away
+inline constexpr double kMaxTolerance_mm = 1000;  // of a joined path
+
+/// A move to an absolute place in machine coordinates, one number per axis of the program.
+struct ProgramMove {
     std::vector<double> target_mm;
-    double feed_mm_s = 0;  // along the path; unused when rapid
-    bool rapid = false;    // as fast as the axes' limits allow
+    double feed_mm_s = 0;         // along the path; unused when rapid
+    bool rapid = false;           // as fast as the axes' limits allow
+    std::optional<ArcShape> arc;  // absent: straight
+    PathMode mode = PathMode::Blend;
+    double tolerance_mm = 0;     // Blend: of each axis, steps included; never less than one step
+    bool is_feed_fixed = false;  // the feed override has no effect (M49)
 };
 
 struct Dwell {
@@ -32,9 +60,35 @@ struct Pause {};
 /// Come to rest, and go on by itself: a sender that has no more for now ends what it has sent with it.
 struct Settle {};
 
+inline constexpr std::int32_t kMaxEventIndex = 1'000'000;
+inline constexpr std::uint32_t kMaxEventsTogether = 100;  // between two moves, dwells or pauses
+
+/// What a program switches without moving an axis. The coordinator publishes it when the motion comes to its place.
+struct ProgramEvent {
+    enum class Kind : std::uint8_t {
+        SpindleStop,     // M5
+        SpindleForward,  // M3; value: revolutions per minute
+        SpindleReverse,  // M4; value: revolutions per minute
+        SpindleSpeed,    // S while the spindle turns; value: revolutions per minute
+        CoolantOff,      // M9
+        MistOn,          // M7
+        FloodOn,         // M8
+        OutputOn,        // M62 M64; index
+        OutputOff,       // M63 M65; index
+        AnalogOutput,    // M67 M68; index, value
+        Tool,            // M6 M61; index: the tool in the spindle, 0: none
+    };
+    static constexpr std::size_t kKinds = 11;
+
+    Kind kind = Kind::SpindleStop;
+    std::int32_t index = 0;
+    double value = 0;
+    bool operator==(const ProgramEvent&) const = default;
+};
+
 struct Block {
     std::int32_t line = 0;  // in the G-code file, from 1; 0 where there is none
-    std::variant<LinearMove, Dwell, Pause, Settle> action;
+    std::variant<ProgramMove, Dwell, Pause, Settle, ProgramEvent> action;
 };
 
 struct ProgramHead {

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kTolerance_steps = 0.1;  // of the pieces, besides the half step of the pulses
 constexpr double kPieceError = 0.008;     // of the radius and the cube of the angle
-constexpr double kSameDirection = 1e-9;   // sine: the ends of a whole circle
+constexpr double kLeastRadius_steps = 0.25;
+constexpr double kSameDirection = 1e-9;  // sine: the ends of a whole circle
 constexpr double kQuarter = 1.5707963267948966;
 
 /// A unit vector in the plane of the arc, turned as the arc turns.
@@ -38,32 +39,38 @@ double angle_between(Direction a, Direction b) {
 
 class ArcCut {
 public:
-    ArcCut(const PathSetup& setup, const PathArc& arc, const AxisVector& from, std::uint32_t block, PathTrail& out)
-        : setup_(setup), arc_(arc), from_(from), to_(setup.to_steps(arc.to_mm)), block_(block), out_(out) {}
+    ArcCut(const PathSetup& setup, const ArcShape& arc, const ArcEnds& ends, std::uint32_t block, PathTrail& out)
+        : setup_(setup), arc_(arc), from_(ends.from), to_(ends.to), at_(ends.at), block_(block), out_(out) {}
 
-    std::expected<void, std::string> cut(const Quadratic& pattern) {
+    bool cut(const Quadratic& pattern) {
         pattern_ = pattern;
         const Direction begin = direction(from_, radius_begin_);
         const Direction end = direction(to_, radius_end_);
-        if (!(radius_begin_ > 0) || !(radius_end_ > 0)) {
-            return std::unexpected(std::string("the arc's centre is one of its ends; its radius must be above 0 mm"));
-        }
+        const double least_mm = kLeastRadius_steps / scale();
+        if (!(radius_begin_ > least_mm) || !(radius_end_ > least_mm)) { return false; }
         const int quarters = quarters_between(begin, end);
         const double part = angle_between(turned(begin, quarters), end);
         const bool has_part = part > kSameDirection;
         const int all = quarters + 4 * (arc_.turns - 1);
         sweep_ = all * kQuarter + (has_part ? part : 0);
-        at_ = from_;
+        off_ = at_;
+        for (std::size_t i = 0; i < off_.size(); ++i) {
+            off_[i] -= from_[i];
+            is_off_ = is_off_ || off_[i] != 0;
+        }
         for (int k = 0; k < all; ++k) {
             const Direction a = turned(begin, k);
             const bool is_last = k + 1 == all && !has_part;
             halve(a, a.quarter_on(), k * kQuarter, kQuarter, is_last);
         }
         if (has_part) { halve(turned(begin, quarters), end, all * kQuarter, part, true); }
-        return {};
+        return true;
     }
 
 private:
+    /// Steps per mm of the finer axis of its plane.
+    double scale() const { return std::max(setup_.steps_per_mm[arc_.first], setup_.steps_per_mm[arc_.second]); }
+
     Direction direction(const AxisVector& at, double& radius_mm) const {
         const double x = at[arc_.first] / setup_.steps_per_mm[arc_.first] - arc_.centre_first_mm;
         const double y = at[arc_.second] / setup_.steps_per_mm[arc_.second] - arc_.centre_second_mm;
@@ -89,15 +96,19 @@ private:
 
     /// The piece from direction a to b, `angle` apart, `done` behind the arc's begin; halved until it is short enough.
     void halve(Direction a, Direction b, double done, double angle, bool is_last) {
-        const double scale = std::max(setup_.steps_per_mm[arc_.first], setup_.steps_per_mm[arc_.second]);
         const double radius = std::max(radius_begin_, radius_end_);
         const Direction middle = between(a, b);
-        if (kPieceError * radius * scale * angle * angle * angle > kTolerance_steps) {
+        if (kPieceError * radius * scale() * angle * angle * angle > tolerance(done / sweep_, angle / sweep_)) {
             halve(a, middle, done, angle / 2, false);
             halve(middle, b, done + angle / 2, angle / 2, is_last);
             return;
         }
         piece(place(middle, done + angle / 2), is_last ? to_ : place(b, done + angle));
+    }
+
+    /// What the begin is off its place fades along the arc: with the piece's own error it is at most half a step.
+    double tolerance(double before, double share) const {
+        return is_off_ ? std::min(kTolerance_steps, before / 2 + share / 8) : kTolerance_steps;
     }
 
     AxisVector place(Direction d, double done) const {
@@ -108,6 +119,8 @@ private:
         const double y = arc_.is_clockwise ? -d.y : d.y;
         at[arc_.first] = (arc_.centre_first_mm + radius * d.x) * setup_.steps_per_mm[arc_.first];
         at[arc_.second] = (arc_.centre_second_mm + radius * y) * setup_.steps_per_mm[arc_.second];
+        if (!is_off_) { return at; }
+        for (std::size_t i = 0; i < at.size(); ++i) { at[i] += off_[i] * (1 - share); }
         return at;
     }
 
@@ -133,26 +146,29 @@ private:
     }
 
     const PathSetup& setup_;
-    const PathArc& arc_;
+    const ArcShape& arc_;
     AxisVector from_;
     AxisVector to_;
+    AxisVector at_;  // where the next piece begins
     std::uint32_t block_;
     PathTrail& out_;
     Quadratic pattern_;
     double radius_begin_ = 0;  // mm
     double radius_end_ = 0;    // mm
     double sweep_ = 0;         // rad, of the whole arc
-    AxisVector at_;            // where the next piece begins
-    double along_ = 0;         // mm of the arc before it
+    AxisVector off_;           // the begin: where the axes are, less its place by the program
+    bool is_off_ = false;
+    double along_ = 0;  // mm of the arc before it
 };
 
 }  // namespace
 
-std::expected<void, std::string> cut_arc(const PathSetup& setup, const PathArc& arc, const AxisVector& from,
-                                         const MoveSettings& settings, std::uint32_t block, PathTrail& out) {
+bool cut_arc(const PathSetup& setup, const ArcShape& arc, const ArcEnds& ends, const MoveSettings& settings,
+             std::uint32_t block, PathTrail& out) {
     Quadratic pattern;
     pattern.feed_mm_per_tick = settings.feed_mm_per_tick;
-    return ArcCut(setup, arc, from, block, out).cut(pattern);
+    pattern.is_feed_fixed = settings.is_feed_fixed;
+    return ArcCut(setup, arc, ends, block, out).cut(pattern);
 }
 
 }  // namespace lockstep

@@ -5,18 +5,22 @@
 // machine.
 #pragma once
 
-#include <expected>
-#include <string>
-
 #include "core/path/path_setup.hpp"
 #include "core/path/path_trail.hpp"
 #include "core/path/primitive.hpp"
 
 namespace lockstep {
 
-/// The pieces of an arc from `from` (steps), added to `out` with a mark each. Error: its ends are not on one circle or
-/// spiral about the centre: a radius is 0.
-std::expected<void, std::string> cut_arc(const PathSetup& setup, const PathArc& arc, const AxisVector& from,
-                                         const MoveSettings& settings, std::uint32_t block, PathTrail& out);
+/// In steps.
+struct ArcEnds {
+    AxisVector at;    // where the axes are: on whole steps behind a rest
+    AxisVector from;  // where the arc begins by the program
+    AxisVector to;
+};
+
+/// The pieces of an arc, added to `out` with a mark each. False, and nothing is added: its radius is a quarter of a
+/// step or less, so that a straight line is as good.
+bool cut_arc(const PathSetup& setup, const ArcShape& arc, const ArcEnds& ends, const MoveSettings& settings,
+             std::uint32_t block, PathTrail& out);
 
 }  // namespace lockstep

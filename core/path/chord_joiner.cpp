@@ -53,6 +53,7 @@ void ChordJoiner::join(bool is_end, PathTrail& out) {
         const std::size_t chords = longest(limit, piece);
         if (chords == 0) { break; }
         piece.feed_mm_per_tick = points_[start_ + 1].settings.feed_mm_per_tick;
+        piece.is_feed_fixed = points_[start_ + 1].settings.is_feed_fixed;
         start_at_ = end_at(start_ + chords);
         mark(chords, out);
         out.add(piece);
@@ -139,7 +140,24 @@ ChordJoiner::Reach ChordJoiner::reach(bool is_end) {
 bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
     Quadratic piece;
     if (!fit_.fit(points_, chords, end_at(start_ + chords), tolerance_steps_, piece)) { return false; }
+    if (chords > 1 && !is_within_travel(piece)) { return false; }
     best = piece;
+    return true;
+}
+
+/// A wide tolerance could lead out of it. Within a step of it axes are on its last step.
+bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
+    constexpr double kLastStep = 1 - kPulseShare - kFitShare - kRoundingShare;
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        const double turn = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
+        const AxisLimits& axis = setup_.limits[i];
+        for (const double u : {std::clamp(turn, 0.0, piece.length), piece.length}) {
+            const double at = piece.place(i, u);
+            const bool is_outside = at < static_cast<double>(axis.min_steps) - kLastStep ||
+                                    at > static_cast<double>(axis.max_steps) + kLastStep;
+            if (is_outside) { return false; }
+        }
+    }
     return true;
 }
 
@@ -176,7 +194,9 @@ AxisVector ChordJoiner::end_at(std::size_t k) const {
     AxisVector at = points_[k].at;
     if (k + 1 == points_.size() || points_[k].is_corner) { return at; }
     const MoveSettings& settings = points_[k].settings;
-    if (settings.mode != PathMode::Blend || points_[k + 1].settings.mode != PathMode::Blend) { return at; }
+    const MoveSettings& next = points_[k + 1].settings;
+    if (settings.mode != PathMode::Blend || next.mode != PathMode::Blend) { return at; }
+    if (settings.tolerance_mm != next.tolerance_mm) { return at; }
     const double before = points_[k].along - points_[k - 1].along;
     const double after = points_[k + 1].along - points_[k].along;
     for (std::size_t i = 0; i < at.size(); ++i) {

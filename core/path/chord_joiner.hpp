@@ -57,6 +57,7 @@ private:
     void mark(std::size_t chords, PathTrail& out) const;
     std::size_t longest(const Reach& reach, Quadratic& best);
     bool try_chords(std::size_t chords, Quadratic& best);
+    bool is_within_travel(const Quadratic& piece) const;
     AxisVector end_at(std::size_t k) const;
     std::vector<double> tolerance_of(const MoveSettings& settings) const;
     void drop_passed();

@@ -14,7 +14,7 @@ Piece cut_front(Piece& piece, Ticks ticks) {
     return front;
 }
 
-double to_double(Ticks t) { return static_cast<double>(t.value); }
+double as_double(Ticks t) { return static_cast<double>(t.value); }
 Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(ticks - 0x1p-20))}; }
 
 }  // namespace
@@ -45,7 +45,7 @@ void FramePlanner::begin(std::span<const Position> at) {
 bool FramePlanner::trace() {
     if (!is_traced_) { path_.begin(at_.begin); }
     is_traced_ = true;
-    const double enough = to_double(setup_.frame_ticks) + kMargin_ticks;
+    const double enough = as_double(setup_.frame_ticks) + kMargin_ticks;
     const auto& passed = path_.passages();
     double w0 = passed.empty() ? at_.w0 : passed.back().w1;
     std::size_t k = passed.empty() ? at_.interval : passed.back().interval + 1;
@@ -82,7 +82,7 @@ bool FramePlanner::start() {
 bool FramePlanner::is_ready() { return !is_done_ && start() && trace(); }
 
 void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
-    const double part = to_double(frame.ticks) / static_cast<double>(frame.places.size());
+    const double part = as_double(frame.ticks) / static_cast<double>(frame.places.size());
     for (std::size_t k = 0; k < frame.places.size(); ++k) {
         frame.places[k] = trail_.place_of(path.spot_at(part * static_cast<double>(k)));
     }
@@ -94,7 +94,7 @@ std::vector<MoveBegin> FramePlanner::begins() const {
     std::vector<MoveBegin> begins;
     for (const PathPhase& phase : path_.phases()) {
         const double from = std::max(phase.begin, 0.0);
-        const double to = std::min(phase.end(), to_double(last_.ticks));
+        const double to = std::min(phase.end(), as_double(last_.ticks));
         if (to < from) { continue; }
         trail_.each_begin(phase.piece, [&](double u, std::uint32_t block) {
             const bool is_in = u >= phase.along(from) - kHair_mm && u <= phase.along(to) + kHair_mm;
@@ -178,7 +178,7 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
 /// planned. A rest is finished too, but the speed behind it is still free. While braking any interval is left; the
 /// numbers that the tail has may be those before a turn.
 FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
-    const double at = to_double(t);
+    const double at = as_double(t);
     const auto& passages = path.passages();
     std::size_t m = passages.size() - 1;
     while (m > 0 && passages[m].begin > at) { --m; }
@@ -250,11 +250,11 @@ PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const Cursor& behi
 void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt) {
     ++slowed_;
     is_traced_ = false;
-    const double at = to_double(failure.at);
-    const double share = at / to_double(ticks);
+    const double at = as_double(failure.at);
+    const double share = at / as_double(ticks);
     const double slower = failure.is_full ? std::clamp(share * share, kSlowest, kSlower) : kSlower;
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
-    const double to = failure.is_full ? to_double(ticks) : at;
+    const double to = failure.is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }
     double least = at_.w0;
     std::size_t last = at_.interval;

@@ -8,10 +8,7 @@ namespace lockstep {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kNothing = 1e-12;          // steps per mm: an axis that does not move
 constexpr double kCurvedSpeedShare = 0.99;  // of the greatest speed, on curves: room for the fit in time
-
-double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
 
 }  // namespace
 
@@ -70,7 +67,7 @@ double IntervalBounds::least_after(double w0) const {
 double IntervalBounds::cap(const Overrides& overrides) const {
     const bool has_feed = piece_.shape.feed_mm_per_tick > 0;
     if (!has_feed) { return limit(std::min(1.0, overrides.rapid())); }
-    const double feed = piece_.shape.feed_mm_per_tick * overrides.feed();
+    const double feed = piece_.shape.feed_mm_per_tick * (piece_.shape.is_feed_fixed ? 1 : overrides.feed());
     return std::min(feed * feed, limit());
 }
 

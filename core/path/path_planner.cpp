@@ -15,6 +15,7 @@ PathPlanner::PathPlanner(const PathPlanner& other)
       window_(other.window_),
       frames_(other.frames_, setup_, window_, trail_),
       at_(other.at_),
+      programmed_(other.programmed_),
       start_(other.start_),
       is_sought_(other.is_sought_),
       ready_(other.ready_),
@@ -28,6 +29,7 @@ void PathPlanner::begin(std::span<const Position> at) {
     is_finished_ = false;
     at_.clear();
     for (const Position& position : at) { at_.append(position.as_steps()); }
+    programmed_ = at_;
     joiner_.begin(at_);
     resume({}, at);
 }
@@ -48,20 +50,21 @@ void PathPlanner::seek(const PathPlace& place) {
 }
 
 void PathPlanner::line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
-    at_ = to;
+    at_ = programmed_ = to;
     joiner_.add(at_, settings, block, trail_);
     settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
 }
 
-std::expected<void, std::string> PathPlanner::arc(const PathArc& arc, const MoveSettings& settings,
-                                                  std::uint32_t block) {
+void PathPlanner::arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
+                               std::uint32_t block) {
     joiner_.finish(at_, trail_);
     pass_on_but_last();
-    if (auto cut = cut_arc(setup_, arc, at_, settings, block, trail_); !cut) { return cut; }
-    at_ = setup_.to_steps(arc.to_mm);
+    if (!cut_arc(setup_, shape, {at_, programmed_, to}, settings, block, trail_)) {
+        return line_to_steps(to, settings, block);
+    }
+    at_ = programmed_ = to;
     joiner_.begin(at_);
     settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
-    return {};
 }
 
 void PathPlanner::rest(Ticks ticks, std::uint32_t block) {

@@ -8,7 +8,6 @@
 #include <deque>
 #include <expected>
 #include <optional>
-#include <string>
 
 #include "core/path/arc_cutter.hpp"
 #include "core/path/chord_joiner.hpp"
@@ -26,6 +25,8 @@ public:
 
     /// The axes rest at `at`.
     void begin(std::span<const Position> at);
+    /// Where the program has the axes at the begin, which is less than a step from where they rest. An arc needs it.
+    void begin_program_at(const AxisVector& steps) { programmed_ = steps; }
     /// The axes rest at `at`, where one of the last kFramesKept frames rests, or where the path begins. The next frame
     /// goes on from there.
     ///
@@ -39,8 +40,10 @@ public:
     }
     /// To a place in steps, or fractions of them.
     void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
-    /// Error: the arc has no radius.
-    std::expected<void, std::string> arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block);
+    void arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block) {
+        arc_to_steps(arc.shape, setup_.to_steps(arc.to_mm), settings, block);
+    }
+    void arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
     /// The machine rests on whole steps for so long, at least for kLeastRest.
     void rest(Ticks ticks, std::uint32_t block);
     /// The machine comes to rest on whole steps at the end of what was given.
@@ -80,7 +83,8 @@ private:
     PathTrail trail_;
     SpeedWindow window_;
     FramePlanner frames_;
-    AxisVector at_;           // where the last move ends, steps
+    AxisVector at_;           // where the last move ends, steps: whole ones where the machine rests
+    AxisVector programmed_;   // where it ends by the program
     PathPlace start_;         // where the path goes on,
     bool is_sought_ = false;  // which is not known on the geometry yet
     std::size_t ready_ = 0;   // pieces that do not change: the last one's end may have to be a whole step

@@ -1,6 +1,7 @@
 // What the path planner must know of a machine.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -39,5 +40,10 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
 inline constexpr double kPulseShare = 0.5;      // steps
 inline constexpr double kFitShare = 0.03;       // steps
 inline constexpr double kRoundingShare = 0.01;  // steps
+
+inline constexpr double kNothing = 1e-12;  // steps per mm: an axis that does not move
+
+/// Of its two accelerations, steps per tick^2.
+inline double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
 
 }  // namespace lockstep

@@ -17,6 +17,7 @@ struct Quadratic {
     AxisVector bend;              // steps per mm^2; curvature times scale
     double length = 0;            // mm; 0: a rest
     double feed_mm_per_tick = 0;  // 0: as fast as the axes allow
+    bool is_feed_fixed = false;   // the feed override has no effect
     bool is_straight = true;      // bend is 0
     Ticks rest;                   // where length is 0: how long
 

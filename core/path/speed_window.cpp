@@ -6,15 +6,12 @@
 namespace lockstep {
 namespace {
 
-constexpr double kNothing = 1e-12;   // steps per mm
 constexpr double kRounding = 1e-11;  // of w: far more than a backward pass adds up
 constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: joints follow
 constexpr double kRestShare = 0.4;   // where it rests for a short time: two jumps follow each other
 constexpr double kWorthSlowing = 2;  // the pieces beside it are passed more slowly, too
 constexpr int kMostHalves = 40;
 constexpr std::size_t kChargedParts = 4;  // a straight piece whose joints are paid for needs nodes to change speed at
-
-double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
 
 /// The angle by which a piece turns over `length`, rad.
 double turn_of(const Quadratic& piece, double length, std::span<const double> steps_per_mm) {

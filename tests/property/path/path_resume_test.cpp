@@ -10,10 +10,9 @@ constexpr MoveSettings kStops{.feed_mm_per_tick = 60e-6, .mode = PathMode::Exact
 /// A line, a helix of two turns, a dwell, a helix behind which the machine rests, and a line.
 void add_moves(PathPlanner& planner) {
     planner.line({{10, 0, 0}}, kFast, 3);
-    ASSERT_TRUE(
-        planner.arc({.centre_first_mm = 10, .centre_second_mm = 5, .turns = 2, .to_mm = {10, 10, 2}}, kFast, 4));
+    planner.arc({{.centre_first_mm = 10, .centre_second_mm = 5, .turns = 2}, {10, 10, 2}}, kFast, 4);
     planner.rest(Ticks{60'000}, 6);
-    ASSERT_TRUE(planner.arc({.centre_first_mm = 10, .centre_second_mm = 5, .to_mm = {10, 0, 0}}, kStops, 7));
+    planner.arc({{.centre_first_mm = 10, .centre_second_mm = 5}, {10, 0, 0}}, kStops, 7);
     planner.line({{0.123, 5, 0}}, kFast, 8);
     planner.finish();
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <span>
@@ -56,7 +57,41 @@ inline std::vector<TestAxis> mill() { return {{}, {}, {400, 4, 25, 300, 300}}; }
 struct TestMove {
     Place to;
     MoveSettings settings;
+    std::optional<ArcShape> arc = {};
 };
+
+inline void give(PathPlanner& planner, const TestMove& move, std::uint32_t block) {
+    move.arc ? planner.arc({*move.arc, move.to}, move.settings, block) : planner.line({move.to}, move.settings, block);
+}
+
+/// Chords of an arc, of a hundredth of a turn at most.
+inline std::vector<Place> chords_of(const TestMove& move, const Place& from) {
+    if (!move.arc) { return {move.to}; }
+    const ArcShape& arc = *move.arc;
+    const double x = from[arc.first] - arc.centre_first_mm;
+    const double y = from[arc.second] - arc.centre_second_mm;
+    const double end_x = move.to[arc.first] - arc.centre_first_mm;
+    const double end_y = move.to[arc.second] - arc.centre_second_mm;
+    const double sense = arc.is_clockwise ? -1 : 1;
+    double sweep = sense * (std::atan2(end_y, end_x) - std::atan2(y, x));
+    while (sweep <= 1e-9) { sweep += 2 * std::numbers::pi; }
+    while (sweep > 2 * std::numbers::pi + 1e-9) { sweep -= 2 * std::numbers::pi; }
+    sweep += 2 * std::numbers::pi * (arc.turns - 1);
+    const double radius = std::hypot(x, y);
+    const int chords = 1 + static_cast<int>(sweep * 100 * std::sqrt(std::max(radius, 1.0)));
+    std::vector<Place> places;
+    for (int k = 1; k <= chords; ++k) {
+        const double share = static_cast<double>(k) / chords;
+        Place at = from;
+        for (std::size_t i = 0; i < at.size(); ++i) { at[i] += share * (move.to[i] - from[i]); }
+        const double r = radius + share * (std::hypot(end_x, end_y) - radius);
+        const double angle = std::atan2(y, x) + sense * share * sweep;
+        at[arc.first] = arc.centre_first_mm + r * std::cos(angle);
+        at[arc.second] = arc.centre_second_mm + r * std::sin(angle);
+        places.push_back(at);
+    }
+    return places;
+}
 
 struct TestProgram {
     std::vector<TestMove> moves;
@@ -65,10 +100,13 @@ struct TestProgram {
     /// From the start, in steps.
     std::vector<Place> polyline(const PathSetup& setup) const {
         std::vector<Place> places{Place(setup.axes(), 0)};
+        Place from(setup.axes(), 0);
         for (const TestMove& move : moves) {
-            Place at;
-            for (std::size_t i = 0; i < setup.axes(); ++i) { at.push_back(move.to[i] * setup.steps_per_mm[i]); }
-            places.push_back(at);
+            for (Place at : chords_of(move, from)) {
+                for (std::size_t i = 0; i < setup.axes(); ++i) { at[i] *= setup.steps_per_mm[i]; }
+                places.push_back(std::move(at));
+            }
+            from = move.to;
         }
         return places;
     }
@@ -114,7 +152,7 @@ inline PathRun run_path(
     PathRun run;
     for (std::size_t k = 0; k < program.moves.size(); ++k) {
         const TestMove& move = program.moves[k];
-        planner.line({move.to}, move.settings, static_cast<std::uint32_t>(k + 1));
+        give(planner, move, static_cast<std::uint32_t>(k + 1));
         if (drains(k)) { drain(planner, run); }
     }
     planner.finish();

@@ -8,7 +8,7 @@
 namespace lockstep {
 
 /// Happens when so many frames have been made: new overrides, or an interruption with frames that were not run.
-struct PathEvent {
+struct SessionEvent {
     std::size_t made = 0;
     std::optional<Overrides> turn;
     std::size_t unrun = 0;
@@ -41,7 +41,7 @@ inline std::vector<Position> end_of(const PathRun& run) {
 
 class PathSession {
 public:
-    PathSession(const PathSetup& setup, std::deque<PathEvent> events) : planner_(setup), events_(std::move(events)) {
+    PathSession(const PathSetup& setup, std::deque<SessionEvent> events) : planner_(setup), events_(std::move(events)) {
         made_.from.resize(setup.axes());
         planner_.begin(made_.from);
     }
@@ -49,7 +49,7 @@ public:
     /// `drains(k)`: whether frames are taken behind move k.
     void run(const TestProgram& program, const std::function<bool(std::size_t)>& drains) {
         for (std::size_t k = 0; k < program.moves.size(); ++k) {
-            planner_.line({program.moves[k].to}, program.moves[k].settings, static_cast<std::uint32_t>(k + 1));
+            give(planner_, program.moves[k], static_cast<std::uint32_t>(k + 1));
             if (drains(k)) { ASSERT_NO_FATAL_FAILURE(drain()); }
         }
         planner_.finish();
@@ -61,7 +61,7 @@ public:
     /// What was run between two rests; each begins where the one before ends.
     const std::vector<PathRun>& runs() const { return runs_; }
     /// Those that did happen.
-    const std::deque<PathEvent>& happened() const { return happened_; }
+    const std::deque<SessionEvent>& happened() const { return happened_; }
     /// All frames made, whether they were run or not.
     const std::vector<PathFrame>& frames() const { return frames_; }
 
@@ -82,7 +82,7 @@ private:
 
     /// False: it waits for more of the path.
     bool happen() {
-        const PathEvent event = events_.front();
+        const SessionEvent event = events_.front();
         const TurnResult result = event.turn ? planner_.turn(*event.turn) : TurnResult::Taken;
         if (result == TurnResult::LacksPath) { return false; }
         events_.pop_front();
@@ -104,8 +104,8 @@ private:
     }
 
     PathPlanner planner_;
-    std::deque<PathEvent> events_;
-    std::deque<PathEvent> happened_;
+    std::deque<SessionEvent> events_;
+    std::deque<SessionEvent> happened_;
     PathRun made_;  // since the machine rested
     PathPlace place_;
     std::vector<PathRun> runs_;
@@ -113,13 +113,13 @@ private:
 };
 
 /// Interruptions and overrides at random frames; more of them where frames are short.
-inline std::deque<PathEvent> random_events(Random& random, const PathSetup& setup) {
-    std::deque<PathEvent> events;
+inline std::deque<SessionEvent> random_events(Random& random, const PathSetup& setup) {
+    std::deque<SessionEvent> events;
     const std::uint64_t apart = setup.frame_ticks < Ticks{10'000} ? 60 : 6;
     std::size_t made = 0;
     for (int k = 0; k < 12; ++k) {
         made += 1 + random() % apart;
-        PathEvent event{.made = made, .turn = {}, .unrun = random() % 5};
+        SessionEvent event{.made = made, .turn = {}, .unrun = random() % 5};
         if (random() % 2 == 0) {
             const int feed = static_cast<int>(10 + random() % 191);
             event.turn = Overrides{.feed_percent = feed, .rapid_percent = static_cast<int>(10 + random() % 91)};

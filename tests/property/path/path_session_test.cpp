@@ -16,7 +16,7 @@ protected:
     }
 
     RandomCase case_;
-    std::deque<PathEvent> events_;
+    std::deque<SessionEvent> events_;
 };
 
 TEST_P(RandomSession, KeepsTheLimitsAndGoesOnWhereItRests) {
@@ -83,7 +83,7 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
         PathRun rest;
         for (std::size_t k = 0; k < case_.program.moves.size(); ++k) {
             const TestMove& move = case_.program.moves[k];
-            other.line({move.to}, move.settings, static_cast<std::uint32_t>(k + 1));
+            give(other, move, static_cast<std::uint32_t>(k + 1));
             ASSERT_NO_FATAL_FAILURE(drain(other, rest));
         }
         other.finish();
@@ -93,6 +93,7 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, testing::Range<std::uint64_t>(1, 41));
+INSTANTIATE_TEST_SUITE_P(Arcs, RandomSession, testing::Range(kFirstWithArcs, kFirstWithArcs + 20));
 // In these, speeds that are equal but for rounding meet, and turns where the known path ends.
 INSTANTIATE_TEST_SUITE_P(Rounded, RandomSession, testing::Values<std::uint64_t>(561, 597));
 

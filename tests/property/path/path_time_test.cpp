@@ -69,8 +69,8 @@ double seconds_of_arc(double radius) {
     const PathSetup setup = setup_of(mill());
     PathPlanner planner(setup);
     planner.begin(std::vector<Position>(3));
-    const PathArc arc{.first = 0, .second = 1, .centre_first_mm = -radius, .turns = 2, .to_mm = {0, 0, 0}};
-    EXPECT_TRUE(planner.arc(arc, {.feed_mm_per_tick = kFeed * 1e-6}, 1));
+    const PathArc arc{{.first = 0, .second = 1, .centre_first_mm = -radius, .turns = 2}, {0, 0, 0}};
+    planner.arc(arc, {.feed_mm_per_tick = kFeed * 1e-6}, 1);
     planner.finish();
     PathRun run;
     drain(planner, run);

@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-bool always(std::size_t) { return true; }
+bool at_any_frame(std::size_t) { return true; }
 
 /// The mean speed of the first axis in its fastest piece, mm/s.
 double fastest(const PathSetup& setup, const PathFrame& frame) {
@@ -30,7 +30,7 @@ PathRun only_run(const PathSession& session) {
 TEST(PathTurn, HoldsFromTheFirstFrameIfItIsTurnedBefore) {
     const PathSetup setup = setup_of(mill());
     PathSession turned(setup, {{.made = 0, .turn = Overrides{.feed_percent = 50}}});
-    turned.run(line(200, 400, 100), always);
+    turned.run(line(200, 400, 100), at_any_frame);
     const PathRun slow = run_path(setup, line(200, 400, 50));
     ASSERT_EQ(turned.frames().size(), slow.frames.size());
     for (std::size_t k = 0; k < slow.frames.size(); ++k) { EXPECT_EQ(turned.frames()[k].axes, slow.frames[k].axes); }
@@ -41,7 +41,7 @@ TEST(PathTurn, SlowsDownWithinALineAsFastAsTheAxesMay) {
     const PathSetup setup = setup_of(mill());
     for (const int parts : {1, 300, 3'000}) {
         PathSession session(setup, {{.made = 3, .turn = Overrides{.feed_percent = 20}}});
-        session.run(line(150, parts, 100), always);
+        session.run(line(150, parts, 100), at_any_frame);
         ASSERT_EQ(session.happened().size(), 1U) << parts;
         const PathRun run = only_run(session);
         expect_within_limits(setup, run);
@@ -57,7 +57,7 @@ TEST(PathTurn, SpeedsUpWithinALine) {
     const PathSetup setup = setup_of(mill());
     for (const int parts : {1, 300}) {
         PathSession session(setup, {{.made = 3, .turn = Overrides{.feed_percent = 150}}});
-        session.run(line(300, parts, 60), always);
+        session.run(line(300, parts, 60), at_any_frame);
         ASSERT_EQ(session.happened().size(), 1U) << parts;
         const PathRun run = only_run(session);
         expect_within_limits(setup, run);
@@ -71,7 +71,7 @@ TEST(PathTurn, NeverExceedsWhatTheAxesAllow) {
     PathSession session(setup, {{.made = 2, .turn = Overrides{.feed_percent = 200, .rapid_percent = 200}}});
     TestProgram program = line(400, 4, 100);
     program.moves[2].settings.feed_mm_per_tick = 0;
-    session.run(program, always);
+    session.run(program, at_any_frame);
     expect_within_limits(setup, only_run(session));
 }
 
@@ -79,7 +79,7 @@ TEST(PathTurn, OfRapidMovesTurnsTheSpeedThatTheAxesAllow) {
     const PathSetup setup = setup_of(mill());
     TestProgram program = line(100, 1, 0);
     PathSession session(setup, {{.made = 0, .turn = Overrides{.feed_percent = 150, .rapid_percent = 50}}});
-    session.run(program, always);
+    session.run(program, at_any_frame);
     double most = 0;
     for (const PathFrame& frame : session.frames()) { most = std::max(most, fastest(setup, frame)); }
     EXPECT_NEAR(most, 75, 0.1);

@@ -46,8 +46,41 @@ struct RandomCase {
     TestProgram program;
 };
 
+/// Some moves become arcs, helices and whole turns with the same ends, and some keep their feed whatever the override.
+inline void bend(TestProgram& program, Random& random) {
+    Place from(program.moves.front().to.size(), 0);
+    for (TestMove& move : program.moves) {
+        move.settings.is_feed_fixed = random() % 10 == 0;
+        const std::size_t first = random() % from.size();
+        const std::size_t second = (first + 1 + random() % (from.size() - 1)) % from.size();
+        const double x = move.to[first] - from[first];
+        const double y = move.to[second] - from[second];
+        if (random() % 3 == 0 && std::hypot(x, y) > 0.01) {
+            const double aside = log_uniform(random, 0.01, 20) * (random() % 2 == 0 ? 1 : -1);
+            move.arc = ArcShape{.first = first,
+                                .second = second,
+                                .centre_first_mm = from[first] + x / 2 - aside * y,
+                                .centre_second_mm = from[second] + y / 2 + aside * x,
+                                .is_clockwise = random() % 2 == 0,
+                                .turns = random() % 10 == 0 ? 2 : 1};
+        }
+        from = move.to;
+    }
+}
+
+/// Programs from this seed on have arcs.
+inline constexpr std::uint64_t kFirstWithArcs = 10'000;
+
 inline RandomCase random_case(std::uint64_t seed) {
     Random random(seed);
+    if (seed >= kFirstWithArcs) {
+        const std::size_t axes = 2 + random() % 3;
+        const Ticks frame{random() % 3 == 0 ? 5'000 : 230'000};
+        RandomCase arcs{setup_of(random_axes(random, axes), frame), random_program(random, axes, random() % 2 == 0)};
+        arcs.program.moves.resize(std::min<std::size_t>(arcs.program.moves.size(), 300));
+        bend(arcs.program, random);
+        return arcs;
+    }
     const std::size_t axes = 1 + random() % 4;
     const Ticks frame{random() % 3 == 0 ? 5'000 : 230'000};
     const PathSetup setup = setup_of(random_axes(random, axes), frame);

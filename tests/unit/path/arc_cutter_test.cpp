@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-PathSetup mill() { return {std::vector<AxisLimits>(3), {80, 80, 400}, Ticks{1000}}; }
+PathSetup mill() {
+    return {std::vector<AxisLimits>(3, {.min_steps = -100'000, .max_steps = 100'000}), {80, 80, 400}, Ticks{1000}};
+}
 
 /// The deviation of the pieces from a helix, in mm, and their length.
 struct Shape {
@@ -36,14 +38,15 @@ Shape shape_of(const std::vector<Quadratic>& pieces, double x, double y, double 
 
 std::vector<Quadratic> cut(const PathArc& arc, const std::vector<double>& from_mm) {
     PathTrail trail;
-    EXPECT_TRUE(cut_arc(mill(), arc, mill().to_steps(from_mm), {}, 1, trail));
+    const AxisVector from = mill().to_steps(from_mm);
+    EXPECT_TRUE(cut_arc(mill(), arc.shape, {from, from, mill().to_steps(arc.to_mm)}, {}, 1, trail));
     std::vector<Quadratic> pieces;
     for (std::size_t k = 0; k < trail.end(); ++k) { pieces.push_back(trail.piece(k)); }
     return pieces;
 }
 
 TEST(ArcCutter, CutsAWholeCircleThatEndsWhereItBegins) {
-    const Shape shape = shape_of(cut({.centre_first_mm = 10, .to_mm = {0, 0, 0}}, {0, 0, 0}), 10, 0, 10);
+    const Shape shape = shape_of(cut({{.centre_first_mm = 10}, {0, 0, 0}}, {0, 0, 0}), 10, 0, 10);
     EXPECT_LT(shape.deviation * 80, 0.11);
     EXPECT_NEAR(shape.length, 20 * kPi, 1e-3);
     EXPECT_NEAR(shape.end[0], 0, 1e-9);
@@ -52,14 +55,14 @@ TEST(ArcCutter, CutsAWholeCircleThatEndsWhereItBegins) {
 TEST(ArcCutter, TurnsEitherWay) {
     const double to = 10 - 10 * std::cos(1.0);
     const double side = 10 * std::sin(1.0);
-    const PathArc clockwise{.centre_first_mm = 10, .is_clockwise = true, .to_mm = {to, side, 0}};
+    const PathArc clockwise{{.centre_first_mm = 10, .is_clockwise = true}, {to, side, 0}};
     EXPECT_NEAR(shape_of(cut(clockwise, {0, 0, 0}), 10, 0, 10).length, 10, 1e-3);
-    const PathArc counter{.centre_first_mm = 10, .to_mm = {to, side, 0}};
+    const PathArc counter{{.centre_first_mm = 10}, {to, side, 0}};
     EXPECT_NEAR(shape_of(cut(counter, {0, 0, 0}), 10, 0, 10).length, 10 * (2 * kPi - 1), 1e-3);
 }
 
 TEST(ArcCutter, CutsAHelixOfSeveralTurns) {
-    const PathArc arc{.centre_first_mm = 5, .turns = 3, .to_mm = {0, 0, 6}};
+    const PathArc arc{{.centre_first_mm = 5, .turns = 3}, {0, 0, 6}};
     const std::vector<Quadratic> pieces = cut(arc, {0, 0, 0});
     const Shape shape = shape_of(pieces, 5, 0, 5);
     EXPECT_LT(shape.deviation * 80, 0.11);
@@ -69,8 +72,7 @@ TEST(ArcCutter, CutsAHelixOfSeveralTurns) {
 }
 
 TEST(ArcCutter, PiecesFollowEachOtherWithoutGaps) {
-    const std::vector<Quadratic> pieces =
-        cut({.centre_first_mm = 3, .centre_second_mm = 4, .to_mm = {6, 8, 1}}, {0, 0, 0});
+    const std::vector<Quadratic> pieces = cut({{.centre_first_mm = 3, .centre_second_mm = 4}, {6, 8, 1}}, {0, 0, 0});
     for (std::size_t k = 1; k < pieces.size(); ++k) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Quadratic& before = pieces[k - 1];
@@ -81,14 +83,17 @@ TEST(ArcCutter, PiecesFollowEachOtherWithoutGaps) {
 }
 
 TEST(ArcCutter, SpiralsWhereTheRadiiDiffer) {
-    const std::vector<Quadratic> pieces = cut({.centre_first_mm = 10, .to_mm = {8, 0, 0}}, {0, 0, 0});
+    const std::vector<Quadratic> pieces = cut({{.centre_first_mm = 10}, {8, 0, 0}}, {0, 0, 0});
     const Quadratic& last = pieces.back();
     EXPECT_NEAR(last.place(0, last.length), 8 * 80, 1e-9);
 }
 
-TEST(ArcCutter, RefusesAnArcWithoutARadius) {
+TEST(ArcCutter, LeavesAnArcWithARadiusBelowTheStepsToALine) {
     PathTrail trail;
-    EXPECT_FALSE(cut_arc(mill(), {.to_mm = {1, 0, 0}}, mill().to_steps(std::vector<double>{0, 0, 0}), {}, 1, trail));
+    const AxisVector from = mill().to_steps(std::vector<double>{0, 0, 0});
+    const AxisVector to = mill().to_steps(std::vector<double>{0.005, 0, 0});
+    EXPECT_FALSE(cut_arc(mill(), {.centre_first_mm = 0.0025}, {from, from, to}, {}, 1, trail));
+    EXPECT_EQ(trail.end(), 0U);
 }
 
 }  // namespace

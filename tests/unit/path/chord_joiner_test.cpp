@@ -7,7 +7,9 @@
 namespace lockstep {
 namespace {
 
-PathSetup plane() { return {std::vector<AxisLimits>(2), {80, 80}, Ticks{1000}}; }
+PathSetup plane() {
+    return {std::vector<AxisLimits>(2, {.min_steps = -100'000, .max_steps = 100'000}), {80, 80}, Ticks{1000}};
+}
 
 struct Chords {
     std::vector<std::pair<double, double>> to_mm;
@@ -92,6 +94,26 @@ TEST(ChordJoiner, JoinsMoreWithAWiderTolerance) {
     const std::size_t narrow = join(chords).size();
     chords.settings.tolerance_mm = 0.05;
     EXPECT_LT(join(chords).size(), narrow / 2);
+}
+
+/// The middle of a bend that is rounded with a wide tolerance would be 0.4 steps outside of the travel.
+TEST(ChordJoiner, StaysWithinTheTravelHoweverWideTheTolerance) {
+    PathSetup setup = plane();
+    setup.limits[1].max_steps = 80;
+    ChordJoiner joiner(setup);
+    PathTrail trail;
+    joiner.begin(zeros(2));
+    for (std::uint32_t k = 1; k <= 200; ++k) {
+        const double x = 4.0 * k;
+        AxisVector at = zeros(2);
+        at[0] = x;
+        at[1] = std::min(80.0, 160 * std::sin(x / 255));
+        joiner.add(at, {.feed_mm_per_tick = 1e-4, .tolerance_mm = 0.5}, k, trail);
+    }
+    joiner.finish(joiner.at(), trail);
+    for (const Quadratic& piece : pieces_of(trail)) {
+        for (int k = 0; k <= 10; ++k) { EXPECT_LT(piece.place(1, piece.length * k / 10), 80.5); }
+    }
 }
 
 TEST(ChordJoiner, EndsPiecesWhereTheFeedChanges) {

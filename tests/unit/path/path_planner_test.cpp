@@ -94,7 +94,7 @@ TEST(PathPlanner, GoesFromALineIntoAnArcAndOn) {
     PathPlanner planner(setup);
     planner.begin(std::vector<Position>(3));
     planner.line({{10, 0, 0}}, kFast, 1);
-    ASSERT_TRUE(planner.arc({.centre_first_mm = 10, .centre_second_mm = 10, .to_mm = {20, 10, 0}}, kFast, 2));
+    planner.arc({{.centre_first_mm = 10, .centre_second_mm = 10}, {20, 10, 0}}, kFast, 2);
     planner.line({{20, 30, 0}}, kFast, 3);
     const PathRun run = finish(planner);
     expect_within_limits(setup, run);

@@ -1,0 +1,123 @@
+#include "core/arc_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/number_text.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+constexpr double kWhole = 2 * std::numbers::pi;
+constexpr double kSameAngle = 1e-9;  // rad: the ends of a whole turn, as core/path/arc_cutter.cpp has it
+constexpr double kMostChords = 100'000;
+
+// The radii at the ends may differ by the first, or by the second and a thousandth of the radius.
+constexpr double kMostRadiusError_mm = 1.27;
+constexpr double kRadiusError_mm = 0.0127;
+constexpr double kRadiusErrorShare = 0.001;
+constexpr double kLeastRadius_mm = 1e-6;
+
+}  // namespace
+
+ArcPath::ArcPath(const ArcShape& shape, std::span<const double> from_mm, std::span<const double> to_mm)
+    : shape_(shape), from_(from_mm), to_(to_mm) {
+    const auto [first, second] = std::pair(shape.first, shape.second);
+    const double from_x = from_[first] - shape.centre_first_mm;
+    const double from_y = from_[second] - shape.centre_second_mm;
+    const double to_x = to_[first] - shape.centre_first_mm;
+    const double to_y = to_[second] - shape.centre_second_mm;
+    radius_begin_ = std::hypot(from_x, from_y);
+    radius_end_ = std::hypot(to_x, to_y);
+    begin_ = std::atan2(from_y, from_x);
+    double part = std::atan2(to_y, to_x) - begin_;
+    if (shape.is_clockwise) { part = -part; }
+    if (part < 0) { part += kWhole; }
+    if (part <= kSameAngle || part >= kWhole - kSameAngle) { part = kWhole; }
+    sweep_ = part + kWhole * (shape.turns - 1);
+}
+
+double ArcPath::length_mm() const {
+    double square = plane_length_mm() * plane_length_mm();
+    for (std::size_t i = 0; i < from_.size(); ++i) {
+        if (i != shape_.first && i != shape_.second) { square += (to_[i] - from_[i]) * (to_[i] - from_[i]); }
+    }
+    return std::sqrt(square);
+}
+
+double ArcPath::at(std::size_t axis, double share) const {
+    const double radius = radius_begin_ + (radius_end_ - radius_begin_) * share;
+    if (axis == shape_.first) { return shape_.centre_first_mm + radius * std::cos(angle_at(share)); }
+    if (axis == shape_.second) { return shape_.centre_second_mm + radius * std::sin(angle_at(share)); }
+    return from_[axis] + (to_[axis] - from_[axis]) * share;
+}
+
+std::vector<double> ArcPath::at(double share) const {
+    std::vector<double> place;
+    for (std::size_t i = 0; i < from_.size(); ++i) { place.push_back(at(i, share)); }
+    return place;
+}
+
+/// Its ends, and where it crosses the axis's direction from the centre: the first and the last turn have all of these.
+std::pair<double, double> ArcPath::extent(std::size_t axis) const {
+    double least = std::min(from_[axis], to_[axis]);
+    double greatest = std::max(from_[axis], to_[axis]);
+    if (axis != shape_.first && axis != shape_.second) { return {least, greatest}; }
+    const double turn = sign() * kQuarterTurn;
+    const double offset = axis == shape_.first ? 0 : kQuarterTurn;
+    const double first = std::ceil((begin_ - offset) / turn);
+    const auto note = [&](double crossing) {
+        const double share = ((crossing * turn + offset) - begin_) / (angle_at(1) - begin_);
+        if (share < 0 || share > 1) { return; }
+        least = std::min(least, at(axis, share));
+        greatest = std::max(greatest, at(axis, share));
+    };
+    const double last = first + std::floor(sweep_ / kQuarterTurn);
+    for (double k = 0; k <= 4; ++k) {
+        note(first + k);
+        note(last - k);
+    }
+    return {least, greatest};
+}
+
+/// A chord over the angle a leaves its arc by r (1 - cos(a/2)).
+void ArcPath::each_chord(double tolerance_mm,
+                         const std::function<void(const std::vector<double>& to_mm)>& visit) const {
+    const double radius = std::max({radius_begin_, radius_end_, kLeastRadius_mm});
+    const double share = std::clamp(1 - tolerance_mm / radius, 0.0, 1 - 1e-15);
+    const double chords = std::clamp(std::ceil(sweep_ / (2 * std::acos(share))), 1.0, kMostChords);
+    for (double k = 1; k < chords; ++k) { visit(at(k / chords)); }
+    visit({to_.begin(), to_.end()});
+}
+
+std::string why_no_arc(const ArcPath& arc) {
+    const double begin = arc.radius_begin();
+    const double end = arc.radius_end();
+    if (!(begin >= kLeastRadius_mm) || !(end >= kLeastRadius_mm)) {
+        return "the arc has a radius of 0; its centre is where it starts or ends";
+    }
+    const double error = std::abs(begin - end);
+    const bool is_far = error > kRadiusErrorShare * std::max(begin, end);
+    if (error <= kMostRadiusError_mm && (error <= kRadiusError_mm || !is_far)) { return {}; }
+    return "the arc does not close: its radius is " + number_text(begin) + " mm at the start and " + number_text(end) +
+           " mm at the end; correct the centre or the end";
+}
+
+void each_chord(const ProgramMove& move, std::span<const double> from_mm, double tolerance_mm,
+                const std::function<void(const std::vector<double>& to_mm)>& visit) {
+    if (!move.arc) { return visit(move.target_mm); }
+    ArcPath(*move.arc, from_mm, move.target_mm).each_chord(tolerance_mm, visit);
+}
+
+double length_mm(const ProgramMove& move, std::span<const double> from_mm) {
+    if (move.arc) { return ArcPath(*move.arc, from_mm, move.target_mm).length_mm(); }
+    double square = 0;
+    for (std::size_t i = 0; i < from_mm.size(); ++i) {
+        square += (move.target_mm[i] - from_mm[i]) * (move.target_mm[i] - from_mm[i]);
+    }
+    return std::sqrt(square);
+}
+
+}  // namespace lockstep
