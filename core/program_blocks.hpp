@@ -18,6 +18,8 @@ public:
     virtual std::optional<Block> block(std::uint32_t number) const = 0;
     /// There is no block of this number, and none will come.
     virtual bool ends_before(std::uint32_t number) const = 0;
+    /// Where the program has its axes before a block that is at hand, in mm. Nothing: it is not at hand yet.
+    virtual std::optional<std::vector<double>> place_before(std::uint32_t number) const = 0;
     /// About how long the program takes from a place on, as far as it is known. 0: it is not estimated.
     virtual double seconds_from(const PathPlace& /*place*/) const { return 0; }
 };
@@ -31,6 +33,15 @@ public:
         return ends_before(number) ? std::nullopt : std::optional(program_->blocks[number]);
     }
     bool ends_before(std::uint32_t number) const override { return number >= program_->blocks.size(); }
+
+    std::optional<std::vector<double>> place_before(std::uint32_t number) const override {
+        while (number > 0) {
+            if (const auto* move = std::get_if<ProgramMove>(&program_->blocks[--number].action)) {
+                return move->target_mm;
+            }
+        }
+        return program_->start_mm;
+    }
 
 private:
     std::shared_ptr<const Program> program_;

@@ -5,13 +5,22 @@
 
 namespace lockstep {
 
-enum class WordRule : std::uint8_t { Refuse, Ignore };
+enum class WordRule : std::uint8_t {
+    Refuse,
+    Ignore,  // the word is an event on the path, and nothing switches
+};
+
+enum class ToolChange : std::uint8_t {
+    Pause,  // until a person resumes
+    GoOn,   // an event on the path, which something else waits for or acts on
+};
 
 struct UnassignedWords {
     WordRule spindle = WordRule::Refuse;  // S M3 M4
     WordRule outputs = WordRule::Refuse;  // M62 to M65, M67 M68
     WordRule inputs = WordRule::Refuse;   // M66
     WordRule coolant = WordRule::Ignore;  // M7 M8
+    ToolChange tool_change = ToolChange::Pause;
     bool operator==(const UnassignedWords&) const = default;
 };
 

@@ -19,6 +19,9 @@ public:
     const std::vector<std::string>& axes() const override { return blocks_->axes(); }
     std::optional<Block> block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override;
+    std::optional<std::vector<double>> place_before(std::uint32_t number) const override {
+        return blocks_->place_before(number);
+    }
 
     int moves() const { return moves_; }
     double length_mm() const { return length_mm_; }

@@ -6,12 +6,14 @@
 namespace lockstep {
 
 ProgramText::ProgramText(LineReader lines, const GcodeSetup& setup)
-    : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()) {}
+    : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()), at_mm_(head_.start_mm) {}
 
 std::optional<Block> ProgramText::block(std::uint32_t number) const {
     if (ends_before(number) || number < first_) { return std::nullopt; }
     const auto passed = std::min<std::size_t>(number - first_, blocks_.size());
-    blocks_.erase(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(passed));
+    for (std::size_t k = 0; k < passed; ++k, blocks_.pop_front()) {
+        if (auto* move = std::get_if<ProgramMove>(&blocks_.front().action)) { at_mm_ = std::move(move->target_mm); }
+    }
     first_ = number;
     return blocks_.front();
 }

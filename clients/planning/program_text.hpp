@@ -21,6 +21,8 @@ public:
     const std::vector<std::string>& axes() const override { return head_.axes; }
     std::optional<Block> block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override;
+    /// Of the last one asked for.
+    std::optional<std::vector<double>> place_before(std::uint32_t /*number*/) const override { return at_mm_; }
 
     /// What is wrong, by line and column, at most kMaxGcodeErrors. Reads on behind the first wrong line.
     const Diagnostics& errors();
@@ -37,8 +39,9 @@ private:
     mutable LineReader lines_;
     mutable GcodeStream gcode_;
     ProgramHead head_;
-    mutable std::deque<Block> blocks_;  // from the last one asked for on
-    mutable std::uint32_t first_ = 0;   // of them
+    mutable std::deque<Block> blocks_;   // from the last one asked for on
+    mutable std::uint32_t first_ = 0;    // of them
+    mutable std::vector<double> at_mm_;  // before them
     mutable Diagnostics errors_;
     mutable std::vector<GcodeNote> notes_;
     mutable int line_ = 0;  // the last one read

@@ -3,38 +3,77 @@
 
 namespace lockstep::gcode {
 
+using Kind = ProgramEvent::Kind;
+
 void ProgramBuilder::note(const std::string& kind, const std::string& text) {
     if (noted_.insert(kind).second) { notes_.push_back({line_, text}); }
 }
 
-void ProgramBuilder::unassigned(WordRule rule, const std::string& what, const std::string& key) {
-    if (rule == WordRule::Ignore || setup_.switches.ignore_unassigned) {
-        return note(what, what + " is not configured: its words are passed over");
+void ProgramBuilder::device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event) {
+    if (rule == WordRule::Refuse && !setup_.switches.ignore_unassigned) {
+        return fail(std::string(what) +
+                    " is not configured on this machine; take the word out, pass --ignore-unassigned, or write "
+                    "unassigned { " +
+                    key + ": IGNORE } in the machine's file");
     }
-    fail(what +
-         " is not configured on this machine; take the word out, pass --ignore-unassigned, or write unassigned { " +
-         key + ": IGNORE } in the machine's file");
+    note(what, std::string(what) + " is not configured: its words are published, and switch nothing");
+    append(event);
+}
+
+void ProgramBuilder::change_tool(int tool) {
+    notes_.push_back({line_, "tool change: put in tool " + std::to_string(tool)});
+    if (setup_.unassigned.tool_change == ToolChange::Pause) { append(Pause{}); }
+    append(ProgramEvent{.kind = Kind::Tool, .index = tool});
+}
+
+/// What the program leaves on is switched off (RS274/NGC, 3.6.1).
+void ProgramBuilder::end() {
+    if (spindle_turns_) { append(ProgramEvent{.kind = Kind::SpindleStop}); }
+    if (coolant_flows_) { append(ProgramEvent{.kind = Kind::CoolantOff}); }
+    spindle_turns_ = coolant_flows_ = false;
 }
 
 void ProgramBuilder::event(const Event& event) {
     const UnassignedWords& rules = setup_.unassigned;
+    const double speed = interpreter_->state().modal.spindle_speed;
+    const auto spindle = [&](Kind kind) {
+        spindle_turns_ = true;
+        device_event(rules.spindle, "the spindle", "spindle", {.kind = kind, .value = speed});
+    };
+    const auto coolant = [&](Kind kind) {
+        coolant_flows_ = true;
+        device_event(rules.coolant, "the coolant", "coolant", {.kind = kind});
+    };
+    const auto output = [&](Kind kind) {
+        device_event(rules.outputs, "an output", "outputs", {.kind = kind, .index = event.index, .value = event.value});
+    };
     switch (event.kind) {
         case EventKind::Stop: return append(Pause{});
         case EventKind::OptionalStop:
             if (setup_.switches.pause_at_m1) { append(Pause{}); }
             return;
-        case EventKind::ToolChange:
-            notes_.push_back({line_, "tool change: put in tool " + std::to_string(event.index)});
-            return append(Pause{});
+        case EventKind::End: return end();
+        case EventKind::ToolChange: return change_tool(event.index);
+        case EventKind::ToolNumber: return append(ProgramEvent{.kind = Kind::Tool, .index = event.index});
         case EventKind::SpindleSpeed:
-        case EventKind::SpindleForward:
-        case EventKind::SpindleReverse: return unassigned(rules.spindle, "the spindle", "spindle");
-        case EventKind::Mist:
-        case EventKind::Flood: return unassigned(rules.coolant, "the coolant", "coolant");
-        case EventKind::OutputOn:
-        case EventKind::OutputOff:
-        case EventKind::AnalogOutput: return unassigned(rules.outputs, "an output", "outputs");
-        case EventKind::InputWait: return unassigned(rules.inputs, "an input", "inputs");
+            if (interpreter_->state().modal.spindle != Turning::Stopped) { spindle(Kind::SpindleSpeed); }
+            return;
+        case EventKind::SpindleForward: return spindle(Kind::SpindleForward);
+        case EventKind::SpindleReverse: return spindle(Kind::SpindleReverse);
+        case EventKind::SpindleStop: spindle_turns_ = false; return append(ProgramEvent{.kind = Kind::SpindleStop});
+        case EventKind::Mist: return coolant(Kind::MistOn);
+        case EventKind::Flood: return coolant(Kind::FloodOn);
+        case EventKind::CoolantOff: coolant_flows_ = false; return append(ProgramEvent{.kind = Kind::CoolantOff});
+        case EventKind::OutputOn: return output(Kind::OutputOn);
+        case EventKind::OutputOff: return output(Kind::OutputOff);
+        case EventKind::AnalogOutput: return output(Kind::AnalogOutput);
+        case EventKind::InputWait:
+            if (rules.inputs == WordRule::Ignore || setup_.switches.ignore_unassigned) {
+                return note("an input", "an input is not configured: its words are passed over");
+            }
+            return fail(
+                "an input is not configured on this machine; take the word out, pass --ignore-unassigned, or write "
+                "unassigned { inputs: IGNORE } in the machine's file");
         case EventKind::Message: notes_.push_back({line_, "message: " + event.text}); return;
         case EventKind::Print: notes_.push_back({line_, "print: " + event.text}); return;
         default: return;

@@ -6,9 +6,9 @@
 // - A target outside travel is refused. A move to where the axes already stand is left out.
 // - Axes of longer names than a letter stay where they are.
 // - G28 and G30 go to the park position until G28.1 or G30.1 sets another; they do not home.
-// - Arcs and splines are cut into chords (chords.hpp), because the planner takes straight moves.
+// - Splines are cut into chords (chords.hpp), and arcs that lie in no plane of two axes.
 // - Coordinate systems, offsets and the tool table are inputs, and come back as the program leaves them.
-// - Words for devices that the machine does not have are refused or ignored, as `unassigned` says.
+// - Words for devices that the machine does not have are refused, or become events on the path, as `unassigned` says.
 #pragma once
 
 #include <expected>
@@ -53,7 +53,8 @@ struct GcodeSetup {
     GcodeSwitches switches;
     UnassignedWords unassigned;
     gcode::KeptValues values;
-    double chord_tolerance_mm = 0.001;  // of arcs and splines
+    double chord_tolerance_mm = 0.001;  // of splines, and of arcs that are cut
+    bool curves_as_chords = false;      // for a planner that takes straight moves only
     gcode::Limits limits;
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
 };

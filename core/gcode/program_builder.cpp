@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
 #include "core/gcode/chords.hpp"
 #include "core/number_text.hpp"
@@ -11,6 +12,9 @@ namespace lockstep::gcode {
 namespace {
 
 constexpr double kSecondsPerMinute = 60;
+constexpr double kLeastArc_mm = 1e-5;
+constexpr int kExactPathWord = 610;  // as Modal::path_mode has it
+constexpr int kExactStopWord = 611;
 
 std::optional<std::size_t> place_of_name(std::string_view name) {
     if (name.size() != 1) { return std::nullopt; }
@@ -94,7 +98,7 @@ void ProgramBuilder::take(const Action& action, int line, const Interpreter& int
     if (const auto* straight = std::get_if<Straight>(&action)) {
         move(straight->target, straight->feed, straight->rapid);
     } else if (const auto* arc = std::get_if<Arc>(&action)) {
-        cut(*arc, Point(at_), setup_.chord_tolerance_mm, [&](const Point& target) { move(target, arc->feed, false); });
+        this->arc(*arc);
     } else if (const auto* spline = std::get_if<Spline>(&action)) {
         cut(*spline, Point(at_), setup_.chord_tolerance_mm,
             [&](const Point& target) { move(target, spline->feed, false); });
@@ -134,6 +138,52 @@ double ProgramBuilder::within_travel(std::size_t i, double mm) {
     return mm;
 }
 
+/// Of an arc in the plane of two of the setup's axes. Nothing: it lies otherwise, so it has to be cut into chords.
+std::optional<ArcShape> ProgramBuilder::shape_of(const Arc& arc) const {
+    if (setup_.curves_as_chords) { return std::nullopt; }
+    const auto normal = static_cast<std::size_t>(std::ranges::find(arc.axis, 1.0) - arc.axis.begin());
+    if (normal >= arc.axis.size()) { return std::nullopt; }
+    const std::size_t first = (normal + 1) % 3;
+    const std::size_t second = (normal + 2) % 3;
+    const auto place_of = [this](std::size_t letter) {
+        return static_cast<std::size_t>(std::ranges::find(places_, std::optional(letter)) - places_.begin());
+    };
+    const ArcShape shape{.first = place_of(first),
+                         .second = place_of(second),
+                         .centre_first_mm = arc.centre[first],
+                         .centre_second_mm = arc.centre[second],
+                         .is_clockwise = arc.turns < 0,
+                         .turns = std::abs(arc.turns)};
+    const bool has_axes = shape.first < places_.size() && shape.second < places_.size();
+    const bool is_near =
+        std::abs(shape.centre_first_mm) <= kMaxCentre_mm / 2 && std::abs(shape.centre_second_mm) <= kMaxCentre_mm / 2;
+    return has_axes && is_near && shape.turns <= kMaxTurns ? std::optional(shape) : std::nullopt;
+}
+
+void ProgramBuilder::arc(const Arc& arc) {
+    const auto shape = shape_of(arc);
+    if (!shape) {
+        return cut(arc, Point(at_), setup_.chord_tolerance_mm,
+                   [&](const Point& target) { move(target, arc.feed, false); });
+    }
+    std::vector<double> to = position_;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (!places_[i] || arc.target[*places_[i]] == at_[*places_[i]]) { continue; }
+        to[i] = within_travel(i, arc.target[*places_[i]]);
+    }
+    const ArcPath path(*shape, position_, to);
+    if (path.plane_length_mm() < kLeastArc_mm) { return move(arc.target, arc.feed, false); }
+    if (const std::string why = why_no_arc(path); !why.empty()) { return fail(why); }
+    for (const std::size_t i : {shape->first, shape->second}) {
+        const auto [least, greatest] = path.extent(i);
+        within_travel(i, least);
+        within_travel(i, greatest);
+    }
+    append(move_to(to, arc.feed, shape));
+    at_ = arc.target;
+    position_ = std::move(to);
+}
+
 void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
     std::vector<double> to = position_;
     for (std::size_t i = 0; i < to.size(); ++i) {
@@ -141,24 +191,47 @@ void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
     }
     at_ = target;
     if (to == position_) { return; }
-    const double along = rapid ? 0 : feed_along_path(to, feed / kSecondsPerMinute);
-    append(LinearMove{.target_mm = to, .feed_mm_s = along, .rapid = rapid});
+    ProgramMove move = move_to(to, feed, {});
+    if (rapid) { move.feed_mm_s = 0; }
+    move.rapid = rapid;
+    append(std::move(move));
     position_ = std::move(to);
 }
 
+/// With the modes that hold. `feed`: per minute.
+ProgramMove ProgramBuilder::move_to(const std::vector<double>& to, double feed, std::optional<ArcShape> arc) const {
+    const Modal& modal = interpreter_->state().modal;
+    ProgramMove move{.target_mm = to, .feed_mm_s = feed / kSecondsPerMinute, .arc = arc};
+    move.feed_mm_s = feed_along_path(move);
+    move.is_feed_fixed = !modal.feed_override;
+    switch (modal.path_mode) {
+        case kExactPathWord: move.mode = PathMode::ExactPath; break;
+        case kExactStopWord: move.mode = PathMode::ExactStop; break;
+        default: move.tolerance_mm = std::min(modal.path_tolerance, kMaxTolerance_mm);
+    }
+    return move;
+}
+
 /// A program's feed is along the path of all axes; this is the one that makes the linear ones go at F.
-double ProgramBuilder::feed_along_path(const std::vector<double>& target, double feed) const {
-    double linear = 0;
+double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
+    const std::vector<double>& target = move.target_mm;
+    double linear = move.arc ? ArcPath(*move.arc, position_, target).plane_length_mm() : 0;
     double rotary = 0;
     for (std::size_t i = 0; i < target.size(); ++i) {
+        if (move.arc && (i == move.arc->first || i == move.arc->second)) { continue; }
         double& length = is_rotary(setup_.axes[i].name) ? rotary : linear;
         length = std::hypot(length, target[i] - position_[i]);
     }
-    const double along = linear <= kTravelTolerance_mm ? feed : feed * (std::hypot(linear, rotary) / linear);
-    return std::min(along, kMaxFeed_mm_s);
+    const double share = linear <= kTravelTolerance_mm ? 1 : std::hypot(linear, rotary) / linear;
+    return std::min(move.feed_mm_s * share, kMaxFeed_mm_s);
 }
 
 void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
+    events_together_ = std::holds_alternative<ProgramEvent>(action) ? events_together_ + 1 : 0;
+    if (events_together_ == kMaxEventsTogether + 1) {
+        fail("more than " + std::to_string(kMaxEventsTogether) +
+             " words that move no axis, without a move between them; leave some out");
+    }
     if (program_.blocks.size() < kMaxProgramBlocks) {
         program_.blocks.push_back({.line = line_, .action = std::move(action)});
         return;

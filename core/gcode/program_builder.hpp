@@ -33,6 +33,11 @@ class ProgramBuilder {
 public:
     explicit ProgramBuilder(const GcodeSetup& setup);
 
+    /// The devices' state before the first action: the program's end switches off what is on then, too.
+    void begin(const Modal& modal) {
+        spindle_turns_ = modal.spindle != Turning::Stopped;
+        coolant_flows_ = modal.mist || modal.flood;
+    }
     /// `interpreter` is at the block that the action is of; it gives the places of words in errors.
     void take(const Action& action, int line, const Interpreter& interpreter);
     /// What was wrong with the actions since the last call.
@@ -47,10 +52,16 @@ public:
 
 private:
     void move(const Point& target, double feed, bool rapid);
+    void arc(const Arc& arc);
+    std::optional<ArcShape> shape_of(const Arc& arc) const;
+    ProgramMove move_to(const std::vector<double>& to, double feed, std::optional<ArcShape> arc) const;
     double within_travel(std::size_t axis, double mm);
-    double feed_along_path(const std::vector<double>& target, double feed) const;
+    double feed_along_path(const ProgramMove& move) const;
     void event(const Event& event);
-    void unassigned(WordRule rule, const std::string& what, const std::string& key);
+    void end();
+    void change_tool(int tool);
+    /// The event of a word for a device: none where the word is refused.
+    void device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event);
     void note(const std::string& kind, const std::string& text);
     void append(decltype(lockstep::Block::action) action);
     void fail(std::size_t axis, const std::string& message);
@@ -65,7 +76,10 @@ private:
     Point at_{};
     std::vector<GcodeError> errors_;
     int line_ = 0;
-    std::set<std::size_t> outside_;  // axes that this line's errors name
+    std::set<std::size_t> outside_;      // axes that this line's errors name
+    std::uint32_t events_together_ = 0;  // since the last other block
+    bool spindle_turns_ = false;
+    bool coolant_flows_ = false;
     const Interpreter* interpreter_ = nullptr;
 };
 

@@ -107,6 +107,15 @@ WordRule read_rule(bool is_given, proto::WordRule rule, WordRule preset, const s
     return rule == proto::IGNORE ? WordRule::Ignore : WordRule::Refuse;
 }
 
+ToolChange read_tool_change(const proto::Unassigned& message, ToolChange preset, Reader& reader) {
+    if (!message.has_tool_change()) { return preset; }
+    if (!proto::ToolChange_IsValid(message.tool_change())) {
+        const std::string key = "unassigned.tool_change";
+        reader.refuse(key, key + " is " + std::to_string(message.tool_change()) + "; it is PAUSE or GO_ON");
+    }
+    return message.tool_change() == proto::GO_ON ? ToolChange::GoOn : ToolChange::Pause;
+}
+
 UnassignedWords read_unassigned(const proto::Unassigned& message, Reader reader) {
     const UnassignedWords preset;
     return {
@@ -114,6 +123,7 @@ UnassignedWords read_unassigned(const proto::Unassigned& message, Reader reader)
         .outputs = read_rule(message.has_outputs(), message.outputs(), preset.outputs, "unassigned.outputs", reader),
         .inputs = read_rule(message.has_inputs(), message.inputs(), preset.inputs, "unassigned.inputs", reader),
         .coolant = read_rule(message.has_coolant(), message.coolant(), preset.coolant, "unassigned.coolant", reader),
+        .tool_change = read_tool_change(message, preset.tool_change, reader),
     };
 }
 

@@ -54,6 +54,7 @@ void write_unassigned(const UnassignedWords& rules, proto::Unassigned& message) 
     message.set_outputs(rule_to_proto(rules.outputs));
     message.set_inputs(rule_to_proto(rules.inputs));
     message.set_coolant(rule_to_proto(rules.coolant));
+    if (rules.tool_change == ToolChange::GoOn) { message.set_tool_change(proto::GO_ON); }
 }
 
 void write_web(const WebConfig& web, proto::Web& message) {

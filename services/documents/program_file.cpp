@@ -69,6 +69,7 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     GcodeSetup setup{.program_name = std::move(program_name), .axes = {}, .switches = switches};
     setup.unassigned = machine.unassigned;
     setup.chord_tolerance_mm = chord_tolerance(machine);
+    setup.curves_as_chords = machine.coordination == StepMethod::Lai;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];
         setup.axes.push_back({.name = axis.name,

@@ -55,18 +55,56 @@ Refusal check_head(const proto::Program& message) {
     return {};
 }
 
-Refusal check_move(const proto::LinearMove& move, const proto::Program& message, std::size_t axes) {
+Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
+    const proto::ArcShape& arc = move.arc();
+    if (move.rapid()) { return "an arc is rapid; it needs a feed"; }
+    if (arc.first() >= axes || arc.second() >= axes || arc.first() == arc.second()) {
+        return "the arc's plane is of axes " + std::to_string(arc.first()) + " and " + std::to_string(arc.second()) +
+               "; they are two different ones of " + std::to_string(axes);
+    }
+    for (const double mm : {arc.centre_first_mm(), arc.centre_second_mm()}) {
+        if (!(std::abs(mm) <= kMaxCentre_mm)) {
+            return "the arc's centre is at " + number_text(mm) + " mm; centres go to " + number_text(kMaxCentre_mm) +
+                   " mm either way";
+        }
+    }
+    if (arc.turns() < 1 || arc.turns() > kMaxTurns) {
+        return "the arc's turns are " + std::to_string(arc.turns()) + "; they go from 1 to " +
+               std::to_string(kMaxTurns);
+    }
+    return {};
+}
+
+Refusal check_move(const proto::ProgramMove& move, const proto::Program& message, std::size_t axes) {
     if (Refusal refusal = check_places(move.target_mm(), message, axes)) { return "the target " + *refusal; }
     if (!move.rapid() && !(move.feed_mm_s() > 0 && move.feed_mm_s() <= kMaxFeed_mm_s)) {
         return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it is above 0, to " +
                number_text(kMaxFeed_mm_s);
     }
+    if (!proto::PathMode_IsValid(move.mode())) { return "the path mode is unknown: " + std::to_string(move.mode()); }
+    if (!(move.tolerance_mm() >= 0 && move.tolerance_mm() <= kMaxTolerance_mm)) {
+        return "the tolerance is " + number_text(move.tolerance_mm()) + " mm; it goes from 0 to " +
+               number_text(kMaxTolerance_mm);
+    }
+    return move.has_arc() ? check_arc(move, axes) : Refusal{};
+}
+
+Refusal check_event(const proto::ProgramEvent& event) {
+    if (!proto::ProgramEvent::Kind_IsValid(event.kind())) {
+        return "the event's kind is unknown: " + std::to_string(event.kind());
+    }
+    if (event.index() < 0 || event.index() > kMaxEventIndex) {
+        return "the event's index is " + std::to_string(event.index()) + "; it goes from 0 to " +
+               std::to_string(kMaxEventIndex);
+    }
+    if (!std::isfinite(event.value())) { return "the event's value is not a number"; }
     return {};
 }
 
 Refusal check_block(const proto::Block& block, const proto::Program& message, std::size_t axes) {
     if (block.line() < 0) { return "the line is " + std::to_string(block.line()) + "; lines count from 1"; }
     if (block.has_move()) { return check_move(block.move(), message, axes); }
+    if (block.has_event()) { return check_event(block.event()); }
     if (block.has_dwell() && !(block.dwell().seconds() >= 0 && block.dwell().seconds() <= kMaxDwell_s)) {
         return "the dwell is " + number_text(block.dwell().seconds()) + " s; it goes from 0 to " +
                number_text(kMaxDwell_s);
@@ -75,17 +113,35 @@ Refusal check_block(const proto::Block& block, const proto::Program& message, st
     return {};
 }
 
+std::optional<ArcShape> read_arc(const proto::ProgramMove& move) {
+    if (!move.has_arc()) { return std::nullopt; }
+    const proto::ArcShape& arc = move.arc();
+    return ArcShape{.first = arc.first(),
+                    .second = arc.second(),
+                    .centre_first_mm = arc.centre_first_mm(),
+                    .centre_second_mm = arc.centre_second_mm(),
+                    .is_clockwise = arc.clockwise(),
+                    .turns = arc.turns()};
+}
+
 Block read_block(const proto::Block& message) {
     Block block{.line = message.line(), .action = Pause{}};
     if (message.has_move()) {
-        const proto::LinearMove& move = message.move();
-        block.action = LinearMove{.target_mm = {move.target_mm().begin(), move.target_mm().end()},
-                                  .feed_mm_s = move.rapid() ? 0 : move.feed_mm_s(),
-                                  .rapid = move.rapid()};
+        const proto::ProgramMove& move = message.move();
+        block.action = ProgramMove{.target_mm = {move.target_mm().begin(), move.target_mm().end()},
+                                   .feed_mm_s = move.rapid() ? 0 : move.feed_mm_s(),
+                                   .rapid = move.rapid(),
+                                   .arc = read_arc(move),
+                                   .mode = static_cast<PathMode>(move.mode()),
+                                   .tolerance_mm = move.tolerance_mm(),
+                                   .is_feed_fixed = move.feed_fixed()};
     } else if (message.has_dwell()) {
         block.action = Dwell{message.dwell().seconds()};
     } else if (message.has_settle()) {
         block.action = Settle{};
+    } else if (message.has_event()) {
+        const proto::ProgramEvent& event = message.event();
+        block.action = ProgramEvent{static_cast<ProgramEvent::Kind>(event.kind()), event.index(), event.value()};
     }
     return block;
 }

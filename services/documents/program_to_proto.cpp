@@ -3,18 +3,41 @@
 namespace lockstep {
 namespace {
 
+static_assert(static_cast<int>(PathMode::ExactStop) == proto::EXACT_STOP && proto::PathMode_ARRAYSIZE == 3);
+static_assert(static_cast<int>(ProgramEvent::Kind::Tool) == proto::ProgramEvent::TOOL &&
+              ProgramEvent::kKinds == proto::ProgramEvent::Kind_ARRAYSIZE);
+
 struct ActionWriter {
     proto::Block& block;
 
-    void operator()(const LinearMove& move) const {
-        proto::LinearMove& message = *block.mutable_move();
+    void operator()(const ProgramMove& move) const {
+        proto::ProgramMove& message = *block.mutable_move();
         message.mutable_target_mm()->Assign(move.target_mm.begin(), move.target_mm.end());
         message.set_rapid(move.rapid);
         if (!move.rapid) { message.set_feed_mm_s(move.feed_mm_s); }
+        if (move.arc) { write(*move.arc, *message.mutable_arc()); }
+        message.set_mode(static_cast<proto::PathMode>(move.mode));
+        message.set_tolerance_mm(move.tolerance_mm);
+        message.set_feed_fixed(move.is_feed_fixed);
     }
     void operator()(const Dwell& dwell) const { block.mutable_dwell()->set_seconds(dwell.seconds); }
     void operator()(const Pause&) const { block.mutable_pause(); }
     void operator()(const Settle&) const { block.mutable_settle(); }
+    void operator()(const ProgramEvent& event) const {
+        proto::ProgramEvent& message = *block.mutable_event();
+        message.set_kind(static_cast<proto::ProgramEvent::Kind>(event.kind));
+        message.set_index(event.index);
+        message.set_value(event.value);
+    }
+
+    static void write(const ArcShape& arc, proto::ArcShape& message) {
+        message.set_first(static_cast<std::uint32_t>(arc.first));
+        message.set_second(static_cast<std::uint32_t>(arc.second));
+        message.set_centre_first_mm(arc.centre_first_mm);
+        message.set_centre_second_mm(arc.centre_second_mm);
+        message.set_clockwise(arc.is_clockwise);
+        message.set_turns(arc.turns);
+    }
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-void check_move(const LinearMove& move, const GcodeSetup& setup) {
+void check_move(const ProgramMove& move, const GcodeSetup& setup) {
     require(move.target_mm.size() == setup.axes.size(), "a move has a target for each axis");
     for (std::size_t i = 0; i < setup.axes.size(); ++i) {
         const bool within = move.target_mm[i] >= setup.axes[i].min_mm && move.target_mm[i] <= setup.axes[i].max_mm;
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     for (const Block& block : program->blocks) {
         require(block.line >= 1, "a block has its line");
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) { check_move(*move, setup); }
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) { check_move(*move, setup); }
         if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
             require(dwell->seconds >= 0 && std::isfinite(dwell->seconds), "a dwell has a length");
         }

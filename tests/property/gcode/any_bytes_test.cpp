@@ -25,7 +25,7 @@ void check_target(const std::vector<double>& target) {
 
 void check_block(const Block& block) {
     RC_ASSERT(block.line >= 1);
-    if (const auto* move = std::get_if<LinearMove>(&block.action)) {
+    if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
         check_target(move->target_mm);
         RC_ASSERT(move->rapid || (move->feed_mm_s > 0 && move->feed_mm_s <= kMaxFeed_mm_s));
     } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
@@ -113,8 +113,8 @@ RC_GTEST_PROP(GcodeOfAnyBytes, RelativeAndAbsoluteMovesReachTheSamePositions, ()
     RC_ASSERT(one.has_value() && other.has_value());
     RC_ASSERT(one->blocks.size() == other->blocks.size());
     for (std::size_t i = 0; i < one->blocks.size(); ++i) {
-        RC_ASSERT(std::get<LinearMove>(one->blocks[i].action).target_mm ==
-                  std::get<LinearMove>(other->blocks[i].action).target_mm);
+        RC_ASSERT(std::get<ProgramMove>(one->blocks[i].action).target_mm ==
+                  std::get<ProgramMove>(other->blocks[i].action).target_mm);
     }
 }
 

@@ -61,7 +61,7 @@ TEST_P(ExampleProgram, BeginsAndEndsParked) {
     const auto file = read_program_file(kExamples / GetParam(), mill, parked(mill));
     ASSERT_TRUE(file) << to_text(GetParam(), file.error());
     EXPECT_TRUE(file->reading.notes.empty());
-    const auto* end = std::get_if<LinearMove>(&file->reading.program.blocks.back().action);
+    const auto* end = std::get_if<ProgramMove>(&file->reading.program.blocks.back().action);
     ASSERT_NE(end, nullptr);
     EXPECT_EQ(end->target_mm, parked(mill));
 }
@@ -84,7 +84,7 @@ TEST(Examples, ThePlateBeginsAndEndsParked) {
     const Program program = plate();
     EXPECT_EQ(program.name, "plate.gcode");
     EXPECT_EQ(program.start_mm, parked(mill));
-    EXPECT_EQ(std::get<LinearMove>(program.blocks.back().action).target_mm, parked(mill));
+    EXPECT_EQ(std::get<ProgramMove>(program.blocks.back().action).target_mm, parked(mill));
 }
 
 /// The time at feed alone, with rapids at the axes' top speed: a lower bound of the job's duration.
@@ -93,7 +93,7 @@ double least_seconds(const Program& program, const MachineConfig& machine) {
     std::vector<double> at = program.start_mm;
     for (const Block& block : program.blocks) {
         if (const auto* dwell = std::get_if<Dwell>(&block.action)) { seconds += dwell->seconds; }
-        const auto* move = std::get_if<LinearMove>(&block.action);
+        const auto* move = std::get_if<ProgramMove>(&block.action);
         if (move == nullptr) { continue; }
         double length = 0;
         double rapid = 0;

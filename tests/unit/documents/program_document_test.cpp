@@ -14,14 +14,28 @@ namespace {
 
 using testing::HasSubstr;
 
+ProgramMove an_arc() {
+    ProgramMove move{.target_mm = {3, 4}, .feed_mm_s = 5, .arc = ArcShape{.first = 1, .second = 0}};
+    move.arc->centre_first_mm = -1.5;
+    move.arc->centre_second_mm = 1e5;
+    move.arc->is_clockwise = true;
+    move.arc->turns = 7;
+    move.mode = PathMode::ExactPath;
+    move.tolerance_mm = 0.01;
+    move.is_feed_fixed = true;
+    return move;
+}
+
 Program example() {
     return {.name = "plate.gcode",
             .axes = {"X", "Y"},
             .start_mm = {0, 1.0 / 3},
-            .blocks = {{1, LinearMove{{10, 20}, 0, true}},
-                       {2, LinearMove{{0.1, 1e-9}, 12.5, false}},
+            .blocks = {{1, ProgramMove{{10, 20}, 0, true}},
+                       {2, ProgramMove{{0.1, 1e-9}, 12.5, false}},
                        {0, Dwell{0.25}},
-                       {4, Pause{}}}};
+                       {4, Pause{}},
+                       {5, an_arc()},
+                       {6, ProgramEvent{ProgramEvent::Kind::AnalogOutput, 3, -0.5}}}};
 }
 
 void expect_same(const Program& one, const Program& other) {
@@ -32,11 +46,18 @@ void expect_same(const Program& one, const Program& other) {
     for (std::size_t i = 0; i < one.blocks.size(); ++i) {
         EXPECT_EQ(one.blocks[i].line, other.blocks[i].line);
         ASSERT_EQ(one.blocks[i].action.index(), other.blocks[i].action.index());
-        if (const auto* move = std::get_if<LinearMove>(&one.blocks[i].action)) {
-            const auto& same = std::get<LinearMove>(other.blocks[i].action);
+        if (const auto* move = std::get_if<ProgramMove>(&one.blocks[i].action)) {
+            const auto& same = std::get<ProgramMove>(other.blocks[i].action);
             EXPECT_EQ(move->target_mm, same.target_mm);
             EXPECT_EQ(move->feed_mm_s, same.feed_mm_s);
             EXPECT_EQ(move->rapid, same.rapid);
+            EXPECT_EQ(move->arc, same.arc);
+            EXPECT_EQ(move->mode, same.mode);
+            EXPECT_EQ(move->tolerance_mm, same.tolerance_mm);
+            EXPECT_EQ(move->is_feed_fixed, same.is_feed_fixed);
+        }
+        if (const auto* event = std::get_if<ProgramEvent>(&one.blocks[i].action)) {
+            EXPECT_EQ(*event, std::get<ProgramEvent>(other.blocks[i].action));
         }
         if (const auto* dwell = std::get_if<Dwell>(&one.blocks[i].action)) {
             EXPECT_EQ(dwell->seconds, std::get<Dwell>(other.blocks[i].action).seconds);
@@ -87,7 +108,7 @@ TEST_P(ProgramRefused, WithTheValueAndTheBlock) {
     EXPECT_THAT(read.error(), HasSubstr(GetParam().message));
 }
 
-LinearMove& move(Program& program, std::size_t i) { return std::get<LinearMove>(program.blocks[i].action); }
+ProgramMove& move(Program& program, std::size_t i) { return std::get<ProgramMove>(program.blocks[i].action); }
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 

@@ -22,7 +22,7 @@ GcodeReading read_in_turn(std::initializer_list<const char*> texts) {
 std::vector<double> last_target(const GcodeReading& reading) {
     std::vector<double> target;
     for (const Block& block : reading.program.blocks) {
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) { target = move->target_mm; }
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) { target = move->target_mm; }
     }
     return target;
 }

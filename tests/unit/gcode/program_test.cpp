@@ -19,8 +19,8 @@ Program parse(std::string_view text, const GcodeSetup& setup = three_axes()) {
     return {};
 }
 
-const LinearMove& move(const Program& program, std::size_t i) {
-    return std::get<LinearMove>(program.blocks.at(i).action);
+const ProgramMove& move(const Program& program, std::size_t i) {
+    return std::get<ProgramMove>(program.blocks.at(i).action);
 }
 
 std::vector<double> last_target(std::string_view text, const GcodeSetup& setup = three_axes()) {

@@ -1,4 +1,4 @@
-// Words for devices that the machine does not have: refused, or passed over with a note.
+// Words for devices that the machine does not have: refused, or events on the path with a note.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ struct Group {
 
 class UnassignedWord : public testing::TestWithParam<Group> {};
 
-TEST_P(UnassignedWord, IsRefusedOrPassedOverAsItsRuleSays) {
+TEST_P(UnassignedWord, IsRefusedOrRunWithANoteAsItsRuleSays) {
     const Group& group = GetParam();
     GcodeSetup setup = three_axes();
     setup.unassigned.*group.rule = WordRule::Refuse;
@@ -30,7 +30,7 @@ TEST_P(UnassignedWord, IsRefusedOrPassedOverAsItsRuleSays) {
     ASSERT_TRUE(read) << read.error().front().message;
     ASSERT_EQ(read->notes.size(), 1U);
     EXPECT_EQ(read->notes[0].line, 2);
-    EXPECT_THAT(read->notes[0].text, HasSubstr("passed over"));
+    EXPECT_THAT(read->notes[0].text, HasSubstr("is not configured"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Groups, UnassignedWord,
@@ -40,9 +40,9 @@ INSTANTIATE_TEST_SUITE_P(Groups, UnassignedWord,
                                          Group{"G0 X1\nM66 P1 L0\n", &UnassignedWords::inputs, "inputs"},
                                          Group{"G0 X1\nM8\nM9\n", &UnassignedWords::coolant, "coolant"}));
 
-TEST(UnassignedWords, CoolantAloneIsPassedOverByDefault) {
+TEST(UnassignedWords, CoolantAloneIsTakenByDefault) {
     EXPECT_TRUE(read_gcode("M7\nM9\n", three_axes()));
-    for (const char* text : {"M4\n", "S5\n", "M62 P0\n", "M66 P0 L0\n"}) {
+    for (const char* text : {"M4\n", "M3 S5\n", "M62 P0\n", "M66 P0 L0\n"}) {
         EXPECT_FALSE(read_gcode(text, three_axes()));
     }
 }
