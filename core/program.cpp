@@ -14,10 +14,10 @@ std::expected<Program, std::string> program_from(const Program& program, std::in
     }
     std::vector<double> begins_mm = program.start_mm;
     for (auto block = program.blocks.begin(); block != first; ++block) {
-        if (const auto* move = std::get_if<LinearMove>(&block->action)) { begins_mm = move->target_mm; }
+        if (const auto* move = std::get_if<ProgramMove>(&block->action)) { begins_mm = move->target_mm; }
     }
     Program rest{.name = program.name, .axes = program.axes, .start_mm = std::move(at_mm)};
-    if (rest.start_mm != begins_mm) { rest.blocks.push_back({first->line, LinearMove{begins_mm, 0, true}}); }
+    if (rest.start_mm != begins_mm) { rest.blocks.push_back({first->line, ProgramMove{begins_mm, 0, true}}); }
     rest.blocks.insert(rest.blocks.end(), first, program.blocks.end());
     return rest;
 }

@@ -13,6 +13,7 @@
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
 #include "core/program.hpp"
+#include "core/program_devices.hpp"
 #include "core/protocol/lease_holder.hpp"
 #include "core/protocol/process_counts.hpp"
 #include "core/protocol/record_counts.hpp"
@@ -196,16 +197,33 @@ struct MachineState {
     Overrides overrides;       // of what is planned from now on
     AxisSet axes_present = 0;  // those that are heard
     std::uint64_t config_hash = 0;
+    ProgramDevices devices;          // what the words of programs have switched
     std::optional<HeldLease> lease;  // the writer's; nothing: every client may give commands
     // What another needs to go on with the job, while one is in motion:
     JobKind job_kind = JobKind::Run;
-    std::uint64_t program = 0;     // Command::program of the job; 0: none is in motion
-    std::vector<FrameRest> rests;  // of the frames of the epoch that may be the last ones run, rising
+    std::uint64_t program = 0;      // Command::program of the job; 0: none is in motion
+    std::uint32_t events_from = 0;  // the events of the program before this block have been published
+    std::vector<FrameRest> rests;   // of the frames of the epoch that may be the last ones run, rising
     // Of the record; nobody decides by it:
     RecordCounts published;          // by this process
     std::uint64_t lost_records = 0;  // messages that it could not write
     ProcessCounts process;           // nobody decides by it either
     bool operator==(const MachineState&) const = default;
+};
+
+/// An event of a program that has happened. Published once; the state keeps what it switched.
+struct PublishedEvent {
+    Term term;
+    std::uint64_t sequence = 0;  // rises within a term, without gaps
+    std::uint64_t job = 0;
+    Epoch epoch = 0;            // 0: no axis moved since the job began
+    Tick tick;                  // when the motion came to its place; at rest: when it was published
+    bool at_rest = false;       // its place is where the axes came to rest, or was passed on the way to there
+    bool is_of_program = true;  // false: the job ended before its end, and the coordinator switched the device off
+    std::uint32_t block = 0;    // of the program
+    std::int32_t line = 0;      // of the G-code file; 0: none
+    ProgramEvent event;
+    bool operator==(const PublishedEvent&) const = default;
 };
 
 /// Override: feed and rapid of coordinated moves, from the next frame that is not made yet. Jog: the axes move while

@@ -76,7 +76,7 @@ void JobRunner::halt_alone(CoordinatorLoop& loop) {
 /// Every axis is at rest.
 void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
     loop.out.epoch_end = {end_of_epoch.kind, intent_};
-    path_.end_epoch(end_of_epoch);
+    path_.end_epoch(end_of_epoch, loop);
     if (intent_ == Intent::Abort) { return end_failed(loop); }
     switch (end_of_epoch.kind) {
         case EpochEnd::Kind::FramesDiffer: return fail(FaultCode::FramesDiffer, end_of_epoch.axis, loop);
@@ -129,6 +129,7 @@ void JobRunner::end_program(CoordinatorLoop& loop) {
 
 void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
     if (!job_) { return; }
+    if (outcome != JobOutcome::Done) { path_.events().switch_off(job_->number, loop); }
     loop.out.jobs.push_back({.kind = JobEvent::Kind::Ended,
                              .job = job_->number,
                              .job_kind = job_->kind,
@@ -159,6 +160,7 @@ void JobRunner::take_over(const std::optional<MachineState>& last, CoordinatorLo
     if (!last || last->job < count_.number()) { return; }
     count_.inherit(*last);
     path_.inherit(last->overrides);
+    path_.events().inherit(last->devices);
     if (last->job == 0 || last->outcome) { return; }
     inherited_.begin(*last);
     if (const auto doubt = inherited_.doubt(loop)) { cut_inherited(*doubt, loop); }
@@ -174,7 +176,7 @@ void JobRunner::go_on_with_inherited(CoordinatorLoop& loop) {
     if (!rest) { return cut_inherited(rest.error(), loop); }
     loop.notice({CoordinatorNotice::Kind::JobContinued, FaultCode::None, static_cast<std::uint64_t>(last.line)});
     job_ = MachineJob{.number = count_.number(), .kind = last.job_kind, .program_id = last.program, .program = program};
-    path_.load(*job_, std::move(*rest), last.progress);
+    path_.load(*job_, std::move(*rest), last.progress, last.events_from);
     inherited_.end();
     follow(path_.go_on(loop), loop);
 }
@@ -183,6 +185,7 @@ void JobRunner::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
     if (!inherited_.exists()) { return; }
     count_.cut(inherited_.last().line);
     inherited_.end();
+    path_.events().switch_off(count_.number(), loop);
     loop.notice(
         {CoordinatorNotice::Kind::JobCutShort, FaultCode::None, static_cast<std::uint64_t>(count_.line()), doubt});
 }

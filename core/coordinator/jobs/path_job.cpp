@@ -16,16 +16,21 @@ void PathJob::load(const MachineJob& job, const AxisCounts& start) {
     positions_.clear();
     leg_done_.reset();
     fruitless_ = 0;
+    has_moved_ = false;
+    events_.begin();
 }
 
-void PathJob::load(const MachineJob& job, JobRest rest, double progress) {
+void PathJob::load(const MachineJob& job, JobRest rest, double progress, std::uint32_t events_from) {
     load(job, rest.from);
+    events_.begin(events_from);
     next_ = rest.first;
     progress_ = PathProgress(progress);
     resume_ = rest.place;
     positions_ = std::move(rest.positions);
     leg_done_ = rest.done;
-    if (!leg_done_) { runner_.load(planner_.frames(job_.program, next_, from_)); }
+    if (leg_done_) { return; }
+    runner_.load(planner_.frames(job_.program, next_, from_));
+    runner_.source()->begin_events_from(events_from);
 }
 
 /// Nothing: something moves in the leg that begins with the next block, or a bounded look does not find its end.
@@ -49,10 +54,24 @@ bool PathJob::pass_leg(const LegEnd& end) {
     return end.kind == LegEnd::Kind::Pause;
 }
 
+/// Of a leg in which nothing moves, or the end of a leg that another coordinator has run.
+void PathJob::pass_events(const LegEnd& end, CoordinatorLoop& loop) {
+    std::vector<PathEvent> events;
+    for (std::uint32_t k = std::max(next_, events_.from()); k < end.block; ++k) {
+        const auto block = job_.program->block(k);
+        if (!block) { break; }
+        if (const auto* event = std::get_if<ProgramEvent>(&block->action)) {
+            events.push_back({k, block->line, *event});
+        }
+    }
+    events_.pass(events, of(), loop);
+}
+
 PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
     while (!job_.program->ends_before(next_)) {
         const auto empty = end_of_empty_leg();
         if (!empty) { break; }
+        pass_events(*empty, loop);
         if (pass_leg(*empty)) { return Next::Pauses; }
     }
     if (job_.program->ends_before(next_)) { return Next::IsDone; }
@@ -65,7 +84,9 @@ PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
 }
 
 PathJob::Next PathJob::end_leg(CoordinatorLoop& loop) {
+    const bool is_inherited = leg_done_.has_value();
     const LegEnd end = leg_done_ ? *std::exchange(leg_done_, std::nullopt) : runner_.source()->end();
+    if (is_inherited) { pass_events(end, loop); }
     return pass_leg(end) ? Next::Pauses : begin_leg(loop);
 }
 
@@ -91,6 +112,7 @@ void PathJob::begin_epoch(std::vector<Position> at, CoordinatorLoop& loop) {
         at.push_back(Position::steps(loop.axes.state(i)->position.count()));
     }
     planned_ = overrides_;
+    has_moved_ = true;
     runner_.begin(next_epoch(loop), resume_, std::move(at), planned_);
     is_moving_ = true;
     has_started_ = false;
@@ -101,6 +123,7 @@ void PathJob::begin_epoch(std::vector<Position> at, CoordinatorLoop& loop) {
 void PathJob::note_start(CoordinatorLoop& loop) {
     if (has_started_ || !runner_.start()) { return; }
     has_started_ = true;
+    events_.pass(runner_.source()->events_before(resume_.block), of(), loop);
     loop.notice({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, runner_.epoch()});
     loop.out.jobs.push_back({.kind = JobEvent::Kind::EpochBegun,
                              .job = job_.number,
@@ -115,6 +138,9 @@ std::optional<EpochEnd> PathJob::advance(CoordinatorLoop& loop) {
     loop.out.frames = runner_.send(loop.slot, loop.axes.views());
     for (Frame& frame : loop.out.frames) { frame.term = loop.term; }
     note_start(loop);
+    for (const EpochRunner::Happened& event : runner_.take_events(loop.now, loop.axes.views())) {
+        events_.happen(event.event, event.tick, of(), loop);
+    }
     if (const auto turn = runner_.take_turn()) {
         loop.out.jobs.push_back({.kind = JobEvent::Kind::Overridden,
                                  .job = job_.number,
@@ -126,8 +152,15 @@ std::optional<EpochEnd> PathJob::advance(CoordinatorLoop& loop) {
     return runner_.evaluate(loop.slot, loop.axes.views());
 }
 
-void PathJob::end_epoch(const EpochEnd& end) {
+/// The axes have passed the places before the block in which they rest.
+void PathJob::end_epoch(const EpochEnd& end, CoordinatorLoop& loop) {
     is_moving_ = false;
+    const bool knows_place = end.kind == EpochEnd::Kind::Complete || end.kind == EpochEnd::Kind::Interrupted;
+    const bool is_whole = end.kind == EpochEnd::Kind::Complete;
+    if (knows_place) {
+        const std::uint32_t before = is_whole ? runner_.source()->end().block : end.place.block;
+        events_.pass(runner_.source()->events_before(before), of(), loop);
+    }
     progress_.end_path(subticks(runner_.ticks_of(end.ran)));
 }
 
@@ -168,6 +201,8 @@ void PathJob::report_epoch(MachineState& state) const {
     state.sent = runner_.sent();
     state.veto = runner_.veto();
     state.overrides = overrides_;
+    state.devices = events_.devices();
+    state.events_from = events_.from();
 }
 
 void PathJob::report_progress(MachineState& state) const {

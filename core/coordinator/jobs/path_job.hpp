@@ -7,6 +7,7 @@
 
 #include "core/coordinator/jobs/job.hpp"
 #include "core/coordinator/jobs/path_progress.hpp"
+#include "core/coordinator/jobs/program_events.hpp"
 #include "core/coordinator/jobs/takeover.hpp"
 #include "core/coordinator/path/epoch_runner.hpp"
 #include "core/coordinator/path/program_plan.hpp"
@@ -23,13 +24,16 @@ public:
     /// An epoch is in progress.
     bool is_moving() const { return is_moving_; }
     const Overrides& overrides() const { return overrides_; }
+    ProgramEvents& events() { return events_; }
+    const ProgramEvents& events() const { return events_; }
 
     /// What follows when a leg was begun or has ended.
     enum class Next : std::uint8_t { Moves, Pauses, IsDone };
 
     /// Replaces the job before.
     void load(const MachineJob& job, const AxisCounts& start);
-    void load(const MachineJob& job, JobRest rest, double progress);
+    /// `events_from`: the events before this block have been published.
+    void load(const MachineJob& job, JobRest rest, double progress, std::uint32_t events_from);
     Next begin_leg(CoordinatorLoop& loop);
     /// What is left of the leg in progress; begins the next leg where nothing is left.
     Next go_on(CoordinatorLoop& loop);
@@ -44,7 +48,7 @@ public:
     /// The epoch in progress comes to rest.
     /// By the state published in slot `next`.
     void stop(Slot next) { runner_.stop(next); }
-    void end_epoch(const EpochEnd& end);
+    void end_epoch(const EpochEnd& end, CoordinatorLoop& loop);
     void give_up_epoch() { is_moving_ = false; }
     /// All axes rest together on the path, proved by their counts.
     void interrupt(const EpochEnd& end);
@@ -53,7 +57,7 @@ public:
     /// The epoch ended early because no frame keeps the limits.
     bool is_stuck() const { return runner_.is_stuck(); }
     /// The machine rests because no more of the program is known.
-    bool waits_for_blocks() const { return runner_.source()->lacks_blocks(); }
+    bool waits_for_blocks() const { return runner_.lacked_blocks() || runner_.source()->lacks_blocks(); }
 
     /// From the next frame that is not made yet, and in jobs to come.
     void turn(const Overrides& overrides);
@@ -70,6 +74,8 @@ public:
 
 private:
     bool pass_leg(const LegEnd& end);
+    void pass_events(const LegEnd& end, CoordinatorLoop& loop);
+    ProgramEvents::Of of() const { return {job_.number, has_moved_ ? runner_.epoch() : 0}; }
     std::optional<LegEnd> end_of_empty_leg() const;
     void begin_epoch(std::vector<Position> at, CoordinatorLoop& loop);
     void note_start(CoordinatorLoop& loop);
@@ -88,8 +94,11 @@ private:
     bool has_started_ = false;  // the epoch, with its first frame
     Overrides planned_;         // with which the epoch begins
 
+    ProgramEvents events_;
+
     // Of the job:
     MachineJob job_;
+    bool has_moved_ = false;  // an epoch was begun
     std::uint32_t next_ = 0;  // the first block of the next leg, or of the one in progress
     AxisCounts from_;         // and where it begins
     PathProgress progress_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/arc_path.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -12,6 +14,7 @@ using Doubt = std::unexpected<TakeoverDoubt>;
 
 /// From the program's place: joining moves, whole steps, and the way along a move that is joined with others.
 constexpr double kNear_steps = 3;
+constexpr double kNear_share = 1e-4;  // of an arc: how far the lengths of its pieces may add up to another length
 
 bool is_in_doubt(const AxisView& axis) {
     return !axis.state || !axis.state->homed || axis.state->fault != 0 || !axis.state->at_rest;
@@ -67,21 +70,53 @@ std::expected<LegEnd, TakeoverDoubt> end_behind(const KnownProgram& program, con
     }
 }
 
-/// Whether the axes are near the place by the program alone: the frames join moves within a step of it.
-std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const Places& from, const Places& to,
-                                               const MachineConfig& machine, std::span<const Position> at) {
-    double near_mm = 0;
-    double square = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        near_mm = std::max(near_mm, kNear_steps / machine.axes[i].steps_per_mm);
-        square += (to[i] - from[i]) * (to[i] - from[i]);
+/// The move of a block with its ends, for each axis of the machine.
+struct MoveWay {
+    Places from;
+    Places to;
+    std::optional<ArcShape> arc;
+    double tolerance_mm = 0;
+
+    double length() const { return length_mm({.target_mm = to, .arc = arc}, from); }
+    Places at(double share) const {
+        if (arc) { return ArcPath(*arc, from, to).at(share); }
+        Places place = from;
+        for (std::size_t i = 0; i < from.size(); ++i) { place[i] += share * (to[i] - from[i]); }
+        return place;
     }
-    const double length = std::sqrt(square);
+};
+
+MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
+               std::span<const AxisView> axes) {
+    MoveWay way{.from = places_before(block, program, machine, axes),
+                .to = places_before(block + 1, program, machine, axes),
+                .arc = {}};
+    const auto known = program.block(block);
+    const auto* move = known ? std::get_if<ProgramMove>(&known->action) : nullptr;
+    if (move == nullptr) { return way; }
+    way.tolerance_mm = move->tolerance_mm;
+    way.arc = move->arc;
+    if (!way.arc) { return way; }
+    const auto of_machine = ProgramPlanner(machine).axes_of(program.axes()).value();
+    way.arc->first = of_machine[way.arc->first];
+    way.arc->second = of_machine[way.arc->second];
+    return way;
+}
+
+/// Whether the axes are near the place by the program alone: the frames join moves within a step of it, or the
+/// tolerance that it gives.
+std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const MoveWay& way, const MachineConfig& machine,
+                                               std::span<const Position> at) {
+    const double length = way.length();
+    double near_mm = way.tolerance_mm + kNear_share * length;
+    double most_mm = 0;
+    for (const AxisConfig& axis : machine.axes) { most_mm = std::max(most_mm, kNear_steps / axis.steps_per_mm); }
+    near_mm += most_mm;
     const double along = rest.place.along.as_steps();  // mm
     if (along < 0 || along > length + near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
-    const double share = rest.last ? 1 : length > 0 ? along / length : 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const double off = to_mm(machine.axes[i], at[i].as_steps()) - from[i] - share * (to[i] - from[i]);
+    const Places place = way.at(rest.last ? 1 : length > 0 ? std::min(along / length, 1.0) : 0);
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        const double off = to_mm(machine.axes[i], at[i].as_steps()) - place[i];
         if (std::abs(off) > near_mm) { return Doubt(TakeoverDoubt::Misplaced); }
     }
     return {};
@@ -111,7 +146,11 @@ bool is_at_hand(const MachineState& last, const KnownProgram& program) {
         const auto leg = program.leg_of(block);
         are_all = program.place_before(block) && program.block(block) && are_all;
         are_all = (!leg || program.place_before(*leg)) && are_all;
-        are_all = (!rest.last || block + 1 >= program.known() || program.block(block + 1)) && are_all;
+        for (std::uint32_t next = block + 1; rest.last && are_all && next < program.known(); ++next) {
+            const auto behind = program.block(next);
+            are_all = behind.has_value();
+            if (!behind || !std::holds_alternative<ProgramEvent>(behind->action)) { break; }
+        }
     }
     return are_all;
 }
@@ -135,11 +174,11 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
                  .positions = {}};
     std::vector<Position> positions;
     for (const AxisView& axis : axes) { positions.push_back(axis.state->position); }
-    const Places to = places_before(block + 1, program, machine, axes);
-    const auto fits = check_place(*said, places_before(block, program, machine, axes), to, machine, positions);
+    const MoveWay way = way_of(block, program, machine, axes);
+    const auto fits = check_place(*said, way, machine, positions);
     if (!fits) { return Doubt(fits.error()); }
     if (said->last) {
-        const auto end = end_behind(program, machine, block, counts_of(to, machine));
+        const auto end = end_behind(program, machine, block, counts_of(way.to, machine));
         if (!end) { return Doubt(end.error()); }
         rest.done = *end;
     }

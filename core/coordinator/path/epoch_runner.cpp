@@ -14,7 +14,8 @@ void EpochRunner::begin(Epoch epoch, const PathPlace& place, std::vector<Positio
     made_ticks_ = {};
     slots_over_ = 0;
     sent_ = 0;
-    ended_ = late_ = is_stuck_ = is_empty_ = false;
+    ended_ = late_ = lacked_blocks_ = is_stuck_ = is_empty_ = false;
+    due_.clear();
     veto_.reset();
     received_veto_.reset();
     turned_.reset();
@@ -55,10 +56,12 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
         if (now < rules::first_send_slot(start, machine_.timing)) { break; }
         if (!rules::may_send(now, start, machine_.timing)) {
             ended_ = late_ = true;
+            lacked_blocks_ = lacked_blocks_ || source_->lacks_blocks();
             break;
         }
         try_turn();
         const std::optional<Frame> frame = make_frame();
+        lacked_blocks_ = !frame && source_->lacks_blocks();
         if (!frame) { break; }
         frames.push_back(*frame);
         in_flight_.push_back(*frame);
@@ -90,6 +93,9 @@ std::optional<Frame> EpochRunner::make_frame() {
                 .last = path.last,
                 .axes = {}};
     ended_ = path.last;
+    for (FrameEvent& event : source_->events()) {
+        due_.push_back({sent_, {frame.start + event.at, std::move(event.event)}});
+    }
     made_ticks_ += path.ticks;
     made_.push_back(finish(frame, path));
     if (made_.size() > kMadeKept) { made_.pop_front(); }
@@ -124,6 +130,18 @@ PathPlace EpochRunner::place_at(Tick tick) const {
 
 Ticks EpochRunner::ticks_of(FrameNumber frames) const {
     return frames < oldest() || frames > sent_ ? Ticks{} : made_frame(frames).end;
+}
+
+std::vector<EpochRunner::Happened> EpochRunner::take_events(Tick now, std::span<const AxisView> axes) {
+    FrameNumber begun = 0;
+    for (const AxisView& axis : axes) {
+        if (axis.state && axis.state->epoch == epoch_) { begun = std::max(begun, axis.state->ran); }
+    }
+    std::vector<Happened> happened;
+    for (; !due_.empty() && due_.front().frame <= begun && due_.front().event.tick <= now; due_.pop_front()) {
+        happened.push_back(std::move(due_.front().event));
+    }
+    return happened;
 }
 
 void EpochRunner::stop(Slot next) {

@@ -70,6 +70,14 @@ public:
     /// were asked for count: while this process stalls, it receives nothing.
     bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(machine_.timing) + rules::kHopSlots; }
 
+    /// The events whose places the motion has come to by `now`, each once: in frames that an axis has begun. Their
+    /// times are those of the motion.
+    struct Happened {
+        Tick tick;
+        PathEvent event;
+    };
+    std::vector<Happened> take_events(Tick now, std::span<const AxisView> axes);
+
     /// Where the machine rests behind this frame and those made after it.
     std::vector<FrameRest> rests_from(FrameNumber frame) const;
 
@@ -87,6 +95,8 @@ public:
     /// The lowest of the coordinator's own and those received: each receiver repeats a veto.
     std::optional<FrameNumber> veto() const { return rules::merge(veto_, received_veto_); }
     bool was_late() const { return late_; }
+    /// It was late because too little of the program was known when the frame was due, whatever came afterwards.
+    bool lacked_blocks() const { return late_ && lacked_blocks_; }
 
 private:
     struct Made {                       // a frame; 0: the epoch's begin
@@ -120,12 +130,18 @@ private:
     std::optional<Turn> taken_;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;
+    bool lacked_blocks_ = false;  // for the frame that is due
     bool is_stuck_ = false;
     bool is_empty_ = false;                     // the path has no frame
     std::optional<FrameNumber> veto_;           // the coordinator's own
     std::optional<FrameNumber> received_veto_;  // the lowest of the axes'
     std::deque<Frame> in_flight_;               // not begun yet
-    std::deque<Made> made_;                     // the last frames; the newest is sent_
+    struct Due {
+        FrameNumber frame = 0;
+        Happened event;
+    };
+    std::deque<Due> due_;    // events that have not happened
+    std::deque<Made> made_;  // the last frames; the newest is sent_
 };
 
 }  // namespace lockstep

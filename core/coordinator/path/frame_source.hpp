@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/coordinator/path/event_queue.hpp"
 #include "core/motion/path.hpp"
 #include "core/overrides.hpp"
 #include "core/path/frame_planner.hpp"
@@ -50,6 +51,12 @@ public:
     virtual bool turn(const Overrides& overrides) = 0;
     /// Of a path that is done.
     virtual LegEnd end() const = 0;
+    /// The events whose places the last frame comes to; right behind next() only.
+    virtual std::vector<FrameEvent> events() const { return {}; }
+    /// Before this block they have happened: before any block is read.
+    virtual void begin_events_from(std::uint32_t /*block*/) {}
+    /// Those that were read and not forgotten, before a block.
+    virtual std::vector<PathEvent> events_before(std::uint32_t /*block*/) const { return {}; }
     /// Of the block of one of the last frames.
     virtual std::int32_t line_of(std::uint32_t block) const = 0;
     /// About how long the program takes from a place of the path on, without overrides.

@@ -1,6 +1,7 @@
 #include "core/coordinator/path/lai_frames.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/motion/frame_limits.hpp"
 #include "core/motion/interpolate.hpp"
@@ -8,8 +9,12 @@
 namespace lockstep {
 
 LaiFrames::LaiFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program,
-                     std::vector<PathMove> moves, const LegEnd& end)
-    : machine_(machine), program_(std::move(program)), end_(end), limits_(frame_limits_of(machine)) {
+                     std::vector<PathMove> moves, EventQueue events, const LegEnd& end)
+    : machine_(machine),
+      program_(std::move(program)),
+      events_(std::move(events)),
+      end_(end),
+      limits_(frame_limits_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
     path_.moves = std::move(moves);
 }
@@ -23,6 +28,13 @@ void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, con
                 : plan_lai_path(left, spot.along, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
     made_ = {};
     at_.assign(at.begin(), at.end());
+    events_.resume(place.block);
+}
+
+std::vector<PathEvent> LaiFrames::events_before(std::uint32_t block) const {
+    std::vector<PathEvent> events = events_.before(block);
+    std::erase_if(events, [this](const PathEvent& event) { return event.block < begun_events_; });
+    return events;
 }
 
 /// At the end of a part the next one begins.
@@ -72,6 +84,9 @@ std::expected<std::optional<PathFrame>, PathStuck> LaiFrames::next() {
     last_ = frame.ticks;
     frame.last = is_done();
     frame.rest = frame.last ? place_at(whole) : fill_tail(frame, at_);
+    due_.clear();
+    for (const MoveBegin& begin : begins()) { events_.pass(begin.block, Ticks{std::llround(begin.at)}, due_); }
+    if (frame.last) { events_.pass(EventQueue::kAll, frame.ticks, due_); }
     return frame;
 }
 

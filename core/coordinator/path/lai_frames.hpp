@@ -13,7 +13,7 @@ class LaiFrames final : public FrameSource {
 public:
     /// `moves`: of the program, whole, up to `end`.
     LaiFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program, std::vector<PathMove> moves,
-              const LegEnd& end);
+              EventQueue events, const LegEnd& end);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<LaiFrames>(*this); }
     /// A place counts the steps of the lead axes of its block's parts.
@@ -24,6 +24,9 @@ public:
     std::vector<MoveBegin> begins() const override;
     bool turn(const Overrides&) override { return false; }
     LegEnd end() const override { return end_; }
+    std::vector<FrameEvent> events() const override { return due_; }
+    void begin_events_from(std::uint32_t block) override { begun_events_ = block; }
+    std::vector<PathEvent> events_before(std::uint32_t block) const override;
     std::int32_t line_of(std::uint32_t block) const override { return program_->block(block).value().line; }
     double seconds_from(const PathPlace& place) const override;
 
@@ -42,6 +45,9 @@ private:
 
     MachineConfig machine_;
     std::shared_ptr<const ProgramBlocks> program_;
+    EventQueue events_;
+    std::vector<FrameEvent> due_;  // in the last frame
+    std::uint32_t begun_events_ = 0;
     LegEnd end_;
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;

@@ -26,6 +26,7 @@ ProgramFrames::ProgramFrames(const MachineConfig& machine, std::shared_ptr<const
 
 void ProgramFrames::resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) {
     resumed_ = place.block;
+    events_.resume(place.block);
     planner_.resume(place, at);
     if (overrides != planner_.overrides()) { (void)planner_.turn(overrides); }
 }
@@ -53,15 +54,32 @@ bool ProgramFrames::read_block() {
         finish(end_by(*block));
         return true;
     }
+    const auto* move = std::get_if<ProgramMove>(&block->action);
+    if (move != nullptr && move->arc && !has_moved_ && !begin_at_place()) { return false; }
     const std::uint32_t number = next_++;
     lines_.push_back(block->line);
     if (next_ <= resumed_) { lines_.clear(); }
     if (const auto* dwell = std::get_if<Dwell>(&block->action)) {
         const Ticks ticks = ticks_of(*dwell, tick_s_);
         if (ticks > Ticks{}) { planner_.rest(ticks, number); }
-    } else {
-        read_move(std::get<LinearMove>(block->action), number);
+    } else if (move != nullptr) {
+        has_moved_ = true;
+        read_move(*move, number);
+    } else if (const auto* event = std::get_if<ProgramEvent>(&block->action)) {
+        events_.add({number, block->line, *event});
+        if (number < resumed_) { events_.resume(resumed_); }
     }
+    return true;
+}
+
+/// The axes begin on whole steps, less than a step from the program's place. False: that is not at hand.
+bool ProgramFrames::begin_at_place() {
+    const auto place = program_->place_before(next_);
+    is_starved_ = !place;
+    if (!place) { return false; }
+    AxisVector at = at_;
+    for (std::size_t i = 0; i < axes_.size(); ++i) { at[axes_[i]] = (*place)[i] * steps_per_mm_[axes_[i]]; }
+    planner_.begin_program_at(at);
     return true;
 }
 
@@ -73,26 +91,44 @@ void ProgramFrames::finish(LegEnd::Kind end) {
 }
 
 /// What is rounded to the end of the travel is not beyond it.
-void ProgramFrames::read_move(const LinearMove& move, std::uint32_t number) {
+void ProgramFrames::read_move(const ProgramMove& move, std::uint32_t number) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const AxisLimits& axis = limits_[axes_[i]];
         at_[axes_[i]] = std::clamp(move.target_mm[i] * steps_per_mm_[axes_[i]], static_cast<double>(axis.min_steps),
                                    static_cast<double>(axis.max_steps));
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
-    planner_.line_to_steps(at_, {.feed_mm_per_tick = move.rapid ? 0 : move.feed_mm_s * tick_s_}, number);
+    const MoveSettings settings{.feed_mm_per_tick = move.rapid ? 0 : move.feed_mm_s * tick_s_,
+                                .mode = move.mode,
+                                .tolerance_mm = move.tolerance_mm,
+                                .is_feed_fixed = move.is_feed_fixed};
+    if (!move.arc) { return planner_.line_to_steps(at_, settings, number); }
+    ArcShape arc = *move.arc;
+    arc.first = axes_[arc.first];
+    arc.second = axes_[arc.second];
+    planner_.arc_to_steps(arc, at_, settings, number);
 }
 
 std::expected<std::optional<PathFrame>, PathStuck> ProgramFrames::next() {
     auto frame = planner_.next();
-    if (frame && *frame) { forget_lines(**frame); }
+    if (frame && *frame) {
+        note_events(**frame);
+        forget_lines(**frame);
+    }
     return frame;
+}
+
+void ProgramFrames::note_events(const PathFrame& frame) {
+    due_.clear();
+    for (const MoveBegin& begin : planner_.begins()) { events_.pass(begin.block, Ticks{std::llround(begin.at)}, due_); }
+    if (frame.last) { events_.pass(EventQueue::kAll, frame.ticks, due_); }
 }
 
 void ProgramFrames::forget_lines(const PathFrame& frame) {
     begins_.push_back(frame.places[0].block);
     if (begins_.size() <= PathPlanner::kFramesKept) { return; }
     begins_.pop_front();
+    events_.forget_before(begins_.front());
     while (next_ - lines_.size() < begins_.front()) { lines_.pop_front(); }
 }
 

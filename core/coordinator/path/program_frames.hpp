@@ -25,6 +25,9 @@ public:
     /// Reads as much more as deciding takes, so that the answer does not depend on what was read before.
     bool turn(const Overrides& overrides) override;
     LegEnd end() const override { return {end_, next_, to_}; }
+    std::vector<FrameEvent> events() const override { return due_; }
+    void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
+    std::vector<PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
     std::int32_t line_of(std::uint32_t block) const override;
     double seconds_from(const PathPlace& place) const override { return program_->seconds_from(place); }
 
@@ -34,8 +37,10 @@ public:
 
 private:
     bool read_block();
+    bool begin_at_place();
     void finish(LegEnd::Kind end);
-    void read_move(const LinearMove& move, std::uint32_t number);
+    void read_move(const ProgramMove& move, std::uint32_t number);
+    void note_events(const PathFrame& frame);
     void forget_lines(const PathFrame& frame);
 
     std::shared_ptr<const ProgramBlocks> program_;
@@ -45,13 +50,16 @@ private:
     double tick_s_ = 0;
     std::uint32_t next_ = 0;  // the block to be read
     std::uint32_t resumed_ = 0;
+    bool has_moved_ = false;  // a move of the leg was read
     bool is_finished_ = false;
     LegEnd::Kind end_ = LegEnd::Kind::Program;
     bool is_starved_ = false;           // the next block was not at hand
     AxisCounts to_;                     // where the last block read leads to, whole steps
     std::deque<std::int32_t> lines_;    // of the blocks up to the next one
     std::deque<std::uint32_t> begins_;  // the blocks in which the last frames begin
-    AxisVector at_;                     // where the last block read leads to
+    EventQueue events_;
+    std::vector<FrameEvent> due_;  // in the last frame
+    AxisVector at_;                // where the last block read leads to
     PathPlanner planner_;
 };
 

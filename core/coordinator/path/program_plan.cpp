@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
 #include "core/coordinator/path/lai_frames.hpp"
 #include "core/coordinator/path/program_frames.hpp"
@@ -18,6 +19,13 @@ std::string number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value);
     return text;
+}
+
+PlanError outside_travel(const AxisConfig& axis, double mm, std::int32_t line) {
+    const std::string unit = " " + std::string(unit_of(axis.name));
+    return {FaultCode::OutsideTravel, line,
+            axis.name + " " + number(mm) + unit + " is outside its travel, " + number(axis.position_min_mm) + " to " +
+                number(axis.position_max_mm) + unit};
 }
 
 }  // namespace
@@ -45,7 +53,7 @@ std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
     return places;
 }
 
-std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& move,
+std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& move,
                                                             const std::vector<std::size_t>& axes,
                                                             const AxisCounts& from, std::int32_t line) const {
     AxisCounts to = from;
@@ -58,14 +66,34 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const LinearMove& mo
                 PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + unit + " is too far"});
         }
         to[axes[i]] = to_steps(axis, mm);
-        if (to[axes[i]] < limits_[axes[i]].min_steps || to[axes[i]] > limits_[axes[i]].max_steps) {
-            return std::unexpected(PlanError{FaultCode::OutsideTravel, line,
-                                             axis.name + " " + number(mm) + unit + " is outside its travel, " +
-                                                 number(axis.position_min_mm) + " to " + number(axis.position_max_mm) +
-                                                 unit});
-        }
+        if (!is_within_travel(axes[i], mm)) { return std::unexpected(outside_travel(axis, mm, line)); }
     }
     return to;
+}
+
+bool ProgramPlanner::is_within_travel(std::size_t axis, double mm) const {
+    const std::int64_t steps = to_steps(machine_.axes[axis], mm);
+    return steps >= limits_[axis].min_steps && steps <= limits_[axis].max_steps;
+}
+
+std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
+                                                         std::span<const double> from_mm, std::int32_t line) const {
+    if (machine_.coordination == StepMethod::Lai) {
+        return std::unexpected(
+            PlanError{FaultCode::BadProgram, line, "coordination LAI moves straight only; cut the arc into chords"});
+    }
+    const ArcPath arc(*move.arc, from_mm, move.target_mm);
+    if (const std::string why = why_no_arc(arc); !why.empty()) {
+        return std::unexpected(PlanError{FaultCode::BadProgram, line, why});
+    }
+    for (const std::size_t i : {move.arc->first, move.arc->second}) {
+        const auto [least, greatest] = arc.extent(i);
+        for (const double mm : {least, greatest}) {
+            if (is_within_travel(axes[i], mm)) { continue; }
+            return std::unexpected(outside_travel(machine_.axes[axes[i]], mm, line));
+        }
+    }
+    return {};
 }
 
 std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program, const AxisCounts& start) const {
@@ -93,9 +121,19 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
     return {};
 }
 
-PathMove ProgramPlanner::path_move(const LinearMove& linear, const AxisCounts& from, const AxisCounts& to) const {
+PathMove ProgramPlanner::path_move(const ProgramMove& linear, const AxisCounts& from, const AxisCounts& to) const {
     const double tick_s = static_cast<double>(machine_.tick_ns) * 1e-9;
     return make_move(from, to, limits_, steps_per_mm_, linear.rapid ? 0 : linear.feed_mm_s * tick_s);
+}
+
+/// An arc has a length where its ends are the same, too.
+void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const {
+    std::vector<double> from_mm;
+    for (const std::size_t axis : axes) {
+        from_mm.push_back(to_mm(machine_.axes[axis], static_cast<double>(move.from[axis])));
+    }
+    move.length_mm = length_mm(arc, from_mm);
+    move.lead = std::max<std::int64_t>(move.lead, 1);
 }
 
 std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program, const AxisCounts& start) const {
@@ -126,21 +164,27 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
     }
     const auto axes = axes_of(program->axes()).value();
     std::vector<PathMove> moves;
+    EventQueue events;
     LegEnd end{.block = first, .to = from};
     for (; !program->ends_before(end.block); ++end.block) {
         const Block block = program->block(end.block).value();
         end.kind = end_by(block);
         if (ends_leg(block)) { break; }
+        if (const auto* event = std::get_if<ProgramEvent>(&block.action)) {
+            events.add({end.block, block.line, *event});
+        }
         if (const auto move = move_of(block, end.block, axes, end.to).value()) { moves.push_back(*move); }
     }
-    return std::make_unique<LaiFrames>(machine_, std::move(program), std::move(moves), end);
+    return std::make_unique<LaiFrames>(machine_, std::move(program), std::move(moves), std::move(events), end);
 }
 
 bool ProgramPlanner::moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const {
     if (const auto* dwell = std::get_if<Dwell>(&block.action)) { return dwell->seconds > 0; }
+    const auto* move = std::get_if<ProgramMove>(&block.action);
+    if (move == nullptr) { return false; }
     const AxisCounts from = at;
-    at = target(std::get<LinearMove>(block.action), axes_of(program.axes()).value(), at, block.line).value();
-    return at != from;
+    at = target(*move, axes_of(program.axes()).value(), at, block.line).value();
+    return move->arc.has_value() || at != from;
 }
 
 std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const Block& block, std::uint32_t number,
@@ -149,10 +193,11 @@ std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const 
     PathMove move{.from = at, .to = at};
     if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
         move.dwell = ticks_of(*dwell, static_cast<double>(machine_.tick_ns) * 1e-9);
-    } else if (const auto* linear = std::get_if<LinearMove>(&block.action)) {
+    } else if (const auto* linear = std::get_if<ProgramMove>(&block.action)) {
         const auto to = target(*linear, axes, at, block.line);
         if (!to) { return std::unexpected(to.error()); }
         move = path_move(*linear, at, *to);
+        if (linear->arc) { note_arc(*linear, axes, move); }
         at = *to;
         if (machine_.coordination == StepMethod::Lai) {
             const auto fits = check_lai_move(move, machine_.tick_ns);

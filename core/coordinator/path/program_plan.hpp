@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,8 +70,11 @@ public:
     /// elsewhere than where the program starts.
     std::expected<void, PlanError> check_start(const ProgramHead& program, const AxisCounts& start) const;
     /// Where a move leads. Error: outside the travel, or too far to count.
-    std::expected<AxisCounts, PlanError> target(const LinearMove& move, const std::vector<std::size_t>& axes,
+    std::expected<AxisCounts, PlanError> target(const ProgramMove& move, const std::vector<std::size_t>& axes,
                                                 const AxisCounts& from, std::int32_t line) const;
+    /// Error: an arc that has no radius or does not close, leaves the travel, or LAI is to run.
+    std::expected<void, PlanError> check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
+                                             std::span<const double> from_mm, std::int32_t line) const;
     /// Whether a block moves an axis or dwells. `at` becomes where it leads.
     bool moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const;
     /// The block's move or dwell, of a program with these `axes` (axes_of), from `at`, which becomes where it leads.
@@ -80,7 +84,9 @@ public:
                                                               AxisCounts& at) const;
 
 private:
-    PathMove path_move(const LinearMove& linear, const AxisCounts& from, const AxisCounts& to) const;
+    bool is_within_travel(std::size_t axis, double mm) const;
+    void note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const;
+    PathMove path_move(const ProgramMove& linear, const AxisCounts& from, const AxisCounts& to) const;
 
     MachineConfig machine_;
     std::vector<AxisLimits> limits_;

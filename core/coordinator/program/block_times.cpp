@@ -20,24 +20,59 @@ BlockTimes::BlockTimes(const MachineConfig& machine) : direction_(machine.axes.s
 void BlockTimes::add_move(std::span<const double> way_mm, double feed_mm_s) {
     double square = 0;
     for (const double way : way_mm) { square += way * way; }
-    const double length = std::sqrt(square);
-    if (length <= 0) { return add(0, 0); }
-    double speed = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s;
-    double acceleration = kMaxFeed_mm_s;
-    double cosine = 0;
+    Way way{.length_mm = std::sqrt(square),
+            .speed_mm_s = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s,
+            .acceleration_mm_s2 = kMaxFeed_mm_s};
+    if (way.length_mm <= 0) { return add(0, 0); }
+    std::vector<double> direction(way_mm.begin(), way_mm.end());
     for (std::size_t i = 0; i < way_mm.size(); ++i) {
-        const double share = std::abs(way_mm[i]) / length;
-        cosine += way_mm[i] / length * direction_[i];
+        direction[i] /= way.length_mm;
+        const double share = std::abs(direction[i]);
         if (share <= 0) { continue; }
-        speed = std::min(speed, max_velocity_mm_s_[i] / share);
-        acceleration = std::min(acceleration, acceleration_mm_s2_[i] / share);
+        way.speed_mm_s = std::min(way.speed_mm_s, max_velocity_mm_s_[i] / share);
+        way.acceleration_mm_s2 = std::min(way.acceleration_mm_s2, acceleration_mm_s2_[i] / share);
     }
+    add_way(way, direction, direction);
+}
+
+/// As fast as its curvature and the slower axis of its plane allow all the way.
+void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
+                         double feed_mm_s) {
+    const auto [first, second] = plane;
+    const double length = arc.length_mm();
+    const double in_plane = arc.plane_length_mm() / length;
+    Way way{.length_mm = length, .speed_mm_s = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s, .acceleration_mm_s2 = 0};
+    way.acceleration_mm_s2 = std::min(acceleration_mm_s2_[first], acceleration_mm_s2_[second]);
+    const double radius = std::min(arc.radius_begin(), arc.radius_end());
+    way.speed_mm_s = std::min({way.speed_mm_s, max_velocity_mm_s_[first] / in_plane,
+                               max_velocity_mm_s_[second] / in_plane, std::sqrt(way.acceleration_mm_s2 * radius)});
+    std::vector<double> begins(way_mm.begin(), way_mm.end());
+    for (std::size_t i = 0; i < way_mm.size(); ++i) {
+        begins[i] /= length;
+        const double share = std::abs(begins[i]);
+        if (i == first || i == second || share <= 0) { continue; }
+        way.speed_mm_s = std::min(way.speed_mm_s, max_velocity_mm_s_[i] / share);
+    }
+    std::vector<double> ends = begins;
+    const auto turn = [&](std::vector<double>& direction, double share) {
+        direction[first] = in_plane * arc.turn_first(share);
+        direction[second] = in_plane * arc.turn_second(share);
+    };
+    turn(begins, 0);
+    turn(ends, 1);
+    add_way(way, begins, std::move(ends));
+}
+
+/// From one direction to another, each of length 1.
+void BlockTimes::add_way(const Way& way, const std::vector<double>& begins, std::vector<double> ends) {
+    double cosine = 0;
+    for (std::size_t i = 0; i < begins.size(); ++i) { cosine += begins[i] * direction_[i]; }
     if (cosine < kSharp) { close_run(); }
-    if (run_s_ <= 0) { run_acceleration_ = acceleration; }
-    for (std::size_t i = 0; i < way_mm.size(); ++i) { direction_[i] = way_mm[i] / length; }
-    run_s_ += length / speed;
-    run_mm_ += length;
-    add(length / speed, length);
+    if (run_s_ <= 0) { run_acceleration_ = way.acceleration_mm_s2; }
+    direction_ = std::move(ends);
+    run_s_ += way.length_mm / way.speed_mm_s;
+    run_mm_ += way.length_mm;
+    add(way.length_mm / way.speed_mm_s, way.length_mm);
 }
 
 void BlockTimes::add_dwell(double seconds) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/arc_path.hpp"
 #include "core/machine.hpp"
 #include "core/path_place.hpp"
 #include "core/program.hpp"
@@ -18,6 +19,9 @@ public:
     // Block by block.
     /// `way_mm`: of each axis. `feed_mm_s` 0: as fast as the axes allow.
     void add_move(std::span<const double> way_mm, double feed_mm_s);
+    /// `plane`: the machine's axes of the arc's plane. `way_mm`: of each axis, from end to end.
+    void add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
+                 double feed_mm_s);
     void add_dwell(double seconds);
     /// The machine comes to rest: behind the last block too.
     void add_rest();
@@ -35,6 +39,12 @@ private:
         double length_mm = 0;  // of its block, where it has only one
     };
 
+    struct Way {
+        double length_mm = 0;
+        double speed_mm_s = 0;
+        double acceleration_mm_s2 = 0;
+    };
+    void add_way(const Way& way, const std::vector<double>& begins, std::vector<double> ends);
     void add(double seconds, double length_mm);
     void halve();
     void close_run();
@@ -50,7 +60,7 @@ private:
     double run_s_ = 0;  // at the speeds asked for
     double run_mm_ = 0;
     double run_acceleration_ = 0;
-    std::vector<double> direction_;
+    std::vector<double> direction_;  // of length 1, at the end of the last move
 };
 
 }  // namespace lockstep

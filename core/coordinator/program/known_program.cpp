@@ -4,41 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/arc_path.hpp"
+
 namespace lockstep {
-namespace {
-
-enum class Kind : std::uint8_t { Move, Rapid, Dwell, Pause, Settle };
-
-// Line and kind are one number, exact up to 2^53.
-constexpr double kKinds = 8;
-
-Kind kind_of(const Block& block) {
-    if (const auto* move = std::get_if<LinearMove>(&block.action)) { return move->rapid ? Kind::Rapid : Kind::Move; }
-    if (std::holds_alternative<Dwell>(block.action)) { return Kind::Dwell; }
-    return std::holds_alternative<Pause>(block.action) ? Kind::Pause : Kind::Settle;
-}
-
-double amount_of(const Block& block) {
-    if (const auto* move = std::get_if<LinearMove>(&block.action)) { return move->feed_mm_s; }
-    const auto* dwell = std::get_if<Dwell>(&block.action);
-    return dwell != nullptr ? dwell->seconds : 0;
-}
-
-Block block_of(std::span<const double> row) {
-    const auto line = static_cast<std::int32_t>(row[0] / kKinds);
-    const auto kind = static_cast<Kind>(row[0] - kKinds * line);
-    const std::span<const double> place = row.subspan(2);
-    switch (kind) {
-        case Kind::Move:
-        case Kind::Rapid: return {line, LinearMove{{place.begin(), place.end()}, row[1], kind == Kind::Rapid}};
-        case Kind::Dwell: return {line, Dwell{row[1]}};
-        case Kind::Pause: return {line, Pause{}};
-        case Kind::Settle: break;
-    }
-    return {line, Settle{}};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::expected<KnownProgram, ProgramCut> KnownProgram::begin(const MachineConfig& machine, ProgramHead head,
                                                             std::unique_ptr<RowStore> rows) {
@@ -60,12 +29,12 @@ KnownProgram::KnownProgram(const MachineConfig& machine, ProgramHead head, std::
     for (std::size_t i = 0; i < machine.axes.size(); ++i) { zero_.append(0); }
 }
 
-std::expected<void, ProgramCut> KnownProgram::check(const Block& block) const {
+std::expected<void, ProgramCut> KnownProgram::check(const Block& block, std::span<const double> from_mm) const {
     if (known_ > std::numeric_limits<std::uint32_t>::max() - kMaxProgramBlocks) {
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
                                           "the program has more than 4 thousand million blocks; cut it in two"});
     }
-    const auto* move = std::get_if<LinearMove>(&block.action);
+    const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return {}; }
     if (move->target_mm.size() != axes_.size()) {
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
@@ -74,25 +43,34 @@ std::expected<void, ProgramCut> KnownProgram::check(const Block& block) const {
     }
     const auto to = planner_.target(*move, axes_, zero_, block.line);
     if (!to) { return std::unexpected(ProgramCut{to.error().fault, block.line, to.error().text}); }
+    if (!move->arc) { return {}; }
+    if (const auto runs = planner_.check_arc(*move, axes_, from_mm, block.line); !runs) {
+        return std::unexpected(ProgramCut{runs.error().fault, block.line, runs.error().text});
+    }
     return {};
 }
 
 void KnownProgram::take(const Block& block) {
-    if (const auto* move = std::get_if<LinearMove>(&block.action)) {
+    if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
         std::vector<double> way(zero_.size());
         for (std::size_t i = 0; i < axes_.size(); ++i) { way[axes_[i]] = move->target_mm[i] - at_mm_[i]; }
-        times_.add_move(way, move->rapid ? 0 : move->feed_mm_s);
+        if (move->arc) {
+            const ArcPath arc(*move->arc, at_mm_, move->target_mm);
+            times_.add_arc(arc, {axes_[move->arc->first], axes_[move->arc->second]}, way, move->feed_mm_s);
+        } else {
+            times_.add_move(way, move->rapid ? 0 : move->feed_mm_s);
+        }
         at_mm_ = move->target_mm;
     } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
         times_.add_dwell(dwell->seconds);
+    } else if (std::holds_alternative<ProgramEvent>(block.action)) {
+        times_.add_dwell(0);
     } else {
         times_.add_rest();
         legs_.push_back(known_ + static_cast<std::uint32_t>(taken_.size() / row_.size()) + 1);
         if (legs_.size() > kLegsKept) { legs_.pop_front(); }
     }
-    taken_.push_back(kKinds * block.line + static_cast<double>(kind_of(block)));
-    taken_.push_back(amount_of(block));
-    taken_.insert(taken_.end(), at_mm_.begin(), at_mm_.end());
+    append_row(block, at_mm_, taken_);
     last_line_ = block.line;
 }
 
@@ -103,8 +81,17 @@ std::expected<void, ProgramCut> KnownProgram::append(std::span<const Block> bloc
 }
 
 std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> blocks) {
+    std::span<const double> from = at_mm_;
+    std::uint32_t events = events_together_;
     for (const Block& block : blocks) {
-        if (auto fits = check(block); !fits) { return fits; }
+        if (auto fits = check(block, from); !fits) { return fits; }
+        events = std::holds_alternative<ProgramEvent>(block.action) ? events + 1 : 0;
+        if (events > kMaxEventsTogether) {
+            return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
+                                              "more than " + std::to_string(kMaxEventsTogether) +
+                                                  " events without a move between them; leave some out"});
+        }
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) { from = move->target_mm; }
     }
     taken_.clear();
     const std::int32_t line_before = last_line_;
@@ -114,6 +101,7 @@ std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> bl
         return std::unexpected(ProgramCut{FaultCode::ProgramNotKept, blocks.front().line, kept.error()});
     }
     known_ += static_cast<std::uint32_t>(blocks.size());
+    events_together_ = events;
     return {};
 }
 
@@ -126,13 +114,14 @@ void KnownProgram::cut(ProgramCut cut) {
 bool KnownProgram::read(std::uint32_t number) const { return number < known_ && rows_->read(number, row_); }
 
 std::optional<Block> KnownProgram::block(std::uint32_t number) const {
-    return read(number) ? std::optional(block_of(row_)) : std::nullopt;
+    return read(number) ? std::optional(block_of_row(row_)) : std::nullopt;
 }
 
 std::optional<std::vector<double>> KnownProgram::place_before(std::uint32_t number) const {
     if (number == 0) { return head_.start_mm; }
     if (!read(number - 1)) { return std::nullopt; }
-    return std::vector<double>(row_.begin() + kHeadNumbers, row_.end());
+    const std::span<const double> place = place_of_row(row_);
+    return std::vector<double>(place.begin(), place.end());
 }
 
 std::optional<Program> KnownProgram::whole() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/coordinator/path/program_plan.hpp"
+#include "core/coordinator/program/block_row.hpp"
 #include "core/coordinator/program/block_times.hpp"
 #include "core/coordinator/program/row_store.hpp"
 #include "core/faults.hpp"
@@ -31,7 +32,7 @@ public:
     static std::expected<KnownProgram, ProgramCut> begin(const MachineConfig& machine, ProgramHead head,
                                                          std::unique_ptr<RowStore> rows);
     /// How many numbers a block is kept as.
-    static std::size_t row_width(const ProgramHead& head) { return kHeadNumbers + head.axes.size(); }
+    static std::size_t row_width(const ProgramHead& head) { return lockstep::row_width(head.axes.size()); }
 
     /// More blocks of an open program. Error: one that the machine cannot run, or they cannot be kept. None of them is
     /// taken then, and the program is cut before them.
@@ -59,8 +60,7 @@ public:
     std::optional<Block> block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override { return !is_open_ && number >= known_; }
     double seconds_from(const PathPlace& place) const override;
-    /// Where the axes of the program are before a block, in mm. Nothing: it is not at hand yet.
-    std::optional<std::vector<double>> place_before(std::uint32_t number) const;
+    std::optional<std::vector<double>> place_before(std::uint32_t number) const override;
     /// All of it, so far. Nothing: not all of it is at hand.
     std::optional<Program> whole() const;
     /// The first block of the leg with this block. Nothing: it is forgotten.
@@ -71,11 +71,9 @@ public:
     static constexpr std::size_t kLegsKept = 65'536;
 
 private:
-    static constexpr std::size_t kHeadNumbers = 2;  // line and kind, feed or seconds; then the place behind the block
-
     KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<std::size_t> axes,
                  std::unique_ptr<RowStore> rows);
-    std::expected<void, ProgramCut> check(const Block& block) const;
+    std::expected<void, ProgramCut> check(const Block& block, std::span<const double> from_mm) const;
     std::expected<void, ProgramCut> take_all(std::span<const Block> blocks);
     void take(const Block& block);
     bool read(std::uint32_t number) const;
@@ -90,6 +88,7 @@ private:
     std::optional<ProgramCut> cut_;
     std::uint32_t known_ = 0;
     std::int32_t last_line_ = 0;
+    std::uint32_t events_together_ = 0;  // since the last other block
     double known_share_ = 0;
     std::vector<double> at_mm_;        // behind the last block that is known
     std::deque<std::uint32_t> legs_;   // the newest: their first blocks

@@ -99,6 +99,7 @@ struct CoordinatorOutputs {
     std::vector<Reply> replies;
     std::vector<TakenPart> taken;
     std::vector<JobEvent> jobs;
+    std::vector<PublishedEvent> events;
     std::vector<CoordinatorNotice> notices;
     std::optional<EpochOutcome> epoch_end;  // in the step that judged it
     bool must_quit = false;  // another coordinator proved to own this machine, and this one was not to stand by

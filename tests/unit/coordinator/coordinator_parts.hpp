@@ -40,7 +40,7 @@ protected:
     void accept(std::uint64_t id, double x_mm, double y_mm) {
         programs.accept(
             id,
-            {.name = "line", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {{1, LinearMove{{x_mm, y_mm}, 20}}}});
+            {.name = "line", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {{1, ProgramMove{{x_mm, y_mm}, 20}}}});
     }
     /// The axis reports its newest order as done.
     void finish_order(std::uint32_t axis, FaultCode fault = FaultCode::None) {

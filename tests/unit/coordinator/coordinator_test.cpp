@@ -60,7 +60,7 @@ protected:
 TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
     coordinator_.accept_program(
-        1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{90}, 20, false}}}});
+        1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{90}, 20, false}}}});
     ask(CommandKind::Run, 1);
     for (int i = 0; i < 200; ++i) { slot(); }
     ASSERT_EQ(coordinator_.phase(), MachinePhase::Running);
@@ -87,10 +87,11 @@ TEST_F(CoordinatorAlone, ReportsItsStateOncePerSlot) {
 
 TEST_F(CoordinatorAlone, ReportsWhatIsLeftOfAJobAndWhereItMayRest) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
-    const Program program{.name = "pause",
-                          .axes = {"X"},
-                          .start_mm = {0},
-                          .blocks = {{1, LinearMove{{10}, 10, false}}, {2, Pause{}}, {3, LinearMove{{60}, 10, false}}}};
+    const Program program{
+        .name = "pause",
+        .axes = {"X"},
+        .start_mm = {0},
+        .blocks = {{1, ProgramMove{{10}, 10, false}}, {2, Pause{}}, {3, ProgramMove{{60}, 10, false}}}};
     coordinator_.accept_program(1, program);
     ask(CommandKind::Run, 1);
     for (int i = 0; i < 100; ++i) { slot(); }

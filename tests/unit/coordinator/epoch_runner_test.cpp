@@ -54,7 +54,7 @@ EpochRunner runner_of(const MachineConfig& machine, const Program& program) {
 }
 
 Program long_move() {
-    return {.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{900}, 0, true}}}};
+    return {.name = "long", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{900}, 0, true}}}};
 }
 
 EpochRunner on_a_long_move() { return runner_of(one_slow_axis(), long_move()); }
@@ -118,7 +118,9 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
 
 Program moves_of_0_05_mm(int count) {
     Program program{.name = "many", .axes = {"X"}, .start_mm = {0}};
-    for (int line = 1; line <= count; ++line) { program.blocks.push_back({line, LinearMove{{0.05 * line}, 5, false}}); }
+    for (int line = 1; line <= count; ++line) {
+        program.blocks.push_back({line, ProgramMove{{0.05 * line}, 5, false}});
+    }
     return program;
 }
 

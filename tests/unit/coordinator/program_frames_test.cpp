@@ -29,14 +29,14 @@ MachineConfig two_axes() {
 Program line_in_parts(double length_mm, double part_mm, double feed_mm_s = 100) {
     Program program{.name = "line", .axes = {"X", "Y"}, .start_mm = {0, 0}};
     const auto parts = static_cast<int>(std::lround(length_mm / part_mm));
-    for (int k = 1; k <= parts; ++k) { program.blocks.push_back({k, LinearMove{{part_mm * k, 0}, feed_mm_s, false}}); }
+    for (int k = 1; k <= parts; ++k) { program.blocks.push_back({k, ProgramMove{{part_mm * k, 0}, feed_mm_s, false}}); }
     return program;
 }
 
 Program wave(int chords) {
     Program program{.name = "wave", .axes = {"X", "Y"}, .start_mm = {0, 0}};
     for (int k = 1; k <= chords; ++k) {
-        program.blocks.push_back({k, LinearMove{{0.1 * k, 10 - 10 * std::cos(0.01 * k)}, 60, false}});
+        program.blocks.push_back({k, ProgramMove{{0.1 * k, 10 - 10 * std::cos(0.01 * k)}, 60, false}});
     }
     return program;
 }
@@ -158,7 +158,8 @@ protected:
     }
     static Program corner() {
         Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {0, 0}};
-        program.blocks = {{1, LinearMove{{40, 10}, 50, false}}, {2, Dwell{0.1}}, {3, LinearMove{{40, 60}, 50, false}}};
+        program.blocks = {
+            {1, ProgramMove{{40, 10}, 50, false}}, {2, Dwell{0.1}}, {3, ProgramMove{{40, 60}, 50, false}}};
         return program;
     }
 };

@@ -9,7 +9,7 @@ namespace lockstep {
 namespace {
 
 std::vector<std::uint8_t> some_program() {
-    return program_bytes({.name = "job", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, LinearMove{{10}, 5, false}}}});
+    return program_bytes({.name = "job", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{10}, 5, false}}}});
 }
 
 ProgramChunk chunk(std::uint32_t index, std::uint32_t count, std::vector<std::uint8_t> bytes, Identity client = 1) {
@@ -34,13 +34,13 @@ TEST(ProgramInbox, ReadsTheHeadAndTheBlocksOfAWholeProgram) {
 TEST(ProgramInbox, ReadsLaterPartsThatNameNoAxes) {
     ProgramInbox inbox;
     ASSERT_TRUE(inbox.read(chunk(0, 0, some_program())));
-    const auto bytes = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{2, LinearMove{{20}, 5}}}});
+    const auto bytes = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{2, ProgramMove{{20}, 5}}}});
     const auto part = inbox.read(chunk(1, 0, bytes));
     ASSERT_TRUE(part) << part.error().text;
     EXPECT_FALSE(part->is_last);
     ASSERT_EQ(part->blocks.size(), 1u);
     EXPECT_EQ(part->blocks[0].line, 2);
-    const auto wide = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{3, LinearMove{{1, 2}, 5}}}});
+    const auto wide = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{3, ProgramMove{{1, 2}, 5}}}});
     EXPECT_FALSE(inbox.read(chunk(2, 0, wide))) << "two places for one axis";
 }
 

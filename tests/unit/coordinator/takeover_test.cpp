@@ -32,7 +32,7 @@ protected:
     }
 
     RestOfJob() {
-        program.blocks = {{1, LinearMove{{30, 20}, 20, false}}, {2, LinearMove{{60, 20}, 20, false}}};
+        program.blocks = {{1, ProgramMove{{30, 20}, 20, false}}, {2, ProgramMove{{60, 20}, 20, false}}};
         rest_at(10);
     }
     /// Both axes rest where the path is, so many mm along a block.
@@ -145,7 +145,7 @@ TEST_F(RestOfJob, IsInDoubtWithAnAxisElsewhereThanItsFramesEnd) {
 TEST_F(RestOfJob, TakesThePositionOfAnAxisThatTheProgramDoesNotName) {
     program.axes = {"X"};
     program.start_mm = {10};
-    program.blocks = {{1, LinearMove{{30}, 20, false}}};
+    program.blocks = {{1, ProgramMove{{30}, 20, false}}};
     rest_at(10);
     EXPECT_TRUE(rest().has_value());
     EXPECT_EQ(rest()->from[1], 2000);

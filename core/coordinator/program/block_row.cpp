@@ -1,0 +1,117 @@
+#include "core/coordinator/program/block_row.hpp"
+
+#include <cstdint>
+
+#include "core/machine.hpp"
+
+namespace lockstep {
+namespace {
+
+enum class Kind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event };
+
+// Several whole numbers in one, exact up to 2^53.
+constexpr std::int64_t kRowKinds = 8;
+constexpr std::int64_t kModes = 4;
+constexpr std::int64_t kAxesMost = 64;
+static_assert(kMaxAxes <= kAxesMost && 2 * kModes * 2 * kAxesMost * kAxesMost * kMaxTurns < 1LL << 53);
+
+struct Packed {
+    std::int64_t value = 0;
+
+    void add(std::int64_t number, std::int64_t below) { value = value * below + number; }
+    /// In the reverse order of add().
+    std::int64_t take(std::int64_t below) {
+        const std::int64_t number = value % below;
+        value /= below;
+        return number;
+    }
+};
+
+std::int64_t details_of(const ProgramMove& move) {
+    Packed details;
+    if (move.arc) {
+        details.add(move.arc->turns, kMaxTurns + 1);
+        details.add(static_cast<std::int64_t>(move.arc->first), kAxesMost);
+        details.add(static_cast<std::int64_t>(move.arc->second), kAxesMost);
+        details.add(move.arc->is_clockwise ? 1 : 0, 2);
+    }
+    details.add(static_cast<std::int64_t>(move.mode), kModes);
+    details.add(move.is_feed_fixed ? 1 : 0, 2);
+    return details.value;
+}
+
+struct Row {
+    Kind kind = Kind::Pause;
+    double amount = 0;
+    std::int64_t details = 0;
+    double other = 0;
+    double centre[2] = {0, 0};
+};
+
+struct RowMaker {
+    Row operator()(const ProgramMove& move) const {
+        Row row{.kind = move.arc     ? Kind::Arc
+                        : move.rapid ? Kind::Rapid
+                                     : Kind::Move,
+                .amount = move.feed_mm_s,
+                .details = details_of(move),
+                .other = move.tolerance_mm};
+        if (move.arc) { row.centre[0] = move.arc->centre_first_mm; }
+        if (move.arc) { row.centre[1] = move.arc->centre_second_mm; }
+        return row;
+    }
+    Row operator()(const Dwell& dwell) const { return {.kind = Kind::Dwell, .amount = dwell.seconds}; }
+    Row operator()(const Pause&) const { return {.kind = Kind::Pause}; }
+    Row operator()(const Settle&) const { return {.kind = Kind::Settle}; }
+    Row operator()(const ProgramEvent& event) const {
+        return {.kind = Kind::Event,
+                .amount = event.value,
+                .details = static_cast<std::int64_t>(event.kind),
+                .other = static_cast<double>(event.index)};
+    }
+};
+
+ProgramMove move_of(Kind kind, std::span<const double> row) {
+    const std::span<const double> place = place_of_row(row);
+    Packed details{static_cast<std::int64_t>(row[2])};
+    ProgramMove move{
+        .target_mm = {place.begin(), place.end()}, .feed_mm_s = row[1], .rapid = kind == Kind::Rapid, .arc = {}};
+    move.is_feed_fixed = details.take(2) != 0;
+    move.mode = static_cast<PathMode>(details.take(kModes));
+    move.tolerance_mm = row[3];
+    if (kind != Kind::Arc) { return move; }
+    ArcShape arc{.centre_first_mm = row[4], .centre_second_mm = row[5]};
+    arc.is_clockwise = details.take(2) != 0;
+    arc.second = static_cast<std::size_t>(details.take(kAxesMost));
+    arc.first = static_cast<std::size_t>(details.take(kAxesMost));
+    arc.turns = static_cast<std::int32_t>(details.take(kMaxTurns + 1));
+    move.arc = arc;
+    return move;
+}
+
+}  // namespace
+
+void append_row(const Block& block, std::span<const double> place_mm, std::vector<double>& rows) {
+    const Row row = std::visit(RowMaker{}, block.action);
+    rows.push_back(static_cast<double>(kRowKinds * block.line + static_cast<std::int64_t>(row.kind)));
+    rows.insert(rows.end(), {row.amount, static_cast<double>(row.details), row.other, row.centre[0], row.centre[1]});
+    rows.insert(rows.end(), place_mm.begin(), place_mm.end());
+}
+
+Block block_of_row(std::span<const double> row) {
+    Packed head{static_cast<std::int64_t>(row[0])};
+    const auto kind = static_cast<Kind>(head.take(kRowKinds));
+    const auto line = static_cast<std::int32_t>(head.value);
+    switch (kind) {
+        case Kind::Move:
+        case Kind::Rapid:
+        case Kind::Arc: return {line, move_of(kind, row)};
+        case Kind::Dwell: return {line, Dwell{row[1]}};
+        case Kind::Pause: return {line, Pause{}};
+        case Kind::Settle: return {line, Settle{}};
+        case Kind::Event: break;
+    }
+    return {line, ProgramEvent{static_cast<ProgramEvent::Kind>(row[2]), static_cast<std::int32_t>(row[3]), row[1]}};
+}
+
+}  // namespace lockstep

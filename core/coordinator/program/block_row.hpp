@@ -1,0 +1,23 @@
+// A block of a program as a row of numbers, as a coordinator keeps it.
+//
+//     0  line and kind    1  feed, seconds or value    2  details (packed)    3  tolerance, mm, or index
+//     4, 5  centre of an arc, mm    then the place behind the block, mm
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/program.hpp"
+
+namespace lockstep {
+
+inline constexpr std::size_t kRowHead = 6;
+
+constexpr std::size_t row_width(std::size_t axes) { return kRowHead + axes; }
+/// Appends the row of a block. `place_mm` is where the axes are behind it.
+void append_row(const Block& block, std::span<const double> place_mm, std::vector<double>& rows);
+Block block_of_row(std::span<const double> row);
+inline std::span<const double> place_of_row(std::span<const double> row) { return row.subspan(kRowHead); }
+
+}  // namespace lockstep
