@@ -4,8 +4,12 @@
 #include <limits>
 #include <variant>
 
+#include "core/arc_path.hpp"
+
 namespace lockstep::analysis {
 namespace {
+
+constexpr double kChord_mm = 0.01;  // a chord is drawn so far from its arc at most
 
 /// Steps per mm of an axis that has made steps.
 std::optional<double> scale_of(const Analysis& analysis, const std::string& name) {
@@ -46,9 +50,13 @@ std::vector<drawing::Point> asked_in_plane(const Program& program) {
     const auto y = static_cast<std::size_t>(std::ranges::find(program.axes, "Y") - program.axes.begin());
     if (x == program.axes.size() || y == program.axes.size()) { return {}; }
     std::vector<drawing::Point> points = {{program.start_mm.at(x), program.start_mm.at(y)}};
+    std::vector<double> at = program.start_mm;
     for (const Block& block : program.blocks) {
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) {
-            points.push_back({move->target_mm.at(x), move->target_mm.at(y)});
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
+            each_chord(*move, at, kChord_mm, [&](const std::vector<double>& to) {
+                points.push_back({to.at(x), to.at(y)});
+            });
+            at = move->target_mm;
         }
     }
     return points;

@@ -60,6 +60,14 @@ void Sorter::on_job(const job_t& message, LogPlace place) {
     listener_.on_job(message, place);
 }
 
+/// Only its number: no figure is made of it.
+void Sorter::on_event(const program_event_t& message, LogPlace place) {
+    if (!is_ours(message.machine)) { return; }
+    if (!is_message_number(message.sequence)) { return on_damage(place, "an event with an impossible number"); }
+    job_numbers_.add(message.coordinator, message.sequence);
+    end_.saw(RecordKind::Event, message.machine, "", message.coordinator, message.sequence);
+}
+
 void Sorter::on_program_part(const program_part_t& message, LogPlace /*place*/) {
     if (!is_ours(message.machine) || !is_message_number(message.sequence)) { return; }
     end_.saw(RecordKind::ProgramPart, message.machine, "", message.coordinator, message.sequence);

@@ -17,7 +17,7 @@ std::string name_of(RecordKind kind) {
 }  // namespace
 
 void RecordCheck::saw(RecordKind kind, const analysis::RecordingProcess& process, std::int64_t sequence) {
-    seen_[{process, kind}].add(sequence);
+    seen_[{process, numbered_with(kind)}].add(sequence);
     end_.saw(kind, process.machine, process.axis, process.incarnation, sequence);
 }
 

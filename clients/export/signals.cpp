@@ -63,4 +63,16 @@ Sample sample_of(const job_t& m) {
              {"epoch", whole(m.epoch)}}};
 }
 
+Sample sample_of(const program_event_t& m) {
+    return {"/" + m.machine + "/event",
+            m.utime,
+            {{"job", whole(m.job)},
+             {"kind", m.kind},
+             {"index", whole(m.index)},
+             {"value", m.value},
+             {"line", whole(m.line)},
+             {"tick", m.tick},
+             {"at_rest", whole(m.at_rest)}}};
+}
+
 }  // namespace lockstep::exporting

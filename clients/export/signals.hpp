@@ -5,6 +5,7 @@
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_event_t.hpp>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -32,5 +33,6 @@ struct Sample {
 Sample sample_of(const axis_position_t& message);
 Sample sample_of(const axis_health_t& message);
 Sample sample_of(const job_t& message);
+Sample sample_of(const program_event_t& message);
 
 }  // namespace lockstep::exporting

@@ -10,6 +10,7 @@ namespace {
 using Identified = std::expected<std::optional<MessageId>, std::string>;
 
 std::int64_t process_of(const job_t& message) { return message.coordinator; }
+std::int64_t process_of(const program_event_t& message) { return message.coordinator; }
 std::int64_t process_of(const program_part_t& message) { return message.coordinator; }
 template <typename Message>
 std::int64_t process_of(const Message& message) {
@@ -43,6 +44,7 @@ std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& ev
         case RecordKind::Health: return identify_as<axis_health_t>(event);
         case RecordKind::Run: return identify_as<run_t>(event);
         case RecordKind::Job: return identify_as<job_t>(event);
+        case RecordKind::Event: return identify_as<program_event_t>(event);
         case RecordKind::ProgramPart: return identify_as<program_part_t>(event);
         case RecordKind::Mark: return identify_as<record_mark_t>(event);
         case RecordKind::Loss: return identify_as<record_loss_t>(event);

@@ -29,6 +29,7 @@ analysis::RecordingProcess publisher_of(RecordKind kind, const std::vector<std::
         case RecordKind::Position: return publisher_in<axis_position_t>(data);
         case RecordKind::Health: return publisher_in<axis_health_t>(data);
         case RecordKind::Job: return publisher_in<job_t>(data);
+        case RecordKind::Event: return publisher_in<program_event_t>(data);
         case RecordKind::ProgramPart: return publisher_in<program_part_t>(data);
         default: return {};
     }
@@ -76,8 +77,16 @@ private:
 MissingWatch::MissingWatch(bool begins_late) : begins_late_(begins_late) {}
 MissingWatch::~MissingWatch() = default;
 
-bool MissingWatch::is_new(const MessageId& id) {
-    return !id.number || seen_[{id.channel, id.number->incarnation}].add(id.number->sequence);
+bool MissingWatch::is_new(const MessageId& id) { return !id.number || seen_[whose(id)].add(id.number->sequence); }
+
+/// Events are numbered with their coordinator's jobs: they count as messages of that channel.
+MissingWatch::Whose MissingWatch::whose(const MessageId& id) {
+    constexpr std::string_view kEvents = "EVENTS";
+    std::string channel = id.channel;
+    if (kind_of(channel) == RecordKind::Event) {
+        channel.replace(channel.size() - kEvents.size(), kEvents.size(), "JOB");
+    }
+    return {std::move(channel), id.number->incarnation};
 }
 
 MissingWatch::Axis& MissingWatch::axis(const std::string& machine, const std::string& name) {
@@ -101,7 +110,7 @@ void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& da
         if (const auto message = decode_lcm<step_batch_t>(data)) { note_steps(*message); }
     }
     if (!id.number) { return; }
-    const auto [known, is_new] = processes_.try_emplace({id.channel, id.number->incarnation});
+    const auto [known, is_new] = processes_.try_emplace(whose(id));
     if (is_new) { known->second = publisher_of(kind, data); }
     if (kind == RecordKind::Run) { ++axis(known->second.machine, known->second.axis).record.runs; }
 }

@@ -80,6 +80,7 @@ private:
     Axis& axis(const std::string& machine, const std::string& name);
 
     using Whose = std::pair<std::string, std::int64_t>;  // channel and incarnation
+    static Whose whose(const MessageId& id);
 
     bool begins_late_;
     void note_steps(const step_batch_t& message);

@@ -54,7 +54,7 @@ void MachineRecorder::on_coordinator(std::size_t process, Tick now, const Coordi
     now_ = now;
     if (!jobs_) { return; }
     if (owns) { note_owner(*out.state); }
-    for (const JobEvent& event : out.jobs) { jobs_->record(now, event); }
+    jobs_->record(now, out);
 }
 
 void MachineRecorder::note_owner(MachineState state) {

@@ -1,4 +1,5 @@
-// Records a machine in virtual time as its processes record themselves live: every step, run, position and job.
+// Records a machine in virtual time as its processes record themselves live: every step, run, position,
+// job and event.
 #pragma once
 
 #include <memory>

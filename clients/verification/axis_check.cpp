@@ -17,10 +17,6 @@ std::string at_tick(const std::optional<Tick>& tick, const char* otherwise) {
     return tick ? "tick " + std::to_string(tick->value) : otherwise;
 }
 
-std::string plural(std::int64_t count, const std::string& one) {
-    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
 std::string text_of(StepEdge step, std::int64_t count) {
     return std::string(step.direction > 0 ? "forward" : "backward") + " to " + std::to_string(count) + " at tick " +
            std::to_string(step.tick.value);

@@ -48,6 +48,14 @@ void EpochReplay::forget_before(FrameNumber number) {
     while (!frames_.empty() && frames_.front().number < number) { frames_.pop_front(); }
 }
 
+std::vector<EpochRunner::Happened> EpochReplay::take_events(FrameNumber ran) {
+    constexpr Tick kAlways{std::numeric_limits<std::int64_t>::max()};
+    const AxisView axis{AxisState{.epoch = epoch(), .ran = ran}};
+    auto events = runner_.take_events(kAlways, {&axis, 1});
+    for (EpochRunner::Happened& event : events) { event.tick += shift_; }
+    return events;
+}
+
 EpochEnd EpochReplay::evaluate(std::span<const AxisEnd> axes) const {
     constexpr Slot kLong = std::numeric_limits<std::int32_t>::max();  // after everything
     std::vector<AxisView> views;

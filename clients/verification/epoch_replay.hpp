@@ -39,6 +39,9 @@ public:
     const Frame* frame(FrameNumber number);
     void forget_before(FrameNumber number);
 
+    /// The events whose places are in the frames up to this one, each once.
+    std::vector<EpochRunner::Happened> take_events(FrameNumber ran);
+
     EpochEnd evaluate(std::span<const AxisEnd> axes) const;
 
     /// The block of the program in motion at a tick.

@@ -11,6 +11,11 @@
 
 namespace lockstep::verification {
 
+/// "1 step", "2 steps".
+inline std::string plural(std::int64_t count, const std::string& one) {
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 /// Where the log differs from what it must contain.
 struct Difference {
     std::string text;                   // the difference, with the values on both sides
@@ -25,6 +30,7 @@ struct Findings {
     std::int64_t runs = 0;                  // of jobs, equal to what is planned for them
     std::int64_t local_runs = 0;            // of axes on their own: homing, own moves
     std::int64_t jobs = 0;                  // moves and programs, from begin to end
+    std::int64_t events = 0;                // of programs, each at its place
     std::optional<Tick> last_tick;          // of the steps compared
     Ticks latest;                           // the largest time error of a step of a frame: machine time...
     Ticks clock_error;                      // ...which was known within; 0: one clock drives all devices

@@ -71,11 +71,24 @@ void JobCheck::take(const job_t& record) {
     for (const auto& [axis, run] : waiting) { take(axis, run); }
 }
 
+void JobCheck::take(const program_event_t& event) {
+    if (begins_late_ && !first_job_ && event.job != newest_event_job_) { events_.forget_all(); }
+    newest_event_job_ = event.job;
+    events_.take(event);
+}
+
+void JobCheck::begins_late() {
+    begins_late_ = true;
+    events_.begins_late();
+}
+
+/// A coordinator that another follows, or that gives a job up, may not have published the last events.
 void JobCheck::handle(const job_t& record) {
     if (is_outdated(record)) { return; }
+    const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
     if (record.event != "begun") { note_owner(record); }
     if (record.event == "override") { return turn(record); }
-    close_epoch();
+    close_epoch(lacks_events);
     if (record.event == "begun") { return begin(record); }
     if (record.event == "epoch") { return begin_epoch(record); }
     end(record);
@@ -100,6 +113,7 @@ bool JobCheck::is_outdated(const job_t& record) {
 void JobCheck::note_owner(const job_t& record) {
     if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
     job_->coordinator = record.coordinator;
+    events_.continue_by(record.coordinator);
     findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
@@ -112,6 +126,7 @@ void JobCheck::begin(const job_t& record) {
     }
     job_ =
         Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
+    events_.begin(record.coordinator, record.job, job_->label, nullptr);
     if (record.program.empty() || record.kind == "own-move") { return; }  // axes on their own make no epoch
     if (!analysis::has_whole_program(record)) {
         return differ(job_->label + ": its program is not known: " + analysis::program_of(record).error());
@@ -127,6 +142,7 @@ void JobCheck::begin(const job_t& record) {
     auto replay = JobReplay::plan(*machine, *program, record.start_count);
     if (!replay) { return differ(job_->label + ": it cannot be planned again: " + replay.error()); }
     job_->replay = std::move(*replay);
+    events_.begin(record.coordinator, record.job, job_->label, job_->replay->program());
 }
 
 bool JobCheck::is_of_job(const job_t& record) const {
@@ -145,6 +161,8 @@ void JobCheck::begin_epoch(const job_t& record) {
     if (place.block != start->place.block || place.along != start->place.along) {
         return differ(job_->label + " continues from " + text_of(place) + "; planned: " + text_of(start->place));
     }
+    events_.check_rest(start->place.block, start->place.block);
+    events_.begin_epoch(static_cast<Epoch>(record.epoch), record.coordinator);
     std::vector<Progress> axes;
     for (const Position at : start->at) { axes.push_back({.at = at}); }
     const auto epoch = static_cast<Epoch>(record.epoch);
@@ -176,7 +194,7 @@ void JobCheck::end(const job_t& record) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
     Job job = *std::exchange(job_, std::nullopt);
-    if (!job.replay) { return; }
+    if (!job.replay) { return events_.end(record.outcome == "done"); }
     const auto left = job.replay->next();
     if (record.outcome == "failed") {
         findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
@@ -187,15 +205,19 @@ void JobCheck::end(const job_t& record) {
         return differ(job.label + " is recorded as done, but its program continues at " + text_of(left->place));
     }
     ++findings_.jobs;
+    if (!job.broken.empty()) { return events_.leave(); }
+    const std::uint32_t rest = job.replay->moves_from();
+    events_.check_rest(record.outcome == "done" ? rest : 0, rest);
+    events_.end(record.outcome == "done");
 }
 
 /// The state of the job after the epoch.
-void JobCheck::close_epoch() {
+void JobCheck::close_epoch(bool lacks_events) {
     if (!epoch_) { return; }
     plan_next(epoch_->replay);
     bool whole = true;
     for (std::size_t i = 0; i < epoch_->axes.size() && whole; ++i) { whole = !breaks_off(i); }
-    if (whole) { check_epoch(); }
+    if (whole) { check_epoch(lacks_events); }
     epoch_.reset();
 }
 
@@ -215,7 +237,7 @@ bool JobCheck::breaks_off(std::size_t i) {
 }
 
 /// With the coordinator's own evaluation of where the axes came to rest.
-void JobCheck::check_epoch() {
+void JobCheck::check_epoch(bool lacks_events) {
     std::vector<AxisEnd> ends;
     for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
     const EpochEnd end = epoch_->replay.evaluate(ends);
@@ -223,8 +245,13 @@ void JobCheck::check_epoch() {
         case EpochEnd::Kind::FramesDiffer: return break_off(end.axis, "ran other frames than the rest");
         case EpochEnd::Kind::Misplaced: return break_off(end.axis, "is not where its frames end");
         case EpochEnd::Kind::Complete:
-        case EpochEnd::Kind::Interrupted: job_->replay->ended(end, epoch_->replay.source());
+        case EpochEnd::Kind::Interrupted: break;
     }
+    const bool is_whole = end.kind == EpochEnd::Kind::Complete;
+    const std::uint32_t rests_before = is_whole ? epoch_->replay.source()->end().block : end.place.block;
+    job_->replay->ended(end, epoch_->replay.source());
+    events_.check_motion(epoch_->replay.take_events(end.ran), lacks_events);
+    events_.check_rest(lacks_events ? 0 : rests_before, job_->replay->moves_from());
 }
 
 void JobCheck::break_off(std::size_t axis, const std::string& why) {
@@ -241,11 +268,21 @@ void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
         differ("axis " + axis + ": the log has no record of epoch " + std::to_string(run.epoch) + ", which it ran",
                axis, &run);
     }
+    if (!job_ && at_rest && !begins_late_) { events_.finish(); }
     if (!job_ || !findings_.going()) { return; }
     if (at_rest) { return leave_job(has_ended); }
+    check_events_so_far();
     const auto& last = findings_.last_tick;
     findings_.add_unknown("the log ends before " + job_->label + " does; the steps up to " +
                           (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
+}
+
+/// Of the epoch in progress at the end of the log.
+void JobCheck::check_events_so_far() {
+    if (!epoch_) { return; }
+    FrameNumber ran = 0;
+    for (const Progress& axis : epoch_->axes) { ran = std::max(ran, axis.ran); }
+    events_.check_motion(epoch_->replay.take_events(ran), true);
 }
 
 void JobCheck::note_beginning() {
@@ -269,7 +306,7 @@ void JobCheck::leave_job(const HasEnded& has_ended) {
             return differ(job_->label + " has no end in the log, and " + job_->broken, axis);
         }
         if (epoch_) { job_->broken.clear(); }
-        close_epoch();
+        close_epoch(true);
     }
     findings_.notes.push_back(job_->label + " has no end in the log" +
                               (job_->broken.empty() ? "; the axes are at rest" : ": " + job_->broken) +

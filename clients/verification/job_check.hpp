@@ -12,6 +12,7 @@
 
 #include "clients/analysis/log/run.hpp"
 #include "clients/verification/epoch_replay.hpp"
+#include "clients/verification/event_check.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/job_replay.hpp"
 #include "clients/verification/left_steps.hpp"
@@ -28,11 +29,12 @@ public:
     /// Whether an axis's process had ended by the end of the log.
     using HasEnded = std::function<bool(const std::string& axis)>;
 
-    explicit JobCheck(Findings& findings) : findings_(findings) {}
+    explicit JobCheck(Findings& findings) : findings_(findings), events_(findings) {}
 
     void take(const job_t& record);
+    void take(const program_event_t& event);
     /// The log begins later than the record: a job that had begun by then is not compared with its plan.
-    void begins_late() { begins_late_ = true; }
+    void begins_late();
     /// A run of a job; in the order of their numbers for each axis.
     void take(const std::string& axis, const Run& run);
     /// Call once, at the end of the log. `at_rest`: it continues long enough after the last motion on record.
@@ -78,8 +80,9 @@ private:
     void turn(const job_t& record);
     void handle_turns();
     void end(const job_t& record);
-    void close_epoch();
-    void check_epoch();
+    void close_epoch(bool lacks_events = false);
+    void check_epoch(bool lacks_events);
+    void check_events_so_far();
     void break_off(std::size_t axis, const std::string& why);
     bool breaks_off(std::size_t axis);
     bool is_of_job(const job_t& record) const;
@@ -99,11 +102,13 @@ private:
     static constexpr std::size_t kLabelsKept = 16;
 
     Findings& findings_;
+    EventCheck events_;
     std::deque<job_t> records_;  // handled at the first run after them: late runs of what they end come before
     std::deque<std::pair<std::string, Run>> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     bool begins_late_ = false;
-    std::size_t left_out_ = 0;               // runs of such jobs
+    std::size_t left_out_ = 0;  // runs of such jobs
+    std::int64_t newest_event_job_ = 0;
     std::optional<std::int64_t> first_job_;  // whose beginning is in the log
     std::optional<Epoch> first_epoch_;       // of a job whose beginning is
     std::optional<Job> job_;

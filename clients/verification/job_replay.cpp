@@ -37,6 +37,14 @@ std::optional<EpochStart> JobReplay::next() {
     return std::nullopt;
 }
 
+std::uint32_t JobReplay::moves_from() const {
+    if (source_) { return place_.block; }
+    for (std::size_t leg = leg_; leg < legs_.size(); ++leg) {
+        if (legs_[leg].moves) { return legs_[leg].first; }
+    }
+    return static_cast<std::uint32_t>(program_->blocks.size());
+}
+
 void JobReplay::ended(const EpochEnd& end, OwnedSource source) {
     if (end.kind == EpochEnd::Kind::Complete) {
         source_ = {};

@@ -28,6 +28,10 @@ public:
     /// How an epoch ended, Complete or Interrupted, and its source.
     void ended(const EpochEnd& end, OwnedSource source);
 
+    const std::shared_ptr<const Program>& program() const { return program_; }
+    /// The block from which axes move again: before it they rest. At the program's end there is no such block.
+    std::uint32_t moves_from() const;
+
     std::int32_t line_of(std::uint32_t block) const { return program_->blocks[block].line; }
 
 private:

@@ -75,19 +75,38 @@ void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     of->check.expect_from(message.incarnation, message.steps);
 }
 
-/// Whether the log begins with that event because it begins later, or lacks the events before.
-void LogCheck::note_beginning(Machine& machine, const job_t& message) {
-    if (std::exchange(machine.has_jobs, true) || message.sequence == 0) { return; }
+/// Whether the log begins with that message of a coordinator because it begins later, or lacks those before.
+void LogCheck::note_beginning(Machine& machine, std::int64_t coordinator, std::int64_t sequence, std::int64_t job) {
+    if (std::exchange(machine.has_jobs, true) || sequence == 0) { return; }
     machine.jobs.begins_late();
-    const auto marked = machine.marked_jobs.find(message.coordinator);
-    if (marked == machine.marked_jobs.end() || message.sequence <= marked->second) { return; }
-    findings_.differ({.text = std::to_string(message.sequence - marked->second) +
-                              " messages of jobs are missing from the log before job " + std::to_string(message.job),
+    const auto marked = machine.marked_jobs.find(coordinator);
+    if (marked == machine.marked_jobs.end() || sequence <= marked->second) { return; }
+    findings_.differ({.text = std::to_string(sequence - marked->second) +
+                              " messages of jobs are missing from the log before job " + std::to_string(job),
                       .axis = {},
                       .tick_expected = {},
                       .tick_seen = {},
                       .commanded = {}});
     findings_.notes.emplace_back(analysis::kWhereTheRestIs);
+}
+
+/// Of a job, or of an event of its program. Null: no machine is compared with it.
+LogCheck::Machine* LogCheck::note_record(const auto& message, RecordKind kind, analysis::LogPlace place) {
+    if (make_follower_) { return nullptr; }
+    Machine* to = machine(message.machine, place);
+    if (to == nullptr) { return nullptr; }
+    if (analysis::is_countable(message.utime)) { to->last.received_us = message.utime; }
+    end_.saw(kind, message.machine, "", message.coordinator, message.sequence);
+    note_beginning(*to, message.coordinator, message.sequence, message.job);
+    to->job_numbers.add(message.coordinator, message.sequence);
+    return to;
+}
+
+void LogCheck::on_event(const program_event_t& message, analysis::LogPlace place) {
+    if (!analysis::is_countable(message.tick) || !analysis::is_message_number(message.sequence)) {
+        return on_damage(place, "an event with impossible numbers");
+    }
+    if (Machine* to = note_record(message, RecordKind::Event, place)) { to->jobs.take(message); }
 }
 
 /// Only for axes that have moved.
@@ -116,14 +135,7 @@ void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
         return on_damage(place, "a job with overrides that are out of range");
     }
-    if (make_follower_) { return; }
-    Machine* to = machine(message.machine, place);
-    if (to == nullptr) { return; }
-    if (analysis::is_countable(message.utime)) { to->last.received_us = message.utime; }
-    end_.saw(RecordKind::Job, message.machine, "", message.coordinator, message.sequence);
-    note_beginning(*to, message);
-    to->job_numbers.add(message.coordinator, message.sequence);
-    to->jobs.take(message);
+    if (Machine* to = note_record(message, RecordKind::Job, place)) { to->jobs.take(message); }
 }
 
 void LogCheck::on_damage(analysis::LogPlace place, std::string what) {

@@ -32,6 +32,7 @@ public:
     void on_position(const axis_position_t& message, analysis::LogPlace place) override;
     void on_run(const run_t& message, analysis::LogPlace place) override;
     void on_job(const job_t& message, analysis::LogPlace place) override;
+    void on_event(const program_event_t& message, analysis::LogPlace place) override;
     void on_health(const axis_health_t& message, analysis::LogPlace place) override;
     void on_program_part(const program_part_t& message, analysis::LogPlace place) override;
     void on_mark(const record_mark_t& message, analysis::LogPlace place) override;
@@ -74,7 +75,8 @@ private:
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log
         bool has_jobs = false;
     };
-    void note_beginning(Machine& machine, const job_t& message);
+    Machine* note_record(const auto& message, RecordKind kind, analysis::LogPlace place);
+    void note_beginning(Machine& machine, std::int64_t coordinator, std::int64_t sequence, std::int64_t job);
 
     Machine* machine(const std::string& name, analysis::LogPlace place);
     Axis* axis(const std::string& machine, const std::string& name, analysis::LogPlace place);

@@ -6,13 +6,10 @@
 namespace lockstep::verification {
 namespace {
 
-std::string plural(std::int64_t count, const std::string& one) {
-    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
 std::string counted(const Findings& findings) {
     return plural(findings.steps, "step") + ", " + plural(findings.runs + findings.local_runs, "run") + " and " +
-           plural(findings.jobs, "job");
+           plural(findings.jobs, "job") +
+           (findings.events > 0 ? ", with " + plural(findings.events, "event") + "," : "");
 }
 
 }  // namespace
@@ -44,6 +41,7 @@ proto::VerifyReport to_report(const Findings& findings) {
     report.set_steps_compared(findings.steps);
     report.set_runs_compared(findings.runs + findings.local_runs);
     report.set_jobs_compared(findings.jobs);
+    report.set_events_compared(findings.events);
     if (findings.difference) { fill(*findings.difference, *report.mutable_first_difference()); }
     for (const std::string& note : findings.notes) { report.add_notes(note); }
     for (const std::string& line : analysis::missing_sentences(findings.end)) { report.add_missing_at_end(line); }

@@ -7,6 +7,9 @@
 // Homing depends on the positions of the switches, which the log does not contain: it is checked only on the first
 // level.
 //
+// The events of programs (core: ProgramEvent) must be on record once each, in order: those in motion at the exact tick
+// that planning gives, the others where the axes rest.
+//
 // A log may end badly. Steps that a killed process left without the record of their run are compared with every course
 // that the plan allows: its frames to come, and the tail of each; a note names the course, and what is not on record. A
 // job without an end is compared with its plan as far as it ran, if the axes have come to rest by then.

@@ -59,11 +59,13 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     return received_;
 }
 
-/// First the state with the epoch and where its frames come to rest, then the frames: an axis takes the first frame of
-/// an epoch only after that state, and a standby knows every frame that axes may have.
+/// Events before the state that counts them as published: if this process ends in between, the next owner publishes
+/// them again. The state with the epoch and where its frames come to rest before the frames: an axis takes the first
+/// frame of an epoch only after that state, and a standby knows every frame that axes may have.
 void CoordinatorNetwork::publish(const CoordinatorOutputs& out) {
     CoordinatorLink* const link = link_->get();
     if (link == nullptr) { return; }
+    for (const PublishedEvent& event : out.events) { (void)link->bus.events.write(event); }
     if (out.state) { (void)link->bus.machine.write(*out.state); }
     for (const Frame& frame : out.frames) { (void)link->bus.frames.write(frame); }
     for (const AxisCommand& command : out.axis_commands) { (void)link->bus.axis_commands.write(command); }

@@ -86,7 +86,7 @@ public:
         publish_values(out.jobs);
         network_.publish(out);
         recorder_.note(now);
-        for (const JobEvent& event : out.jobs) { recorder_.record(now, event); }
+        recorder_.record(now, out);
         for (const CoordinatorNotice& notice : out.notices) { log_notice(notice); }
         log_writer();
         tend_network(now);

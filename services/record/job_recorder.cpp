@@ -27,6 +27,7 @@ JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, Rec
       coordinator_(coordinator),
       sink_(sink),
       channel_(job_channel(machine.name)),
+      event_channel_(event_channel(machine.name)),
       config_(machine_text(machine)),
       marker_(machine, "", sink) {}
 
@@ -56,6 +57,16 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
     }
     if (event.kind == JobEvent::Kind::Ended) { record.outcome = name_of(event.outcome); }
     sink_.publish(channel_, to_lcm(record, now, machine_.tick_ns));
+}
+
+void JobRecorder::record(Tick now, const PublishedEvent& event) {
+    const EventRecord record{machine_.name, {coordinator_, published_.job_events++}, event};
+    sink_.publish(event_channel_, to_lcm(record, now, machine_.tick_ns));
+}
+
+void JobRecorder::record(Tick now, const CoordinatorOutputs& out) {
+    for (const PublishedEvent& event : out.events) { record(now, event); }
+    for (const JobEvent& event : out.jobs) { record(now, event); }
 }
 
 void JobRecorder::record(Tick now, const ProgramChunk& chunk) {

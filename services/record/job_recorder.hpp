@@ -22,6 +22,9 @@ public:
     /// The published counts of an axis.
     void note_axis(const AxisHealth& health);
     void record(Tick now, const JobEvent& event);
+    void record(Tick now, const PublishedEvent& event);
+    /// What the coordinator gave back in a step: events of programs, then of jobs, as in merged logs.
+    void record(Tick now, const CoordinatorOutputs& out);
     /// A part of a program, when it was taken. A program of more than one part is recorded in these parts: as one
     /// message it would not fit into the queue to the disk, and would delay the loop that writes it.
     void record(Tick now, const ProgramChunk& chunk);
@@ -42,6 +45,7 @@ private:
     Identity coordinator_;
     RecordSink& sink_;
     std::string channel_;
+    std::string event_channel_;
     std::string config_;
     std::deque<std::uint64_t> in_parts_;  // the newest programs recorded in parts
     RecordCounts published_;

@@ -41,6 +41,7 @@ std::span<const TopicRights> rights() {
         of<Command>({Client}, {Coordinator, Axis}),  // axes receive an emergency stop directly
         of<ProgramChunk>({Client}, {Coordinator}),
         of<Reply>({Coordinator}, {Client}),
+        of<PublishedEvent>({Coordinator}, {Client, Viewer}),
         of<MachineValues>({Coordinator}, {Coordinator, Client, Viewer}),
         of<ClockRequest>({Axis}, {Coordinator}),
         of<ClockReply>({Coordinator}, {Axis}),

@@ -58,6 +58,7 @@ void deliver(const LogEvent& event, LogListener& listener, ProgramParts& program
         case RecordKind::Health: return deliver<axis_health_t>(event, listener, &LogListener::on_health);
         case RecordKind::Run: return deliver<run_t>(event, listener, &LogListener::on_run);
         case RecordKind::Job: return deliver_job(event, listener, programs, path);
+        case RecordKind::Event: return deliver<program_event_t>(event, listener, &LogListener::on_event);
         case RecordKind::ProgramPart: return deliver_part(event, listener, programs);
         case RecordKind::Mark: return deliver<record_mark_t>(event, listener, &LogListener::on_mark);
         case RecordKind::Loss: return;  // of one log; sequence numbers show what the record lacks

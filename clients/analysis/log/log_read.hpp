@@ -10,6 +10,7 @@
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_event_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
@@ -31,6 +32,8 @@ public:
     virtual void on_run(const run_t& message, LogPlace place) = 0;
     virtual void on_job(const job_t& message, LogPlace place) = 0;
     virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
+    /// Numbered with the jobs.
+    virtual void on_event(const program_event_t& /*message*/, LogPlace /*place*/) {}
     /// Jobs already have their programs (program_parts.hpp); this is for listeners that count messages.
     virtual void on_program_part(const program_part_t& /*message*/, LogPlace /*place*/) {}
     virtual void on_mark(const record_mark_t& /*message*/, LogPlace /*place*/) {}

@@ -17,7 +17,7 @@ constexpr std::array<RecordKind, 6> kNumbered{RecordKind::Steps,  RecordKind::Ru
 constexpr std::array<const char*, 6> kNames{"steps", "runs", "positions", "figures", "jobs", "programs"};
 
 std::size_t index_of(RecordKind kind) {
-    return static_cast<std::size_t>(std::ranges::find(kNumbered, kind) - kNumbered.begin());
+    return static_cast<std::size_t>(std::ranges::find(kNumbered, numbered_with(kind)) - kNumbered.begin());
 }
 
 std::string name_of(const RecordingProcess& process) {

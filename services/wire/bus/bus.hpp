@@ -51,6 +51,7 @@ struct CoordinatorBus {
     Writer<MachineState> machine{participant};
     Writer<AxisCommand> axis_commands{participant};
     Writer<Reply> replies{participant};
+    Writer<PublishedEvent> events{participant};
     Writer<MachineValues> values{participant};
 
     bool is_memory_replaced() const { return states.is_memory_replaced(); }

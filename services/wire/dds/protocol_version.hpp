@@ -11,7 +11,7 @@
 namespace lockstep {
 
 /// Increases with every change by which an older process would misread a newer one: see idl/README.md.
-inline constexpr int kProtocol = 8;
+inline constexpr int kProtocol = 9;
 
 /// "lockstep 3 mill".
 std::string calling_card(int protocol, const std::string& machine);

@@ -13,6 +13,9 @@
 //
 // Commands, program parts and replies are reliable with a history of 64: a client has fewer than 64 unanswered.
 //
+// Events of programs are reliable: each comes once. Their history is 1024, since a program may switch often and a
+// reader may be slow; what they have switched is in the machine's state, so a reader that lost some is not misled.
+//
 // Values that outlive programs are best effort: they come again several times a second.
 //
 // Health, clock requests and replies are best effort: a copy sent again would be out of date. Only the newest few
@@ -25,6 +28,7 @@
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
 #include "idl/dds/clock.h"
+#include "idl/dds/event.h"
 #include "idl/dds/health.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
@@ -61,6 +65,7 @@ LOCKSTEP_TOPIC(MachineState, MachineState, {"lockstep/machine_state", kType, Del
 LOCKSTEP_TOPIC(Command, Command, {"lockstep/command", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(ProgramChunk, ProgramChunk, {"lockstep/program", kType, Delivery::Reliable, 64})
 LOCKSTEP_TOPIC(Reply, Reply, {"lockstep/reply", kType, Delivery::Reliable, 64})
+LOCKSTEP_TOPIC(PublishedEvent, ProgramEvent, {"lockstep/event", kType, Delivery::Reliable, 1024})
 LOCKSTEP_TOPIC(MachineValues, MachineValues, {"lockstep/values", kType, Delivery::BestEffort, 1})
 LOCKSTEP_TOPIC(ClockRequest, ClockRequest, {"lockstep/clock_request", kType, Delivery::BestEffort, 8})
 LOCKSTEP_TOPIC(ClockReply, ClockReply, {"lockstep/clock_reply", kType, Delivery::BestEffort, 8})

@@ -27,6 +27,8 @@ AxisChannels channels_of(std::string_view machine, std::string_view axis) {
 
 std::string job_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_JOB"; }
 
+std::string event_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_EVENTS"; }
+
 std::string loss_channel(std::string_view machine, std::string_view axis) {
     return "LOCKSTEP_" + upper(machine) + (axis.empty() ? "" : "_" + upper(axis)) + "_LOSS";
 }
@@ -42,11 +44,12 @@ std::string flight_channel(std::string_view machine, std::string_view process) {
 }
 
 RecordKind kind_of(std::string_view channel) {
-    constexpr std::array<std::pair<std::string_view, RecordKind>, 8> kEnds{{{"_STEPS", RecordKind::Steps},
+    constexpr std::array<std::pair<std::string_view, RecordKind>, 9> kEnds{{{"_STEPS", RecordKind::Steps},
                                                                             {"_POSITION", RecordKind::Position},
                                                                             {"_HEALTH", RecordKind::Health},
                                                                             {"_RUN", RecordKind::Run},
                                                                             {"_JOB", RecordKind::Job},
+                                                                            {"_EVENTS", RecordKind::Event},
                                                                             {"_PROGRAM", RecordKind::ProgramPart},
                                                                             {"_LOSS", RecordKind::Loss},
                                                                             {"_MARK", RecordKind::Mark}}};

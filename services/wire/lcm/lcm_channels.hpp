@@ -21,6 +21,8 @@ inline constexpr std::size_t kMaxChannelName = 63;
 
 AxisChannels channels_of(std::string_view machine, std::string_view axis);
 std::string job_channel(std::string_view machine);
+/// The channel of programs' events.
+std::string event_channel(std::string_view machine);
 /// The channel of loss messages in a log. `axis` is empty for the coordinator's.
 std::string loss_channel(std::string_view machine, std::string_view axis);
 
@@ -33,7 +35,10 @@ std::string program_channel(std::string_view machine);
 std::string flight_channel(std::string_view machine, std::string_view process);
 
 /// The kind of a channel's messages, from its name.
-enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, ProgramPart, Loss, Mark, Foreign };
+enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, Event, ProgramPart, Loss, Mark, Foreign };
 RecordKind kind_of(std::string_view channel);
+
+/// The kind with which messages of this kind are numbered together: events are numbered with jobs.
+constexpr RecordKind numbered_with(RecordKind kind) { return kind == RecordKind::Event ? RecordKind::Job : kind; }
 
 }  // namespace lockstep

@@ -14,6 +14,7 @@
 #include <lockstep/flight_head_t.hpp>
 #include <lockstep/flight_note_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_event_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <lockstep/record_loss_t.hpp>
 #include <lockstep/record_mark_t.hpp>
@@ -38,6 +39,8 @@ template <>
 inline constexpr std::string_view kLcmLayout<flight_note_t> = "8ss8s";
 template <>
 inline constexpr std::string_view kLcmLayout<job_t> = "8s888sss88888844ssn8";
+template <>
+inline constexpr std::string_view kLcmLayout<program_event_t> = "8s88888881184s48";
 template <>
 inline constexpr std::string_view kLcmLayout<program_part_t> = "8s888844n1";
 template <>

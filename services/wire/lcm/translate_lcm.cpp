@@ -1,5 +1,7 @@
 #include "services/wire/lcm/translate_lcm.hpp"
 
+#include <array>
+
 #include "core/axis/state/fsm.hpp"
 
 namespace lockstep {
@@ -140,6 +142,35 @@ job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns) {
     out.axes = static_cast<std::int32_t>(record.start_count.size());
     out.start_count = record.start_count;
     return out;
+}
+
+program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns) {
+    const PublishedEvent& event = record.event;
+    program_event_t out{};
+    out.utime = utime_of(now, tick_ns);
+    out.machine = record.machine;
+    out.coordinator = bits(record.number.incarnation);
+    out.sequence = bits(record.number.sequence);
+    out.term = bits(event.term.number);
+    out.number = bits(event.sequence);
+    out.job = bits(event.job);
+    out.epoch = bits(event.epoch);
+    out.tick = event.tick.value;
+    out.at_rest = event.at_rest ? 1 : 0;
+    out.of_program = event.is_of_program ? 1 : 0;
+    out.block = event.block;
+    out.line = event.line;
+    out.kind = name_of(event.event.kind);
+    out.index = event.event.index;
+    out.value = event.event.value;
+    return out;
+}
+
+std::string_view name_of(ProgramEvent::Kind kind) {
+    constexpr std::array<std::string_view, ProgramEvent::kKinds> kNames{
+        "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off", "mist-on",
+        "flood-on",     "output-on",       "output-off",      "analog-output", "tool"};
+    return kNames[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace lockstep

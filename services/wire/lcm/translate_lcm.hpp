@@ -5,16 +5,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_event_t.hpp>
 #include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 
 #include "core/machine.hpp"
 #include "core/protocol/axis_health.hpp"
+#include "core/protocol/messages.hpp"
 
 namespace lockstep {
 
@@ -70,7 +73,7 @@ record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns);
 struct JobRecord {
     std::string machine;
     Identity coordinator = 0;
-    std::uint64_t sequence = 0;  // events are numbered without gaps
+    std::uint64_t sequence = 0;  // numbered without gaps, with the events of programs
     std::uint64_t job = 0;
     std::string kind;
     std::string event;
@@ -87,5 +90,17 @@ struct JobRecord {
 };
 
 job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns);
+
+/// An event of a program. The number is one of the coordinator's jobs.
+struct EventRecord {
+    std::string machine;
+    RecordNumber number;
+    PublishedEvent event;
+};
+
+program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns);
+
+/// "spindle-stop": as in program_event_t.
+std::string_view name_of(ProgramEvent::Kind kind);
 
 }  // namespace lockstep

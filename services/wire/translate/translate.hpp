@@ -15,6 +15,7 @@
 #include "idl/dds/axis.h"
 #include "idl/dds/client.h"
 #include "idl/dds/clock.h"
+#include "idl/dds/event.h"
 #include "idl/dds/health.h"
 #include "idl/dds/machine.h"
 #include "idl/dds/setpoint.h"
@@ -68,6 +69,7 @@ CommandMessage to_wire(const Command& command);
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk);
 /// A text that is too long is cut between two characters.
 lockstep_wire_Reply to_wire(const Reply& reply);
+lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event);
 /// Points to the values' bytes: valid as long as they are. At most kMaxValuesBytes.
 lockstep_wire_MachineValues to_wire(const MachineValues& values);
 
@@ -84,6 +86,7 @@ FromWire<ClockReply> from_wire(const lockstep_wire_ClockReply& wire);
 FromWire<Command> from_wire(const lockstep_wire_Command& wire);
 FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire);
 FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
+FromWire<PublishedEvent> from_wire(const lockstep_wire_ProgramEvent& wire);
 FromWire<MachineValues> from_wire(const lockstep_wire_MachineValues& wire);
 
 /// The same into a reused value; it keeps its content if the sample is refused.

@@ -8,6 +8,7 @@ namespace lockstep {
 
 static_assert(lockstep_wire_MACHINE_JOGGING == static_cast<int>(MachinePhase::Jogging));
 static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
+static_assert(lockstep_wire_SPINDLE_REVERSE == static_cast<int>(ProgramDevices::Spindle::Reverse));
 
 namespace {
 
@@ -23,6 +24,16 @@ lockstep_wire_FrameRest rest_to_wire(const FrameRest& rest) {
 FrameRest rest_from_wire(const lockstep_wire_FrameRest& wire) {
     const Int128 along = Int128{wire.along_high} * kOneStep + Int128{wire.along_low};
     return {wire.frame, {wire.block, {along}}, wire.last, wire.digest};
+}
+
+ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+    check.finite("spindle_rpm", wire.spindle_rpm);
+    return {.spindle = check.choice("spindle", wire.spindle, ProgramDevices::Spindle::Reverse),
+            .spindle_rpm = wire.spindle_rpm,
+            .mist = wire.mist,
+            .flood = wire.flood,
+            .tool = wire.tool,
+            .outputs = wire.outputs};
 }
 
 std::optional<HeldLease> lease_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
@@ -63,6 +74,12 @@ MachineStateMessage to_wire(const MachineState& state) {
             .rapid_percent = static_cast<std::uint16_t>(state.overrides.rapid_percent),
             .axes_present = state.axes_present,
             .config_hash = state.config_hash,
+            .spindle = static_cast<lockstep_wire_Spindle>(state.devices.spindle),
+            .spindle_rpm = state.devices.spindle_rpm,
+            .mist = state.devices.mist,
+            .flood = state.devices.flood,
+            .tool = state.devices.tool,
+            .outputs = state.devices.outputs,
             .has_writer = state.lease.has_value(),
             .writer = state.lease ? state.lease->writer.id : 0,
             .writer_name = {},
@@ -70,6 +87,7 @@ MachineStateMessage to_wire(const MachineState& state) {
             .writer_since = state.lease ? state.lease->since.value : 0,
             .is_run = state.job_kind == JobKind::Run,
             .program = state.program,
+            .events_from = state.events_from,
             .rests = {},
             .job_messages = state.published.job_events,
             .program_messages = state.published.program_parts,
@@ -98,6 +116,7 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
     check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Jogging);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
+    const ProgramDevices devices = devices_from_wire(wire, check);
     const std::optional<HeldLease> lease = lease_from_wire(wire, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     MachineState state{.term = {wire.term, wire.coordinator},
@@ -120,9 +139,11 @@ FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
                        .overrides = {wire.feed_percent, wire.rapid_percent},
                        .axes_present = wire.axes_present,
                        .config_hash = wire.config_hash,
+                       .devices = devices,
                        .lease = lease,
                        .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
                        .program = wire.program,
+                       .events_from = wire.events_from,
                        .rests = {},
                        .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
                        .lost_records = wire.lost_records,

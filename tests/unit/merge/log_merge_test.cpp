@@ -360,6 +360,41 @@ TEST_F(Sessions, AJobIsTakenFromTheEndOfTheOneBeforeToTheBeginningOfTheNext) {
     EXPECT_TRUE(merged.is_complete()) << "messages outside the span are not missing";
 }
 
+/// Events of programs are numbered with the jobs of their coordinator.
+class EventsOfJobs : public Sessions {
+protected:
+    Merged merge(const std::vector<std::uint64_t>& left_out) {
+        auto writer = LogWriter::open(folder / "events.lcm").value();
+        const auto is_there = [&](std::uint64_t number) {
+            return std::ranges::find(left_out, number) == left_out.end();
+        };
+        if (is_there(0)) { write_job(writer, 1, 0, "begun", 1000); }
+        for (std::uint64_t number = 1; number < 4; ++number) {
+            if (!is_there(number)) { continue; }
+            const auto utime = static_cast<std::int64_t>(1000 + 100 * number);
+            const EventRecord record{.machine = "mill", .number = {50, number}, .event = {.job = 1}};
+            for (int twice = 0; twice < 2; ++twice) {
+                writer.write_message(event_channel("mill"), utime, to_lcm(record, {utime}, 1000));
+            }
+        }
+        if (is_there(4)) { write_job(writer, 1, 4, "ended", 2000); }
+        EXPECT_TRUE(writer.flush());
+        return merge_logs({.logs = choose({folder}).logs, .progress = {}}, kept).value();
+    }
+};
+
+TEST_F(EventsOfJobs, AreMergedOnceEach) {
+    const Merged merged = merge({});
+    EXPECT_EQ(kept.utimes, (std::vector<std::int64_t>{1000, 1100, 1200, 1300, 2000}));
+    EXPECT_EQ(merged.duplicates, 3U);
+    EXPECT_TRUE(merged.is_complete());
+}
+
+TEST_F(EventsOfJobs, AreMissingWhereTheirNumbersHaveAGap) {
+    EXPECT_EQ(merge({2}).missing_job_events, 1);
+    EXPECT_EQ(merge({1, 2, 3}).missing_job_events, 3);
+}
+
 /// A program that is recorded in parts before job 1, and run by jobs 1 and 2.
 class JobInParts : public Sessions {
 protected:

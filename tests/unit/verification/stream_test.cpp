@@ -22,7 +22,7 @@ protected:
         std::vector<Block> blocks;
         for (int k = 0; k < count; ++k, ++line) {
             const double angle = 0.02 * line;
-            blocks.push_back({line, LinearMove{{60 + 30 * std::cos(angle) - 30, 60 + 30 * std::sin(angle)}, 60}});
+            blocks.push_back({line, ProgramMove{{60 + 30 * std::cos(angle) - 30, 60 + 30 * std::sin(angle)}, 60}});
         }
         return blocks;
     }
@@ -48,7 +48,7 @@ protected:
         start = parked_mm(machine);
         test::RecordedMachine recorded(machine, path());
         recorded.home();
-        send(recorded, {.blocks = {{1, LinearMove{{60, 60}, 0, true}}}});
+        send(recorded, {.blocks = {{1, ProgramMove{{60, 60}, 0, true}}}});
         recorded.command(CommandKind::Run, kProgram);
         for (int part = 1; part < 5; ++part) {
             send(recorded, {.blocks = chords(100 * part)});
@@ -76,7 +76,7 @@ protected:
                 const double step = chord * (i == 0 ? std::cos(heading) : std::sin(heading));
                 at[i] += at[i] + step > 100 || at[i] + step < 10 ? -step : step;
             }
-            blocks.push_back({line, LinearMove{{at[0], at[1]}, feed}});
+            blocks.push_back({line, ProgramMove{{at[0], at[1]}, feed}});
         }
         return blocks;
     }
@@ -87,7 +87,7 @@ protected:
         start = parked_mm(machine);
         test::RecordedMachine recorded(machine, path());
         recorded.home();
-        send(recorded, {.blocks = {{1, LinearMove{{60, 60}, 0, true}}}});
+        send(recorded, {.blocks = {{1, ProgramMove{{60, 60}, 0, true}}}});
         recorded.command(CommandKind::Run, kProgram);
         for (int part = 0; part < 40; ++part) {
             send(recorded, {.blocks = lines(10 + static_cast<int>(random() % 120), random)});

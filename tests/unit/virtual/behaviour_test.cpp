@@ -103,7 +103,7 @@ TEST_F(Rig, APauseWaitsForAPerson) {
     home();
     Program program = program_of({{10, 10}}, 40);
     program.blocks.push_back({2, Pause{}});
-    program.blocks.push_back({3, LinearMove{{20, 5}, 40, false}});
+    program.blocks.push_back({3, ProgramMove{{20, 5}, 40, false}});
     ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Paused, 5)) << describe();
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));

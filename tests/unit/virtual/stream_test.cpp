@@ -20,7 +20,7 @@ protected:
             ++line;
             x_mm = 5 + (line % 160 < 80 ? line % 80 : 80 - line % 80);
             y_mm = 5 + line % 2;
-            blocks.push_back({line, LinearMove{{x_mm, y_mm}, kFeed_mm_s}});
+            blocks.push_back({line, ProgramMove{{x_mm, y_mm}, kFeed_mm_s}});
         }
         return blocks;
     }
@@ -168,7 +168,7 @@ TEST_F(Stream, APartThatTheMachineCannotRunIsRefusedAndWhatIsBeforeItIsRun) {
     const double x = x_mm;
     const double y = y_mm;
     auto blocks = moves(10);
-    blocks.push_back({++line, LinearMove{{300, 5}, kFeed_mm_s}});
+    blocks.push_back({++line, ProgramMove{{300, 5}, kFeed_mm_s}});
     const Reply reply = send({.blocks = blocks});
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::OutsideTravel);

@@ -150,6 +150,8 @@ TEST(HostileMachineState, IsRefused) {
     refused("progress", [](auto& w) { w.progress = std::nan(""); });
     refused("remaining_s", [](auto& w) { w.remaining_s = std::numeric_limits<double>::infinity(); });
     refused("stamp", [](auto& w) { w.stamp = INT64_MAX; });
+    refused("spindle", [](auto& w) { overwrite(w.spindle, 3); });
+    refused("spindle_rpm", [](auto& w) { w.spindle_rpm = std::nan(""); });
 }
 
 TEST(HostileAxisCommands, AreRefused) {
@@ -215,6 +217,20 @@ TEST(HostileValues, AreRefused) {
     auto wire = to_wire(good);
     wire.bytes._length = kMaxValuesBytes + 1;
     expect_refused(wire, "number of bytes");
+}
+
+TEST(HostileEvent, IsRefused) {
+    const auto refuse = [](const std::string& field, const std::function<void(lockstep_wire_ProgramEvent&)>& lie) {
+        auto wire = to_wire(RandomMessages(7).event());
+        ASSERT_TRUE(from_wire(wire));
+        lie(wire);
+        expect_refused(wire, field);
+    };
+    refuse("tick", [](auto& m) { m.tick = std::numeric_limits<std::int64_t>::min(); });
+    refuse("kind", [](auto& m) { overwrite(m.kind, ProgramEvent::kKinds); });
+    refuse("index", [](auto& m) { m.index = -1; });
+    refuse("index", [](auto& m) { m.index = kMaxEventIndex + 1; });
+    refuse("value", [](auto& m) { m.value = std::nan(""); });
 }
 
 TEST(HostileReply, IsRefused) {

@@ -11,6 +11,13 @@ TEST(LcmChannels, AreUpperCasedAndFreeOfRegularExpressions) {
     EXPECT_EQ(channels_of("Mill", "Z").run, "LOCKSTEP_MILL_Z_RUN");
     EXPECT_EQ(channels_of("Mill", "Z").health, "LOCKSTEP_MILL_Z_HEALTH");
     EXPECT_EQ(job_channel("Mill"), "LOCKSTEP_MILL_JOB");
+    EXPECT_EQ(event_channel("Mill"), "LOCKSTEP_MILL_EVENTS");
+}
+
+TEST(LcmChannels, EventsAreNumberedWithJobs) {
+    EXPECT_EQ(kind_of(event_channel("Mill")), RecordKind::Event);
+    EXPECT_EQ(numbered_with(RecordKind::Event), RecordKind::Job);
+    EXPECT_EQ(numbered_with(RecordKind::Run), RecordKind::Run);
 }
 
 }  // namespace

@@ -47,6 +47,20 @@ job_t a_job() {
     return to_lcm(record, {1'000'000}, 1000);
 }
 
+program_event_t an_event() {
+    return to_lcm(EventRecord{.machine = "mill",
+                              .number = {.incarnation = 7, .sequence = 3},
+                              .event = {.term = {11, 7},
+                                        .sequence = 2,
+                                        .job = 5,
+                                        .epoch = 900,
+                                        .tick = {4000},
+                                        .block = 17,
+                                        .line = 23,
+                                        .event = {ProgramEvent::Kind::SpindleForward, 0, 1200.5}}},
+                  {5000}, 1000);
+}
+
 MachineConfig a_machine() {
     MachineConfig machine{.name = "mill"};
     machine.axes.push_back({.name = "X", .steps_per_mm = 400});
@@ -107,6 +121,7 @@ TEST(LcmDecode, EveryMessageOfTheRecordComesBack) {
     expect_decodes_back(a_batch());
     expect_decodes_back(a_run());
     expect_decodes_back(a_job());
+    expect_decodes_back(an_event());
     expect_decodes_back(a_position());
     expect_decodes_back(a_health());
     expect_decodes_back(a_flight_head());
@@ -136,6 +151,7 @@ TEST(LcmDecode, DamageIsRefusedOrHarmless) {
     expect_survives_damage(a_batch());
     expect_survives_damage(a_run());
     expect_survives_damage(a_job());
+    expect_survives_damage(an_event());
     expect_survives_damage(a_position());
     expect_survives_damage(a_health());
     expect_survives_damage(a_flight_head());
@@ -174,6 +190,22 @@ TEST(ToLcm, HealthIsInMicrosecondsAndMilliseconds) {
     EXPECT_EQ(health.awaits_setpoint, 1);
     EXPECT_DOUBLE_EQ(health.setpoint_age_ms, 1.5);
     EXPECT_EQ(health.refused_frames, 4);
+}
+
+TEST(ToLcm, AnEventHasItsNumbersAndItsName) {
+    const program_event_t event = an_event();
+    EXPECT_EQ(event.utime, 5000);
+    EXPECT_EQ(event.coordinator, 7);
+    EXPECT_EQ(event.sequence, 3);
+    EXPECT_EQ(event.term, 11);
+    EXPECT_EQ(event.number, 2);
+    EXPECT_EQ(event.tick, 4000);
+    EXPECT_EQ(event.of_program, 1);
+    EXPECT_EQ(event.at_rest, 0);
+    EXPECT_EQ(event.block, 17);
+    EXPECT_EQ(event.line, 23);
+    EXPECT_EQ(event.kind, "spindle-forward");
+    EXPECT_DOUBLE_EQ(event.value, 1200.5);
 }
 
 TEST(ToLcm, ARunThatWasNotCutEndsWhereItsPiecesDo) {

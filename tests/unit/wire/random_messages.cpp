@@ -87,6 +87,30 @@ std::vector<FrameRest> RandomMessages::rests() {
     return rests;
 }
 
+ProgramDevices RandomMessages::devices() {
+    return {.spindle = static_cast<ProgramDevices::Spindle>(index(3)),
+            .spindle_rpm = static_cast<double>(between(0, 1'000'000)) / 7,
+            .mist = coin(),
+            .flood = coin(),
+            .tool = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .outputs = bits()};
+}
+
+PublishedEvent RandomMessages::event() {
+    return {.term = term(),
+            .sequence = bits(),
+            .job = bits(),
+            .epoch = bits(),
+            .tick = {far()},
+            .at_rest = coin(),
+            .is_of_program = coin(),
+            .block = static_cast<std::uint32_t>(bits()),
+            .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .event = {.kind = static_cast<ProgramEvent::Kind>(index(ProgramEvent::kKinds)),
+                      .index = static_cast<std::int32_t>(between(0, kMaxEventIndex)),
+                      .value = static_cast<double>(between(-1'000'000, 1'000'000)) / 7}};
+}
+
 MachineState RandomMessages::machine_state() {
     return {.term = term(),
             .stamp = far(),
@@ -108,9 +132,11 @@ MachineState RandomMessages::machine_state() {
             .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
             .axes_present = bits(),
             .config_hash = bits(),
+            .devices = devices(),
             .lease = coin() ? std::optional(HeldLease{writer(), {far()}}) : std::nullopt,
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = bits(),
+            .events_from = static_cast<std::uint32_t>(bits()),
             .rests = rests(),
             .published = {.job_events = bits(), .program_parts = bits()},
             .lost_records = bits(),

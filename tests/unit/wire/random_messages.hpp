@@ -25,6 +25,8 @@ public:
     Command command();
     ProgramChunk chunk();
     Reply reply();
+    PublishedEvent event();
+    ProgramDevices devices();
     MachineValues machine_values();
 
     std::uint64_t bits() { return random_(); }

@@ -29,6 +29,7 @@ TEST(RoundTrip, AMachineStateArrivesAsItWasSent) { expect_round_trips(&RandomMes
 TEST(RoundTrip, ACommandArrivesAsItWasSent) { expect_round_trips(&RandomMessages::command); }
 TEST(RoundTrip, AProgramChunkArrivesAsItWasSent) { expect_round_trips(&RandomMessages::chunk); }
 TEST(RoundTrip, AReplyArrivesAsItWasSent) { expect_round_trips(&RandomMessages::reply); }
+TEST(RoundTrip, AnEventArrivesAsItWasSent) { expect_round_trips(&RandomMessages::event); }
 TEST(RoundTrip, MachineValuesArriveAsTheyWereSent) { expect_round_trips(&RandomMessages::machine_values); }
 
 TEST(RoundTrip, TheLargestFrameFits) {

@@ -1,0 +1,254 @@
+#include "clients/verification/event_check.hpp"
+
+#include <algorithm>
+
+#include "services/wire/lcm/translate_lcm.hpp"
+
+namespace lockstep::verification {
+namespace {
+
+std::string text_of(std::string_view kind, std::int32_t index, double value) {
+    return std::string(kind) + " (index " + std::to_string(index) + ", value " + std::to_string(value) + ")";
+}
+
+std::string text_of(const program_event_t& event) { return text_of(event.kind, event.index, event.value); }
+
+std::string text_of(const ProgramEvent& event) { return text_of(name_of(event.kind), event.index, event.value); }
+
+std::string place_of(std::int32_t line, std::int64_t block) {
+    return "line " + std::to_string(line) + ", block " + std::to_string(block);
+}
+
+std::string place_of(const program_event_t& event) { return place_of(event.line, event.block); }
+
+std::string place_of(const PathEvent& event) { return place_of(event.line, event.block); }
+
+}  // namespace
+
+void EventCheck::take(const program_event_t& event) { waiting_[{event.job, event.coordinator}].push_back(event); }
+
+void EventCheck::begin(std::int64_t coordinator, std::int64_t job, const std::string& label,
+                       std::shared_ptr<const Program> program) {
+    if (job != job_ || std::ranges::find(coordinators_, coordinator) == coordinators_.end()) { forget_job(); }
+    if (epoch_coordinator_ != 0 && epoch_coordinator_ != coordinator) { knows_devices_ = false; }
+    job_ = job;
+    label_ = label;
+    coordinators_ = {coordinator};
+    epoch_coordinator_ = coordinator;
+    epoch_ = 0;
+    program_ = std::move(program);
+    blocks_.clear();
+    done_ = 0;
+    for (std::size_t k = 0; program_ && k < program_->blocks.size(); ++k) {
+        if (std::holds_alternative<ProgramEvent>(program_->blocks[k].action)) {
+            blocks_.push_back(static_cast<std::uint32_t>(k));
+        }
+    }
+}
+
+void EventCheck::begin_epoch(Epoch epoch, std::int64_t coordinator) {
+    epoch_ = epoch;
+    epoch_coordinator_ = coordinator;
+}
+
+const program_event_t* EventCheck::next() {
+    for (const std::int64_t coordinator : coordinators_) {
+        const auto found = waiting_.find({job_, coordinator});
+        if (found != waiting_.end() && !found->second.empty()) { return &found->second.front(); }
+    }
+    return nullptr;
+}
+
+void EventCheck::pop() {
+    const program_event_t* event = next();
+    waiting_.find({event->job, event->coordinator})->second.pop_front();
+}
+
+PathEvent EventCheck::event_at(std::uint32_t block) const {
+    const Block& its = program_->blocks[block];
+    return {block, its.line, std::get<ProgramEvent>(its.action)};
+}
+
+/// The coordinator before has published them, and did not report it before it ended.
+void EventCheck::skip_repeats() {
+    const std::int64_t from = done_ == 0 ? 0 : blocks_[done_ - 1] + 1;
+    while (coordinators_.size() > 1) {
+        const program_event_t* event = next();
+        const bool is_repeat = event != nullptr && event->coordinator != coordinators_.front() &&
+                               event->of_program != 0 && event->block < from;
+        if (!is_repeat) { return; }
+        findings_.notes.push_back(label_ + ": the event of " + place_of(*event) +
+                                  " was published again after a takeover");
+        pop();
+    }
+}
+
+bool EventCheck::is_the_same(const program_event_t& recorded, const PathEvent& planned) {
+    const ProgramEvent& event = planned.event;
+    const bool is_same = recorded.kind == name_of(event.kind) && recorded.index == event.index &&
+                         recorded.value == event.value && recorded.line == planned.line;
+    return is_same || differ("the event of " + place_of(planned) + " is recorded as " + text_of(recorded) +
+                                 " of line " + std::to_string(recorded.line) + "; its program has " + text_of(event),
+                             planned.line, {}, Tick{recorded.tick});
+}
+
+/// At rest it is published only if the axes came to rest before its time by the coordinator's clock, or by an owner
+/// that took over.
+bool EventCheck::is_in_time(const program_event_t& recorded, Tick planned) {
+    const Tick seen{recorded.tick};
+    if (recorded.at_rest != 0 && (is_heirs(recorded) || seen < planned)) { return true; }
+    const std::string event = "the event of " + place_of(recorded);
+    if (recorded.at_rest != 0) {
+        return differ(event + " is recorded at rest; its place is in motion", recorded.line, planned, seen);
+    }
+    if (static_cast<Epoch>(recorded.epoch) != epoch_) {
+        return differ(event + " is recorded in epoch " + std::to_string(recorded.epoch) + "; planned: epoch " +
+                          std::to_string(epoch_),
+                      recorded.line, planned, seen);
+    }
+    return seen == planned || differ(event + " is recorded at another tick than planned", recorded.line, planned, seen);
+}
+
+bool EventCheck::is_of_rest(const program_event_t& recorded) {
+    const std::string event = "the event of " + place_of(recorded);
+    if (recorded.at_rest == 0) {
+        return differ(event + " is recorded in motion, where the axes rest", recorded.line, {}, Tick{recorded.tick});
+    }
+    const bool is_later = static_cast<Epoch>(recorded.epoch) >= epoch_ || coordinators_.size() > 1;
+    return is_later || differ(event + " is recorded in epoch " + std::to_string(recorded.epoch) + ", before epoch " +
+                                  std::to_string(epoch_) + ", to which it belongs",
+                              recorded.line, {}, Tick{recorded.tick});
+}
+
+/// True: the record is known to be incomplete there, and the event is left out.
+bool EventCheck::lacks(const PathEvent& planned) {
+    const std::string event = label_ + ": the event of " + place_of(planned) + ", " + text_of(planned.event) + ",";
+    if (coordinators_.size() > 1) {
+        findings_.add_unknown(event + " is not in the log; its coordinator may have ended before it was recorded");
+        knows_devices_ = false;
+        ++done_;
+        return true;
+    }
+    const program_event_t* there = next();
+    const bool is_other = there != nullptr && there->of_program != 0;
+    return differ(event + " is not in the log" + (is_other ? ", which has that of " + place_of(*there) : ""),
+                  planned.line, {}, is_other ? std::optional(Tick{there->tick}) : std::nullopt);
+}
+
+void EventCheck::note(const PathEvent& event) {
+    devices_.apply(event.event);
+    pop();
+    ++done_;
+    ++findings_.events;
+}
+
+void EventCheck::check_motion(std::span<const EpochRunner::Happened> planned, bool may_end_early) {
+    for (const auto& [tick, event] : planned) {
+        if (!findings_.going()) { return; }
+        if (done_ == blocks_.size() || event.block < blocks_[done_]) { continue; }  // published at an earlier rest
+        skip_repeats();
+        while (blocks_[done_] < event.block) {
+            if (!lacks(event_at(blocks_[done_]))) { return; }
+        }
+        const program_event_t* there = next();
+        if (there == nullptr && may_end_early) { return; }
+        if (there == nullptr || there->of_program == 0 || there->block != event.block) {
+            if (may_end_early && there != nullptr && there->of_program == 0) { return; }
+            if (!lacks(event)) { return; }
+            continue;
+        }
+        if (!is_the_same(*there, event) || !is_in_time(*there, tick)) { return; }
+        note(event);
+    }
+}
+
+void EventCheck::check_rest(std::uint32_t must, std::uint32_t may) {
+    while (findings_.going() && done_ < blocks_.size() && blocks_[done_] < may) {
+        const PathEvent planned = event_at(blocks_[done_]);
+        skip_repeats();
+        const program_event_t* there = next();
+        const bool is_it = there != nullptr && there->of_program != 0 && there->block == planned.block;
+        if (!is_it) {
+            if (planned.block >= must || !lacks(planned)) { return; }
+            continue;
+        }
+        if (planned.block >= must && there->at_rest == 0) { return; }
+        if (!is_the_same(*there, planned) || !is_of_rest(*there)) { return; }
+        note(planned);
+    }
+}
+
+void EventCheck::leave() {
+    forget_job();
+    knows_devices_ = false;
+}
+
+void EventCheck::forget_job() {
+    for (const std::int64_t coordinator : coordinators_) { waiting_.erase({job_, coordinator}); }
+    coordinators_.clear();
+}
+
+void EventCheck::end(bool is_done) {
+    if (!findings_.going() || coordinators_.empty()) { return; }
+    skip_repeats();
+    const program_event_t* there = next();
+    if (there != nullptr && (is_done || there->of_program != 0)) {
+        (void)differ("an event of " + place_of(*there) + ", " + text_of(*there) +
+                         ", is recorded, which its program does not have there",
+                     there->line, {}, Tick{there->tick});
+        return;
+    }
+    if (!is_done) { check_switched_off(); }
+    forget_job();
+}
+
+/// By the coordinator that ended the job.
+void EventCheck::check_switched_off() {
+    using Kind = ProgramEvent::Kind;
+    std::vector<Kind> planned;
+    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { planned.push_back(Kind::SpindleStop); }
+    if (devices_.mist || devices_.flood) { planned.push_back(Kind::CoolantOff); }
+    for (const Kind kind : {Kind::SpindleStop, Kind::CoolantOff}) {
+        const program_event_t* there = next();
+        const bool is_there = there != nullptr && there->kind == name_of(kind);
+        const bool is_planned = std::ranges::find(planned, kind) != planned.end();
+        if (knows_devices_ && is_there != is_planned) {
+            (void)differ(std::string(name_of(kind)) + (is_there ? " is recorded at the job's end, but it was off"
+                                                                : " is not recorded at the job's end"),
+                         0, {}, is_there ? std::optional(Tick{there->tick}) : std::nullopt);
+            return;
+        }
+        if (!is_there) { continue; }
+        devices_.apply({.kind = kind});
+        pop();
+        ++findings_.events;
+    }
+    if (const program_event_t* more = next()) {
+        (void)differ("the job's end switched more off than was on: " + text_of(*more), 0, {}, Tick{more->tick});
+    }
+}
+
+void EventCheck::finish() {
+    for (const auto& [whose, events] : waiting_) {
+        const auto extra = std::ranges::find_if(events, [](const auto& event) { return event.of_program != 0; });
+        if (extra == events.end() || is_heirs(*extra)) { continue; }
+        label_ = "job " + std::to_string(whose.first);
+        (void)differ("an event of " + place_of(*extra) + ", " + text_of(*extra) +
+                         ", is recorded, but its job is not in progress",
+                     extra->line, {}, Tick{extra->tick});
+        return;
+    }
+}
+
+/// Returns false.
+bool EventCheck::differ(const std::string& text, std::int32_t line, std::optional<Tick> expected,
+                        std::optional<Tick> seen) {
+    std::string commanded = label_;
+    if (line != 0) { commanded += ", line " + std::to_string(line); }
+    if (epoch_ != 0) { commanded += ", epoch " + std::to_string(epoch_); }
+    findings_.differ(
+        {.text = text, .axis = {}, .tick_expected = expected, .tick_seen = seen, .commanded = std::move(commanded)});
+    return false;
+}
+
+}  // namespace lockstep::verification

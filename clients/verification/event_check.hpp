@@ -1,0 +1,85 @@
+// Compares the recorded events of jobs with those of their programs: each once, in order, and at its place. An event in
+// motion must be at the tick that planning the program again gives. An event at rest must be before the place where the
+// axes rest.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <lockstep/program_event_t.hpp>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clients/verification/findings.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/program_devices.hpp"
+
+namespace lockstep::verification {
+
+class EventCheck {
+public:
+    explicit EventCheck(Findings& findings) : findings_(findings) {}
+
+    void take(const program_event_t& event);
+    /// Those so far are of jobs that the log does not begin with.
+    void forget_all() { waiting_.clear(); }
+    /// The log begins later than the record: which devices were on is not known.
+    void begins_late() { knows_devices_ = false; }
+
+    /// A job begins. `program`: null if it has no events.
+    void begin(std::int64_t coordinator, std::int64_t job, const std::string& label,
+               std::shared_ptr<const Program> program);
+    /// After a takeover: another coordinator goes on with the job.
+    void continue_by(std::int64_t coordinator) { coordinators_.push_back(coordinator); }
+    void begin_epoch(Epoch epoch, std::int64_t coordinator);
+
+    /// The events in the frames that were run. `may_end_early`: their coordinator may have ended, or given the job up,
+    /// before it published the last ones.
+    void check_motion(std::span<const EpochRunner::Happened> planned, bool may_end_early);
+    /// The axes rest: the events before block `must` have been published, those before `may` can have been.
+    void check_rest(std::uint32_t must, std::uint32_t may);
+    /// The rest of the job is not compared.
+    void leave();
+    /// The job has ended: nothing more of it is on record than what the coordinator has switched off.
+    void end(bool is_done);
+    /// Call once, at the end of a log that continues after the last motion.
+    void finish();
+
+private:
+    using Whose = std::pair<std::int64_t, std::int64_t>;  // job and coordinator
+
+    const program_event_t* next();
+    void pop();
+    /// Of another coordinator than the one that runs the epoch.
+    bool is_heirs(const program_event_t& event) const { return event.coordinator != epoch_coordinator_; }
+    bool is_the_same(const program_event_t& recorded, const PathEvent& planned);
+    bool is_in_time(const program_event_t& recorded, Tick planned);
+    bool is_of_rest(const program_event_t& recorded);
+    bool lacks(const PathEvent& planned);
+    void skip_repeats();
+    void forget_job();
+    void note(const PathEvent& event);
+    PathEvent event_at(std::uint32_t block) const;
+    void check_switched_off();
+    bool differ(const std::string& text, std::int32_t line, std::optional<Tick> expected = {},
+                std::optional<Tick> seen = {});
+
+    Findings& findings_;
+    std::map<Whose, std::deque<program_event_t>> waiting_;
+    bool knows_devices_ = true;
+    ProgramDevices devices_;
+    // Of the job:
+    std::int64_t job_ = 0;
+    std::string label_;
+    std::vector<std::int64_t> coordinators_;  // in the order in which they ran it; none: no job is in progress
+    std::shared_ptr<const Program> program_;
+    std::vector<std::uint32_t> blocks_;  // the program's events
+    std::size_t done_ = 0;               // so many of them are on record
+    Epoch epoch_ = 0;                    // the newest
+    std::int64_t epoch_coordinator_ = 0;
+};
+
+}  // namespace lockstep::verification

@@ -1,0 +1,43 @@
+#include "services/wire/translate/checks.hpp"
+#include "services/wire/translate/translate.hpp"
+
+namespace lockstep {
+
+static_assert(lockstep_wire_EVENT_TOOL == static_cast<int>(ProgramEvent::Kind::Tool));
+
+lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event) {
+    return {.term = event.term.number,
+            .coordinator = event.term.coordinator,
+            .number = event.sequence,
+            .job = event.job,
+            .epoch = event.epoch,
+            .tick = event.tick.value,
+            .at_rest = event.at_rest,
+            .is_of_program = event.is_of_program,
+            .block = event.block,
+            .line = event.line,
+            .kind = static_cast<lockstep_wire_EventKind>(event.event.kind),
+            .index = event.event.index,
+            .value = event.event.value};
+}
+
+FromWire<PublishedEvent> from_wire(const lockstep_wire_ProgramEvent& wire) {
+    Checks check("program event");
+    check.far("tick", wire.tick);
+    check.within<std::int32_t>("index", wire.index, 0, kMaxEventIndex);
+    check.finite("value", wire.value);
+    const auto kind = check.choice("kind", wire.kind, ProgramEvent::Kind::Tool);
+    if (!check.passed()) { return std::unexpected(check.refusal()); }
+    return PublishedEvent{.term = {wire.term, wire.coordinator},
+                          .sequence = wire.number,
+                          .job = wire.job,
+                          .epoch = wire.epoch,
+                          .tick = {wire.tick},
+                          .at_rest = wire.at_rest,
+                          .is_of_program = wire.is_of_program,
+                          .block = wire.block,
+                          .line = wire.line,
+                          .event = {.kind = kind, .index = wire.index, .value = wire.value}};
+}
+
+}  // namespace lockstep
