@@ -34,7 +34,7 @@ inline Scenario two_axes() {
                                .send_ahead_slots = 12,
                                .frame_slots = 6};
     Program program{.name = "corner", .axes = {"X", "Y"}, .start_mm = {}, .blocks = {}};
-    program.blocks = {{1, LinearMove{{18, 14}, 0, true}}, {2, LinearMove{{18, 20}, 0, true}}};
+    program.blocks = {{1, ProgramMove{{18, 14}, 0, true}}, {2, ProgramMove{{18, 20}, 0, true}}};
     scenario.tasks = {{program, {}, {}, {}}};
     return scenario;
 }

@@ -38,6 +38,8 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults device --axes 3
   stream     no fault: programs are sent while they run, in parts that come in time or late:
                                                      lockstep-simtest --faults stream,override
+  curve      no fault: programs have arcs, path modes, fixed feeds and events (not in all):
+                                                     lockstep-simtest --faults curve,override
   mixed      a half of the other kinds named, in each run:
                                                      lockstep-simtest --faults mixed,loss,clock
 
@@ -72,9 +74,9 @@ int main(int argc, char** argv) {
     app.add_option("--faults", options.faults,
                    "none, all (half of the kinds in each run), or a list of the kinds below")
         ->delimiter(',')
-        ->check(
-            CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition", "corrupt",
-                           "stall", "clock", "override", "standby", "limit", "device", "stream", "mixed", "all"}));
+        ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
+                               "corrupt", "stall", "clock", "override", "standby", "limit", "device", "stream", "curve",
+                               "mixed", "all"}));
     app.footer(kKinds);
     app.add_option("--coverage", options.coverage, "write the coverage of the runs to this file, as JSON");
     app.add_flag("--json", options.json, "print the figures as JSON");

@@ -31,13 +31,29 @@ public:
             places_.push_back(static_cast<std::size_t>(named - machine.axes.begin()));
         }
         for (const Block& block : program_.blocks) {
-            if (const auto* move = std::get_if<LinearMove>(&block.action)) { at_ = move->target_mm; }
+            if (const auto* move = std::get_if<ProgramMove>(&block.action)) { at_ = move->target_mm; }
         }
         moved_ = !at_.empty();
     }
 
     Program with_dense_curve() {
         if (moved_) { dense_curve(); }
+        return std::move(program_);
+    }
+    /// Path modes, fixed feeds and events between the blocks, then arcs behind the last one.
+    Program with_curves() {
+        std::vector<Block> blocks;
+        std::swap(blocks, program_.blocks);
+        for (Block& block : blocks) {
+            if (draw_.chance(0.1)) { modes(); }
+            if (draw_.chance(0.1)) { events(block.line); }
+            if (auto* move = std::get_if<ProgramMove>(&block.action)) { give_modes(*move); }
+            program_.blocks.push_back(std::move(block));
+        }
+        if (moved_ && machine_.coordination != StepMethod::Lai) {
+            modes();
+            arcs();
+        }
         return std::move(program_);
     }
     Program take() {
@@ -123,6 +139,63 @@ private:
         }
     }
 
+    void modes() {
+        mode_ = draw_.chance(0.6) ? PathMode::Blend : draw_.chance(0.5) ? PathMode::ExactPath : PathMode::ExactStop;
+        tolerance_mm_ = draw_.chance(0.3) ? draw_.magnitude(1e-3, 0.1) : 0;
+        is_feed_fixed_ = draw_.chance(0.2);
+    }
+    void give_modes(ProgramMove& move) const {
+        move.mode = mode_;
+        move.tolerance_mm = mode_ == PathMode::Blend ? tolerance_mm_ : 0;
+        move.is_feed_fixed = is_feed_fixed_;
+    }
+    void events(std::int32_t line) {
+        for (std::int64_t n = draw_.whole(1, 3); n > 0; --n) {
+            ProgramEvent event{.kind = static_cast<ProgramEvent::Kind>(draw_.index(ProgramEvent::kKinds))};
+            event.index = static_cast<std::int32_t>(draw_.index(5));
+            program_.blocks.push_back({line, event});
+        }
+    }
+
+    /// Arcs, helices and whole turns of two axes, each where the last one ends.
+    void arcs() {
+        if (at_.size() < 2) { return; }
+        const std::size_t a = draw_.index(at_.size());
+        const std::size_t b = (a + 1 + draw_.index(at_.size() - 1)) % at_.size();
+        for (std::int64_t n = draw_.whole(1, 6); n > 0; --n) { arc(a, b); }
+    }
+
+    void arc(std::size_t a, std::size_t b) {
+        const double angle = draw_.real(0, 2 * std::numbers::pi);
+        const double radius = draw_.magnitude(0.3, 2000) * std::max(step_mm(a), step_mm(b));
+        const double x = at_[a] - radius * std::cos(angle);
+        const double y = at_[b] - radius * std::sin(angle);
+        const bool is_inside = x - radius >= axis(a).position_min_mm && x + radius <= axis(a).position_max_mm &&
+                               y - radius >= axis(b).position_min_mm && y + radius <= axis(b).position_max_mm;
+        if (!is_inside || radius < 1e-3) { return anywhere(); }
+        std::vector<double> to = at_;
+        const double sweep = draw_.chance(0.2) ? 2 * std::numbers::pi : draw_.real(0.05, 6.2);
+        const bool is_clockwise = draw_.chance(0.5);
+        if (sweep < 2 * std::numbers::pi) {
+            to[a] = inside(a, x + radius * std::cos(angle + (is_clockwise ? -sweep : sweep)));
+            to[b] = inside(b, y + radius * std::sin(angle + (is_clockwise ? -sweep : sweep)));
+        }
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            if (i != a && i != b && draw_.chance(0.2)) { to[i] = inside(i, to[i] + draw_.real(-5, 5) * step_mm(i)); }
+        }
+        const double way = sweep * radius;
+        const double fastest = std::min(axis(a).max_velocity_mm_s, axis(b).max_velocity_mm_s);
+        const double feed = std::clamp(fastest * draw_.magnitude(0.05, 2), std::max(1e-3, way / 1.5), kMaxFeed_mm_s);
+        ProgramMove move{.target_mm = to, .feed_mm_s = feed, .arc = ArcShape{.first = a, .second = b}};
+        move.arc->centre_first_mm = x;
+        move.arc->centre_second_mm = y;
+        move.arc->is_clockwise = is_clockwise;
+        give_modes(move);
+        add(std::move(move));
+        seconds_ += way / std::min(feed, fastest);
+        at_ = to;
+    }
+
     /// Sharp corners, each a short distance from the previous one.
     void zigzag() {
         const double width = draw_.magnitude(1, 2000);
@@ -156,7 +229,7 @@ private:
         }
         const double slower = rapid ? 1 : draw_.magnitude(0.5, std::max(1.0, std::min(30.0, 1.5 / least_s)));
         const double feed = std::sqrt(square) / (least_s * slower);
-        add(LinearMove{to, rapid ? 0 : std::clamp(feed, 1e-3, kMaxFeed_mm_s), rapid});
+        add(ProgramMove{to, rapid ? 0 : std::clamp(feed, 1e-3, kMaxFeed_mm_s), rapid});
         seconds_ += least_s * slower;
         at_ = to;
     }
@@ -173,6 +246,9 @@ private:
     std::vector<double> at_;
     double seconds_ = 0;
     bool moved_ = false;
+    PathMode mode_ = PathMode::Blend;
+    double tolerance_mm_ = 0;
+    bool is_feed_fixed_ = false;
 };
 
 }  // namespace
@@ -181,6 +257,10 @@ Program draw_program(Draw& draw, const MachineConfig& machine) { return ProgramD
 
 Program with_dense_curve(Draw& draw, const MachineConfig& machine, Program program) {
     return ProgramDrawer(draw, machine, std::move(program)).with_dense_curve();
+}
+
+Program with_curves(Draw& draw, const MachineConfig& machine, Program program) {
+    return ProgramDrawer(draw, machine, std::move(program)).with_curves();
 }
 
 }  // namespace lockstep::simtest

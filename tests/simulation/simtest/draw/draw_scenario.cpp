@@ -51,8 +51,8 @@ WrongCommand wrong_when_idle(Draw& draw, const MachineConfig& machine) {
         case 2: return {CommandKind::Stop, {}, FaultCode::NothingToDo};
         case 3: return {CommandKind::Run, {}, FaultCode::UnknownProgram};
         case 4: program.axes = {"none"}; return {CommandKind::Run, program, FaultCode::BadProgram};
-        case 5: program.blocks = {{1, LinearMove{{axis.position_max_mm + 1.5 * step}, 0, true}}}; break;
-        case 6: program.blocks = {{1, LinearMove{{axis.position_min_mm - 1.5 * step}, 0, true}}}; break;
+        case 5: program.blocks = {{1, ProgramMove{{axis.position_max_mm + 1.5 * step}, 0, true}}}; break;
+        case 6: program.blocks = {{1, ProgramMove{{axis.position_min_mm - 1.5 * step}, 0, true}}}; break;
         default: return {CommandKind::Run, elsewhere(program, machine), FaultCode::StartMismatch};
     }
     return {CommandKind::Run, program, FaultCode::OutsideTravel};
@@ -122,6 +122,15 @@ void give_dense_curves(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x0de05ecc0de05eccU);
     for (Task& task : scenario.tasks) {
         if (draw.chance(0.5)) { task.program = with_dense_curve(draw, scenario.machine, std::move(task.program)); }
+    }
+}
+
+/// Arcs, path modes and events. The random numbers are separate, as for overrides.
+void give_curves(std::uint64_t seed, bool mixed, Scenario& scenario) {
+    Draw draw(seed ^ 0xc0e7ec0e7ec0e7e0U);
+    if (mixed && draw.chance(0.5)) { return; }
+    for (Task& task : scenario.tasks) {
+        if (draw.chance(0.7)) { task.program = with_curves(draw, scenario.machine, std::move(task.program)); }
     }
 }
 
@@ -268,6 +277,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
         scenario.resets_early = Draw(seed ^ 0x0ea717ea717ea717U).chance(0.3);
     }
     give_dense_curves(seed, scenario);
+    if (asked.curve) { give_curves(seed, asked.mixed, scenario); }
     if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
     return scenario;
 }

@@ -35,10 +35,13 @@ struct FaultKinds {
     bool limit = false;    // switches, slides, and the content of a device
     bool device = false;   // devices die, stop for a while, are overwritten
     bool stream = false;   // no fault: programs are sent while they run
+    bool curve = false;    // no fault: programs have arcs, path modes and events
 
     bool breaks_processes() const {
         return freeze || crash || partition || stall || clock || standby || limit || device;
     }
+    /// Without curves: with every fault at once, one run in some hundred finds moves of a few steps that no frame
+    /// carries.
     static constexpr FaultKinds all() {
         return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, true, true};
     }

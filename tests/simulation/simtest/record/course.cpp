@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lockstep::simtest {
 namespace {
 
 constexpr double kExactly = 0.5 + 0.04;  // steps: whole pulses, and what pieces of constant acceleration leave
+constexpr double kArc = 1.04;            // the same, and where its pieces are: up to half a step from it at a rest
 constexpr double kSharp = 0.9;           // cosine: at greater angles of the directions moves are not joined,
 constexpr double kLong_mm = 0.1;         // if both are so long
 
@@ -26,6 +28,7 @@ public:
           machine_(machine),
           most_feed_(most_feed),
           at_(from.begin(), from.end()),
+          programmed_mm_(program.start_mm),
           course_{.from = from} {}
 
     Course take() {
@@ -45,7 +48,69 @@ public:
     }
 
 private:
-    void add(const LinearMove& move) {
+    /// An arc as chords of a fiftieth of a step.
+    void add(const ProgramMove& move) {
+        if (!move.arc) {
+            add_line(move);
+            return end_of_move(move);
+        }
+        const std::size_t first = move.arc->first;
+        const std::size_t second = move.arc->second;
+        const std::vector<double> from = programmed_mm_;
+        const std::vector<double> off = off_mm();
+        const double x = from[first] - move.arc->centre_first_mm;
+        const double y = from[second] - move.arc->centre_second_mm;
+        const double to_x = move.target_mm[first] - move.arc->centre_first_mm;
+        const double to_y = move.target_mm[second] - move.arc->centre_second_mm;
+        const double sense = move.arc->is_clockwise ? -1 : 1;
+        double sweep = std::remainder(sense * (std::atan2(to_y, to_x) - std::atan2(y, x)), 2 * std::numbers::pi);
+        if (sweep < 1e-9) { sweep += 2 * std::numbers::pi; }
+        sweep += 2 * std::numbers::pi * (move.arc->turns - 1);
+        const double radius = std::hypot(x, y);
+        const double steps = std::max(scale_of(first), scale_of(second)) * std::max(radius, std::hypot(to_x, to_y));
+        const double chords = std::ceil(sweep / std::sqrt(8 * 0.02 / std::max(steps, 1.0)));
+        for (double k = 1; k < chords; ++k) {
+            ProgramMove chord = move;
+            const double share = k / chords;
+            for (std::size_t i = 0; i < from.size(); ++i) {
+                chord.target_mm[i] = from[i] + share * (move.target_mm[i] - from[i]);
+            }
+            const double r = radius + share * (std::hypot(to_x, to_y) - radius);
+            const double angle = std::atan2(y, x) + sense * share * sweep;
+            chord.target_mm[first] = move.arc->centre_first_mm + r * std::cos(angle);
+            chord.target_mm[second] = move.arc->centre_second_mm + r * std::sin(angle);
+            for (std::size_t i = 0; i < from.size(); ++i) { chord.target_mm[i] += off[i] * (1 - share); }
+            add_chord(chord);
+        }
+        add_chord(move);
+        end_of_move(move);
+    }
+    void add_chord(const ProgramMove& chord) {
+        const std::size_t before = course_.stretches.size();
+        add_line(chord);
+        if (course_.stretches.size() > before) { course_.stretches.back().is_arc = true; }
+    }
+    /// At the end of a move of G61.1 the machine rests.
+    void end_of_move(const ProgramMove& move) {
+        programmed_mm_ = move.target_mm;
+        if (move.mode == PathMode::ExactStop) { add(Dwell{}); }
+    }
+
+    double scale_of(std::size_t axis) const {
+        return std::ranges::find(machine_.axes, program_.axes[axis], &AxisConfig::name)->steps_per_mm;
+    }
+    /// How far the axes of the program are from its place: less than a step, where they rest on whole ones.
+    std::vector<double> off_mm() const {
+        std::vector<double> mm;
+        for (std::size_t i = 0; i < program_.axes.size(); ++i) {
+            const auto axis = std::ranges::find(machine_.axes, program_.axes[i], &AxisConfig::name);
+            const double at = at_[static_cast<std::size_t>(axis - machine_.axes.begin())] / axis->steps_per_mm;
+            mm.push_back(at - programmed_mm_[i]);
+        }
+        return mm;
+    }
+
+    void add_line(const ProgramMove& move) {
         Stretch stretch{.to = at_};
         for (std::size_t i = 0; i < program_.axes.size(); ++i) {
             for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
@@ -59,8 +124,16 @@ private:
         if (stretch.to == at_) { return; }
         feed_.push_back(move.rapid ? 0 : move.feed_mm_s);
         asked_.push_back(stretch.to);
+        stretch.is_exact = move.mode != PathMode::Blend;
+        stretch.tolerance = tolerance_of(move);
         at_ = stretch.to;
         course_.stretches.push_back(std::move(stretch));
+    }
+    /// Steps, of the axis for which it is the most.
+    double tolerance_of(const ProgramMove& move) const {
+        double steps = 1;
+        for (const AxisConfig& axis : machine_.axes) { steps = std::max(steps, move.tolerance_mm * axis.steps_per_mm); }
+        return steps;
     }
     void add(const Dwell& dwell) {
         come_to_rest();
@@ -68,6 +141,7 @@ private:
         feed_.push_back(0);
         asked_.push_back(at_);
     }
+    void add(const ProgramEvent&) {}
     void add(const Settle&) { add(Dwell{}); }
     void add(const Pause&) {
         come_to_rest();
@@ -104,8 +178,8 @@ private:
     }
     void mark_joined(std::size_t k) {
         Stretch& stretch = course_.stretches[k];
-        stretch.is_joined = !stretch.rests && !(is_sharp(k) && is_sharp(k + 1));
-        stretch.within = stretch.is_joined ? 1 : kExactly;
+        stretch.is_joined = !stretch.rests && !stretch.is_exact && !(is_sharp(k) && is_sharp(k + 1));
+        stretch.within = stretch.is_arc ? kArc : stretch.is_joined ? stretch.tolerance : kExactly;
     }
 
     /// An upper bound for a move from rest to rest. At a corner an axis keeps at least half its start velocity, or the
@@ -137,7 +211,7 @@ private:
                 double mm_s = axis.max_velocity_mm_s;
                 if (feed_[k] > 0) {
                     const double steps = std::abs(stretch.to[i] - from[i]) + (stretch.is_joined ? 1 : 0);
-                    const double share = std::min(1.0, steps / axis.steps_per_mm / length);
+                    const double share = stretch.is_arc ? 1 : std::min(1.0, steps / axis.steps_per_mm / length);
                     mm_s = std::min(mm_s, most_feed_ * feed_[k] * share);
                 }
                 stretch.fastest.push_back(mm_s * axis.steps_per_mm * static_cast<double>(machine_.tick_ns) * 1e-9);
@@ -149,6 +223,7 @@ private:
     const MachineConfig& machine_;
     double most_feed_;
     Places at_;
+    std::vector<double> programmed_mm_;  // where the last move leads to, of the program's axes
     Course course_;
     std::vector<double> feed_;   // of each stretch; 0: none
     std::vector<Places> asked_;  // where each stretch leads to by the program

@@ -20,6 +20,9 @@ struct Stretch {
     Places to;               // on whole steps where the machine rests
     Places fastest;          // speed of each axis, steps per tick: the limit, or the axis's part of the feed
     bool is_joined = false;  // with a move before or behind
+    bool is_exact = false;   // corners are kept
+    bool is_arc = false;     // a chord of one
+    double tolerance = 1;    // steps, where it is joined
     double within = 0;       // steps: how far an axis may be from it, whole pulses included
     double seconds = 0;      // of a dwell
     bool rests = false;      // a dwell or pause
