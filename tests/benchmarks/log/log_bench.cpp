@@ -41,7 +41,7 @@ Program there_and_back() {
     Program program{.name = "bench", .axes = {"X", "Y", "Z"}, .start_mm = {5, 5, 5}};
     for (int i = 0; i < kCrossings; ++i) {
         const double to = i % 2 == 0 ? 105 : 5;
-        program.blocks.push_back({i + 1, LinearMove{{to, to * 0.9, to * 0.7}, 150, false}});
+        program.blocks.push_back({i + 1, ProgramMove{{to, to * 0.9, to * 0.7}, 150, false}});
     }
     return program;
 }

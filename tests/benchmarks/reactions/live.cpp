@@ -38,7 +38,7 @@ public:
         const auto program = session_.send({.name = "line",
                                             .axes = {axis.name},
                                             .start_mm = {here},
-                                            .blocks = {{1, LinearMove{{to}, own ? 0 : kSpeed_mm_s, own}}}});
+                                            .blocks = {{1, ProgramMove{{to}, own ? 0 : kSpeed_mm_s, own}}}});
         return program && does({.kind = kind, .program = *program}) && until([&] { return is_steady(); });
     }
     bool does(const Command& command) {

@@ -73,7 +73,7 @@ public:
 private:
     void give(CommandKind kind, double feed_mm_s) {
         const AxisConfig& axis = vm_.machine().axes[0];
-        const LinearMove line{{axis.position_max_mm - 5}, feed_mm_s, feed_mm_s == 0};
+        const ProgramMove line{{axis.position_max_mm - 5}, feed_mm_s, feed_mm_s == 0};
         vm_.give_program(
             1, {.name = "line", .axes = {axis.name}, .start_mm = {axis.homing.park_mm}, .blocks = {{1, line}}});
         (void)vm_.command(kind, 0, 1);

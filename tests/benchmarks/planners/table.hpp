@@ -1,0 +1,41 @@
+// The comparison as the tables of a document.
+#pragma once
+
+#include <array>
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "tests/benchmarks/planners/programs.hpp"
+#include "tests/benchmarks/planners/speed_changes.hpp"
+
+namespace lockstep::planners {
+
+/// Klipper with and without its minimum_cruise_ratio, grbl with its buffer and with all blocks known.
+enum class Other : std::size_t { Klipper, KlipperWithoutCruise, Grbl, GrblAllKnown };
+inline constexpr std::size_t kOthers = 4;
+
+/// Seconds, and what was measured on the samples.
+struct Result {
+    double seconds = 0;
+    ChangeShares changes{};
+};
+
+struct Row {
+    std::string name;
+    std::size_t moves = 0;
+    Result lockstep;
+    std::array<Result, kOthers> others;
+};
+
+/// Error: our planner refuses the program.
+std::expected<Row, std::string> compare(const MachineConfig& machine, const NamedProgram& named);
+
+/// Both tables, with the limits that the others were given.
+std::string tables_text(const std::vector<Row>& rows, const Limits& limits);
+
+/// How long planning takes: a table of nanoseconds per move of the G-code, of the host that runs this.
+std::expected<std::string, std::string> costs_text(const MachineConfig& machine,
+                                                   const std::vector<NamedProgram>& programs);
+
+}  // namespace lockstep::planners
