@@ -28,6 +28,7 @@ public:
         pass(message);
         check_.on_job(message, place);
     }
+    void on_event(const program_event_t& message, LogPlace /*place*/) override { pass(message); }
     void on_run(const run_t& message, LogPlace place) override {
         pass(message);
         check_.on_run(message, place);

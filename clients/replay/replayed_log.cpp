@@ -60,6 +60,8 @@ void ReplayedLog::take(const axis_health_t& message) {
 
 void ReplayedLog::take(const job_t& message) { sink_.publish(job_channel(message.machine), message); }
 
+void ReplayedLog::take(const program_event_t& message) { sink_.publish(event_channel(message.machine), message); }
+
 void ReplayedLog::finish() {
     for (auto& [name, steps] : axes_) { steps.finish(); }
 }

@@ -78,7 +78,7 @@ std::expected<Program, std::string> move_program(const MachineConfig& machine, c
                                                  const MoveOptions& options) {
     if (auto checked = check_feed(options); !checked) { return std::unexpected(checked.error()); }
     if (auto checked = check_own(machine, options); !checked) { return std::unexpected(checked.error()); }
-    LinearMove move{
+    ProgramMove move{
         .target_mm = start_mm, .feed_mm_s = options.feed_mm_min.value_or(0) / 60, .rapid = !options.feed_mm_min};
     std::vector<bool> is_named(machine.axes.size());
     for (const std::string& word : options.targets) {

@@ -20,7 +20,7 @@ std::expected<Program, Diagnostics> ProgramStream::skip_before(int line) {
     std::optional<Block> last;
     while (line_ + 1 < line && read_line() == Reading::Goes) {
         for (Block& block : blocks_) {
-            const auto* move = std::get_if<LinearMove>(&block.action);
+            const auto* move = std::get_if<ProgramMove>(&block.action);
             if (move != nullptr && !move->rapid) { feed = block; }
             if (move != nullptr) { last = std::move(block); }
         }

@@ -40,6 +40,7 @@ void fill(proto::StatusReport& report, const MachineState& state, const MachineC
         report.set_line(state.line);
     }
     if (state.lease) { *report.mutable_writer() = writer_report(state, machine); }
+    if (auto devices = devices_report(state.devices)) { *report.mutable_devices() = *std::move(devices); }
     if (!is_in_motion(state.phase)) { return; }
     report.set_waits_for_program(state.lacks_blocks);
     if (state.line > 0) { report.set_line(state.line); }
@@ -66,6 +67,23 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
     const auto fault = static_cast<FaultCode>(state.fault);
     const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
     return fault_report(fault, has_axis ? machine.axes[state.fault_axis].name : "");
+}
+
+std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices) {
+    if (devices == ProgramDevices{}) { return std::nullopt; }
+    using Spindle = ProgramDevices::Spindle;
+    proto::DevicesReport report;
+    if (devices.spindle != Spindle::Stopped) {
+        report.mutable_spindle()->set_direction(devices.spindle == Spindle::Forward ? "forward" : "reverse");
+        report.mutable_spindle()->set_rpm(devices.spindle_rpm);
+    }
+    report.set_mist(devices.mist);
+    report.set_flood(devices.flood);
+    if (devices.tool != 0) { report.set_tool(devices.tool); }
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        if ((devices.outputs >> i & 1) != 0) { report.add_outputs(i); }
+    }
+    return report;
 }
 
 std::string fault_text(const proto::FaultReport& fault, std::size_t width) {

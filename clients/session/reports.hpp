@@ -8,6 +8,7 @@
 
 #include "clients/session/session.hpp"
 #include "core/faults.hpp"
+#include "core/program_devices.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {
@@ -20,6 +21,9 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
 
 /// "axis X: limit-hit (103): a limit switch closed", then the remedy on its own line; within `width` columns.
 std::string fault_text(const proto::FaultReport& fault, std::size_t width = 80);
+
+/// What programs have switched; nothing while all is off and no tool is known.
+std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices);
 
 /// The newest state of an axis; for an axis that was never received, only its name.
 proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present);

@@ -121,6 +121,9 @@ std::string status_text(const proto::StatusReport& status) {
     std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
+    if (const std::string on = devices_text(status); !on.empty()) {
+        text += wrapped("devices: " + on, 80, "  ") + "\n";
+    }
     text += writer_line(status);
     text += clock_line(status) + unproved_lines(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
@@ -149,6 +152,21 @@ std::string overrides_text(const proto::StatusReport& status) {
     if (!status.has_feed_override_percent() || as_programmed) { return ""; }
     return "feed " + std::to_string(status.feed_override_percent()) + " %, rapid " +
            std::to_string(status.rapid_override_percent()) + " %";
+}
+
+std::string devices_text(const proto::StatusReport& status) {
+    const proto::DevicesReport& devices = status.devices();
+    std::string text;
+    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+    if (devices.has_spindle()) {
+        add("spindle " + devices.spindle().direction() + " " + fixed(devices.spindle().rpm(), 0) + " rpm");
+    }
+    if (devices.mist()) { add("mist"); }
+    if (devices.flood()) { add("flood"); }
+    if (devices.has_tool()) { add("tool " + std::to_string(devices.tool())); }
+    if (devices.outputs_size() > 0) { add(devices.outputs_size() == 1 ? "output" : "outputs"); }
+    for (const std::uint32_t output : devices.outputs()) { text += " " + std::to_string(output); }
+    return text;
 }
 
 std::string progress_bar(const proto::StatusReport& status) {

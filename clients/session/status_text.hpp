@@ -16,6 +16,8 @@ std::string age_text(const proto::StatusReport& status);
 std::string writer_text(const proto::StatusReport& status);
 /// "feed 60 %, rapid 100 %"; empty if all is as programmed.
 std::string overrides_text(const proto::StatusReport& status);
+/// "spindle forward 12000 rpm, flood, tool 3, outputs 0 2"; empty if the status has no devices.
+std::string devices_text(const proto::StatusReport& status);
 /// One line: "[######              ]  30 %  line 12  4.2 s left".
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".

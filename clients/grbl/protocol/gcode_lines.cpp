@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <variant>
 
+#include "clients/grbl/protocol/number.hpp"
+#include "core/arc_path.hpp"
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/program_builder.hpp"
 #include "services/documents/program_file.hpp"
@@ -27,15 +29,17 @@ gcode::Point park_of(const MachineConfig& machine) {
     return park;
 }
 
-/// Nothing to run, and nothing that a machine without a spindle could miss.
+bool comes_to_rest(const Block& block) {
+    const auto* move = std::get_if<ProgramMove>(&block.action);
+    if (move != nullptr) { return move->mode == PathMode::ExactStop; }
+    return !std::holds_alternative<ProgramEvent>(block.action);
+}
+
+/// Nothing to run, and no event.
 bool is_without_effect(const gcode::Action& action) {
     const auto* event = std::get_if<gcode::Event>(&action);
     if (event == nullptr) { return false; }
     switch (event->kind) {
-        case gcode::EventKind::End:
-        case gcode::EventKind::SpindleSpeed:
-        case gcode::EventKind::SpindleStop:
-        case gcode::EventKind::CoolantOff:
         case gcode::EventKind::PathMode:
         case gcode::EventKind::ToolSelect: return true;
         default: return false;
@@ -62,10 +66,18 @@ std::string system_text(std::size_t system) {
     return system < 6 ? "G" + std::to_string(54 + system) : "G59." + std::to_string(system - 5);
 }
 
-std::string number(double value) {
-    char text[400];
-    std::snprintf(text, sizeof text, "%.0f", value);
-    return text;
+std::string spindle_text(gcode::Turning spindle) {
+    switch (spindle) {
+        case gcode::Turning::Forward: return " M3";
+        case gcode::Turning::Reverse: return " M4";
+        case gcode::Turning::Stopped: break;
+    }
+    return " M5";
+}
+
+std::string coolant_text(const gcode::Modal& modal) {
+    if (!modal.mist && !modal.flood) { return " M9"; }
+    return std::string(modal.mist ? " M7" : "") + (modal.flood ? " M8" : "");
 }
 
 }  // namespace
@@ -79,12 +91,24 @@ void GcodeLines::reset() {
     modal_ = {};
     modal_.motion = 0;  // grbl begins with G0
     tool_offset_ = {};
+    selected_tool_ = tool_ = 0;
 }
 
+/// The end of a program leaves the tools.
 void GcodeLines::commit(const LineEffect& effect) {
-    if (effect.ends_program) { return reset(); }
+    reset();
+    selected_tool_ = effect.selected_tool;
+    tool_ = effect.tool;
+    if (effect.ends_program) { return; }
     modal_ = effect.modal;
     tool_offset_ = effect.tool_offset;
+}
+
+bool GcodeLines::switch_off() {
+    const bool was_on = modal_.spindle != gcode::Turning::Stopped || modal_.mist || modal_.flood;
+    modal_.spindle = gcode::Turning::Stopped;
+    modal_.mist = modal_.flood = false;
+    return was_on;
 }
 
 gcode::State GcodeLines::state_at(const std::vector<double>& place_mm, const gcode::KeptValues& values) const {
@@ -97,6 +121,8 @@ gcode::State GcodeLines::state_at(const std::vector<double>& place_mm, const gco
     gcode::begin(state);
     state.offsets.tool = tool_offset_;
     gcode::begin_system(state, modal_.system);
+    state.selected_tool = selected_tool_;
+    state.tool = tool_;
     return state;
 }
 
@@ -108,6 +134,7 @@ std::expected<LineEffect, Refused> GcodeLines::read(std::string_view line, const
     for (std::size_t i = 0; i < setup.axes.size() && i < place_mm.size(); ++i) { setup.axes[i].start_mm = place_mm[i]; }
     gcode::ProgramBuilder builder(setup);
     LineEffect effect;
+    builder.begin(before.modal);
     gcode::Interpreter* reading = nullptr;
     const auto take = [&](const gcode::Action& action, int) {
         const auto* event = std::get_if<gcode::Event>(&action);
@@ -129,13 +156,15 @@ std::expected<LineEffect, Refused> GcodeLines::read(std::string_view line, const
     }
     effect.modal = after.modal;
     effect.tool_offset = after.offsets.tool;
+    effect.selected_tool = after.selected_tool;
+    effect.tool = after.tool;
     effect.sender_line = sender_line_of(line);
     effect.blocks = builder.take_blocks();
     for (GcodeNote& note : builder.take_notes()) { effect.notes.push_back(std::move(note.text)); }
     effect.place_mm = place_mm;
     for (const Block& block : effect.blocks) {
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) { effect.place_mm = move->target_mm; }
-        effect.rests_behind = effect.rests_behind || !std::holds_alternative<LinearMove>(block.action);
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) { effect.place_mm = move->target_mm; }
+        effect.rests_behind = effect.rests_behind || comes_to_rest(block);
     }
     effect.seconds = seconds_of(effect.blocks, place_mm);
     const gcode::KeptValues left = gcode::kept_values(after, park_of(machine_));
@@ -154,16 +183,14 @@ double GcodeLines::seconds_of(const std::vector<Block>& blocks, const std::vecto
     std::vector<double> at = from_mm;
     for (const Block& block : blocks) {
         if (const auto* dwell = std::get_if<Dwell>(&block.action)) { seconds += dwell->seconds; }
-        const auto* move = std::get_if<LinearMove>(&block.action);
+        const auto* move = std::get_if<ProgramMove>(&block.action);
         if (move == nullptr) { continue; }
-        double squares = 0;
         double least = 0;
         for (std::size_t i = 0; i < at.size(); ++i) {
             const double way = std::abs(move->target_mm[i] - at[i]);
-            squares += way * way;
             least = std::max(least, way / machine_.axes[i].max_velocity_mm_s);
         }
-        seconds += move->rapid ? least : std::max(least, std::sqrt(squares) / move->feed_mm_s);
+        seconds += move->rapid ? least : std::max(least, length_mm(*move, at) / move->feed_mm_s);
         at = move->target_mm;
     }
     return seconds;
@@ -175,7 +202,8 @@ std::string GcodeLines::modes_text() const {
     return motion_text(modal_.motion) + " " + system_text(modal_.system) + " " +
            kPlanes[static_cast<std::size_t>(modal_.plane)] + (modal_.inches ? " G20" : " G21") +
            (modal_.relative ? " G91" : " G90") + (modal_.feed_mode == gcode::FeedMode::InverseTime ? " G93" : " G94") +
-           " M5 M9 T0 F" + number(feed) + " S" + number(modal_.spindle_speed);
+           spindle_text(modal_.spindle) + coolant_text(modal_) + " T" + std::to_string(selected_tool_) + " F" +
+           number(feed, 0) + " S" + number(modal_.spindle_speed, 0);
 }
 
 std::vector<double> GcodeLines::offset_mm(const gcode::KeptValues& values) const {

@@ -32,6 +32,8 @@ struct LineEffect {
     // For GcodeLines alone:
     gcode::Modal modal;
     gcode::Point tool_offset{};
+    int selected_tool = 0;
+    int tool = 0;
 };
 
 class GcodeLines {
@@ -45,6 +47,9 @@ public:
                                             const gcode::KeptValues& values) const;
     /// The line is done: the modes are as it leaves them.
     void commit(const LineEffect& effect);
+
+    /// Spindle and coolant are off from now on. Returns whether lines had switched one of them on.
+    bool switch_off();
 
     /// "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0".
     std::string modes_text() const;
@@ -63,6 +68,8 @@ private:
     GcodeSetup setup_;
     gcode::Modal modal_;
     gcode::Point tool_offset_{};
+    int selected_tool_ = 0;
+    int tool_ = 0;  // in the spindle
 };
 
 }  // namespace lockstep::grbl

@@ -64,6 +64,7 @@ void Grbl::see(const MachineView& view) {
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) { say_message(std::string(text->name) + ": " + std::string(text->cause)); }
         modes_.is_unlocked = false;
+        (void)lines_.switch_off();  // the machine has done so
     }
     advance();
 }
@@ -140,6 +141,7 @@ void Grbl::soft_reset() {
         before == State::Run || before == State::Hold || before == State::HoldEnding || before == State::Home;
     if (moves) { stop(); }
     modes_ = {.is_unlocked = modes_.is_unlocked};
+    is_to_switch_off_ = lines_.switch_off() || is_to_switch_off_;
     lines_.reset();
     waits_for_.reset();
     waits_for_line_ = false;
@@ -158,6 +160,7 @@ void Grbl::stop() {
 }
 
 void Grbl::advance() {
+    switch_off();
     while (!waits_for_) {
         if (next_jog_ && has_jog_) { return; }
         if (next_line_ && (view_.lines > 0 || !is_settled())) { return; }

@@ -54,6 +54,7 @@ private:
     void refuse_gcode(const Refused& refused);
     bool is_settled() const;
     std::vector<double> place_mm() const;
+    void switch_off();
     void raise_alarm(int number, const std::string& why);
     void do_jog(std::string_view text);
     void do_home(std::string_view axis);
@@ -91,6 +92,7 @@ private:
     bool waits_for_line_ = false;             // that is to be run
     std::string before_ok_;                   // what comes before the ok then
     bool has_jog_ = false;
+    bool is_to_switch_off_ = false;          // spindle and coolant, when the machine rests
     std::optional<ReceivedLine> next_jog_;   // waits for the end of the one before
     std::optional<ReceivedLine> next_line_;  // waits until the machine has run those before it
     std::vector<double> planned_mm_;         // where the accepted lines lead, while there are any, and in check mode

@@ -78,13 +78,34 @@ void Grbl::do_effect(LineEffect&& effect, bool is_check) {
 void Grbl::refuse_gcode(const Refused& refused) {
     if (refused.error == Error::TravelExceeded && !modes_.is_checking) {
         if (view_.lines > 0) { stop(); }
+        is_to_switch_off_ = lines_.switch_off() || is_to_switch_off_;
         raise_alarm(kTravelAlarm, refused.text);
         return refuse(refused.error);
     }
     refuse(refused.error, refused.text);
 }
 
+/// A job that is stopped switches spindle and coolant off. What lines before it have left on is switched off here, as
+/// grbl does at a reset.
+void Grbl::switch_off() {
+    const bool is_free = !waits_for_ && view_.lines == 0 && view_.phase == MachinePhase::Idle && is_settled();
+    if (!is_to_switch_off_ || !view_.is_received || !is_free) { return; }
+    is_to_switch_off_ = false;
+    const ProgramDevices& devices = view_.devices;
+    LineToRun line{.from_mm = place_mm()};
+    if (devices.spindle != ProgramDevices::Spindle::Stopped) {
+        line.blocks.push_back({.action = ProgramEvent{.kind = ProgramEvent::Kind::SpindleStop}});
+    }
+    if (devices.mist || devices.flood) {
+        line.blocks.push_back({.action = ProgramEvent{.kind = ProgramEvent::Kind::CoolantOff}});
+    }
+    if (line.blocks.empty()) { return; }
+    ask(Request::Kind::RunLine).line = std::move(line);
+    ++view_.lines;
+}
+
 void Grbl::abort(const std::string& why) {
+    (void)lines_.switch_off();
     raise_alarm(kAbortAlarm, why);
     advance();
 }

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
+#include "clients/grbl/protocol/number.hpp"
+
 namespace lockstep::grbl {
 namespace {
-
-constexpr double kInch_mm = 25.4;
 
 using Refusal = std::unexpected<Refused>;
 

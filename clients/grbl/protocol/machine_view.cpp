@@ -12,6 +12,7 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state,
     view.fault = static_cast<FaultCode>(state.fault);
     view.line = state.line;
     view.overrides = state.overrides;
+    view.devices = state.devices;
     double squares = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& config = machine.axes[i];

@@ -9,6 +9,7 @@
 #include "core/gcode/kept_values.hpp"
 #include "core/machine.hpp"
 #include "core/overrides.hpp"
+#include "core/program_devices.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep::grbl {
@@ -28,6 +29,7 @@ struct MachineView {
     double feed_mm_min = 0;       // of the axes together, now
     std::int32_t line = 0;        // of the program in motion, or the N word of the sender's line; 0: none
     Overrides overrides;
+    ProgramDevices devices;
     gcode::KeptValues values;
     // Of the sender's lines that were accepted:
     std::size_t lines = 0;     // not run yet

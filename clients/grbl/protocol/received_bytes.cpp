@@ -5,13 +5,13 @@
 namespace lockstep::grbl {
 namespace {
 
-constexpr unsigned char kSoftReset = 0x18;
+constexpr unsigned char kResetByte = 0x18;
 
 }  // namespace
 
 /// All bytes above ASCII are: text has none of them.
 bool is_real_time(unsigned char byte) {
-    return byte == '?' || byte == '!' || byte == '~' || byte == kSoftReset || byte >= 0x80;
+    return byte == '?' || byte == '!' || byte == '~' || byte == kResetByte || byte >= 0x80;
 }
 
 std::vector<unsigned char> ReceivedBytes::take(std::string_view bytes) {
@@ -19,7 +19,7 @@ std::vector<unsigned char> ReceivedBytes::take(std::string_view bytes) {
     for (const char c : bytes) {
         const auto byte = static_cast<unsigned char>(c);
         if (is_real_time(byte)) {
-            if (byte == kSoftReset) { clear(); }
+            if (byte == kResetByte) { clear(); }
             real_time.push_back(byte);
             continue;
         }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "clients/grbl/protocol/number.hpp"
+
 namespace lockstep::grbl {
 namespace {
 
@@ -32,12 +34,6 @@ constexpr std::array<AxisKey, 6> kAxisKeys{{
     {110, false, "max_velocity_mm_s", 60, [](const AxisConfig& axis) { return axis.max_velocity_mm_s; }},
     {120, false, "max_accel_mm_s2", 1, [](const AxisConfig& axis) { return axis.max_accel_mm_s2; }},
 }};
-
-std::string number(double value, int digits = 3) {
-    char text[400];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
 
 std::size_t axes_of(const MachineConfig& machine) { return std::min(machine.axes.size(), kMostAxes); }
 
@@ -120,11 +116,12 @@ std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptio
     };
     for (const AxisKey& key : kAxisKeys) {
         for (std::size_t i = 0; i < (key.is_of_all ? 1 : axes_of(machine)); ++i) {
-            settings.push_back({key.first + static_cast<int>(i), number(key.value(machine.axes[i]) * key.factor), ""});
+            settings.push_back(
+                {key.first + static_cast<int>(i), number(key.value(machine.axes[i]) * key.factor, 3), ""});
         }
     }
     for (std::size_t i = 0; i < axes_of(machine); ++i) {
-        settings.push_back({kTravel + static_cast<int>(i), number(travel_of(machine.axes[i])), ""});
+        settings.push_back({kTravel + static_cast<int>(i), number(travel_of(machine.axes[i]), 3), ""});
     }
     std::ranges::sort(settings, {}, &Setting::number);
     return settings;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "clients/grbl/protocol/number.hpp"
 #include "clients/grbl/protocol/request.hpp"
 
 namespace lockstep::grbl {
 namespace {
 
-constexpr double kInch_mm = 25.4;
 constexpr int kEvery = 30;  // WCO comes in one of so many reports at rest
 constexpr int kEveryMoving = 10;
 
@@ -41,13 +41,17 @@ State state_of(MachinePhase phase) {
     }
 }
 
-std::string number(double value, int digits) {
-    char text[400];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
-
 bool is_at_rest(State state) { return state == State::Idle || state == State::Alarm || state == State::Hold; }
+
+/// The letters of the field A; empty while all is off.
+std::string accessories_of(const ProgramDevices& devices) {
+    std::string letters;
+    if (devices.spindle == ProgramDevices::Spindle::Forward) { letters += 'S'; }
+    if (devices.spindle == ProgramDevices::Spindle::Reverse) { letters += 'C'; }
+    if (devices.flood) { letters += 'F'; }
+    if (devices.mist) { letters += 'M'; }
+    return letters;
+}
 
 }  // namespace
 
@@ -85,10 +89,12 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
             "|Bf:" + std::to_string(kPlannerLines - std::min(kPlannerLines, view.lines)) + "," + std::to_string(room);
     }
     if (view.line > 0 && state == State::Run) { text += "|Ln:" + std::to_string(view.line); }
-    text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + ",0";
+    text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + "," +
+            number(view.devices.spindle_rpm, 0);
+    const std::string accessories = accessories_of(view.devices);
     if (offset_mm != offset_mm_) { offsets_due_ = 0; }
     if (view.overrides.feed_percent != overrides_.feed_percent ||
-        view.overrides.rapid_percent != overrides_.rapid_percent) {
+        view.overrides.rapid_percent != overrides_.rapid_percent || accessories != accessories_) {
         overrides_due_ = 0;
     }
     const int every = is_at_rest(state) ? kEvery : kEveryMoving;
@@ -100,8 +106,10 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     } else if (overrides_due_-- <= 0) {
         overrides_due_ = every - 1;
         overrides_ = view.overrides;
+        accessories_ = accessories;
         text += "|Ov:" + std::to_string(view.overrides.feed_percent) + "," +
                 std::to_string(view.overrides.rapid_percent) + ",100";
+        if (!accessories.empty()) { text += "|A:" + accessories; }  // without it, after Ov, all is off
     }
     return text + ">";
 }

@@ -37,6 +37,7 @@ private:
     int overrides_due_ = 0;
     std::vector<double> offset_mm_;
     Overrides overrides_;
+    std::string accessories_;
 };
 
 /// "1.000,-2.500": of each axis, three digits after the point, four where inches.

@@ -78,7 +78,7 @@ std::vector<double> place_before(const Program& program, std::int32_t line) {
     Point place = program.start_mm;
     for (const Block& block : program.blocks) {
         if (block.line >= line) { break; }
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) { place = move->target_mm; }
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) { place = move->target_mm; }
     }
     return place;
 }
@@ -87,7 +87,7 @@ double feed_before(const Program& program, std::int32_t line) {
     double feed_mm_s = 0;
     for (const Block& block : program.blocks) {
         if (block.line >= line && feed_mm_s > 0) { break; }
-        const auto* move = std::get_if<LinearMove>(&block.action);
+        const auto* move = std::get_if<ProgramMove>(&block.action);
         if (move != nullptr && !move->rapid) { feed_mm_s = move->feed_mm_s; }
     }
     return feed_mm_s;

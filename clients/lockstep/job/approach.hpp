@@ -30,7 +30,7 @@ double feed_before(const Program& program, std::int32_t line);
 
 struct ApproachMove {
     std::string what;  // "lifts", "crosses", "goes down", "goes straight"
-    LinearMove move;
+    ProgramMove move;
     double length_mm = 0;
 };
 

@@ -97,6 +97,12 @@ std::string conditions_row(const proto::StatusReport& status, Ink ink) {
     return painted(writer.empty() ? overrides : spread(overrides, "writer: " + writer), kWarning, ink);
 }
 
+/// Nothing while all is off.
+std::string devices_row(const proto::StatusReport& status, Ink ink) {
+    const std::string devices = devices_text(status);
+    return devices.empty() ? "" : painted(cut(devices, kColumns), kWarning, ink) + "\n";
+}
+
 }  // namespace
 
 SlackScale slack_scale(const ProtocolTiming& timing) {
@@ -109,7 +115,7 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
     const std::string job = status.has_job() ? ", job " + std::to_string(status.job()) : "";
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
     std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" + conditions_row(status, ink) +
-                       "\n" + painted(title_row(), kFaint, ink) + "\n";
+                       "\n" + devices_row(status, ink) + painted(title_row(), kFaint, ink) + "\n";
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis, scale, ink) + "\n"; }
     const auto alarms = alarms_of(status, scale);
     text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");
@@ -125,6 +131,7 @@ std::string watch_line(const proto::StatusReport& status, const SlackScale& scal
         const auto& health = axis.health();
         if (health.has_setpoint_slack_ms()) { text += " slack " + fixed(health.setpoint_slack_ms().min(), 0) + " ms"; }
     }
+    if (status.has_devices()) { text += "; " + devices_text(status); }
     if (status.has_writer()) { text += "; writer " + writer_text(status); }
     for (const std::string& alarm : alarms_of(status, scale)) { text += "; " + alarm; }
     return text;

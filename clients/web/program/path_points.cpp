@@ -5,9 +5,12 @@
 #include <bit>
 #include <optional>
 
+#include "core/arc_path.hpp"
+
 namespace lockstep::web {
 namespace {
 
+constexpr double kChord_mm = 0.01;  // a chord is drawn so far from its arc at most
 constexpr double kFirstTolerance_mm = 0.001;
 constexpr std::size_t kMostLeftOut = 64;  // between two kept points, in one pass
 constexpr int kMostPasses = 60;
@@ -72,11 +75,15 @@ std::vector<PathPoint> path_points(const Program& program) {
     };
     std::vector<PathPoint> points{point(program.start_mm, 0, true)};
     points.reserve(program.blocks.size() + 1);
+    std::vector<double> at = program.start_mm;
     for (const Block& block : program.blocks) {
-        const auto* move = std::get_if<LinearMove>(&block.action);
+        const auto* move = std::get_if<ProgramMove>(&block.action);
         if (move == nullptr) { continue; }
-        const PathPoint next = point(move->target_mm, block.line, move->rapid);
-        if (place_of(next) != place_of(points.back())) { points.push_back(next); }
+        each_chord(*move, at, kChord_mm, [&](const std::vector<double>& to) {
+            const PathPoint next = point(to, block.line, move->rapid);
+            if (place_of(next) != place_of(points.back())) { points.push_back(next); }
+        });
+        at = move->target_mm;
     }
     return points;
 }

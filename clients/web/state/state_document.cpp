@@ -4,6 +4,7 @@
 
 #include "clients/web/state/alarm_list.hpp"
 #include "clients/web/state/axis_document.hpp"
+#include "clients/web/state/devices_document.hpp"
 #include "clients/web/state/writer_document.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/system_names.hpp"
@@ -147,7 +148,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"axes", axes_document(snapshot, machine)},
             {"offsets", offsets_json(snapshot, machine)},
             {"tools", tools_json(snapshot, machine)},
-            {"outputs", json::object()},
+            {"devices", snapshot.machine ? devices_document(snapshot.machine->value.devices) : json()},
             {"writer", snapshot.writer ? writer_json(*snapshot.writer) : json()},
             {"viewers", viewers}};
 }

@@ -223,6 +223,20 @@ describe("what is old", () => {
   });
 });
 
+describe("devices", () => {
+  test("are shown while something is on, and not while all is off", async () => {
+    const page = await enter();
+    await page.locator('.axis[data-fresh="live"]').first().waitFor();
+    assert.equal(await page.locator(".devices:visible").count(), 0);
+    const off = machine.state.devices;
+    machine.state.devices = { spindle: { direction: "forward", rpm: 12000 }, mist: false, flood: true, tool: 3, outputs: [2] };
+    await page.locator(".devices .chip", { hasText: "Output 2" }).waitFor();
+    assert.deepEqual(await page.locator(".devices .chip").allTextContents(), ["Spindle forward 12000 rpm", "Flood", "Tool 3", "Output 2"]);
+    machine.state.devices = off;
+    await page.locator(".devices").waitFor({ state: "hidden" });
+  });
+});
+
 describe("settings", () => {
   test("overrides, work offsets and tools go to the machine and come back", async () => {
     const page = await enter();

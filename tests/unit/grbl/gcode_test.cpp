@@ -25,7 +25,7 @@ TEST_F(Sender, HasEachLineThatMovesBeginWhereTheOneBeforeEnds) {
     ASSERT_THAT(asked(), ElementsAre(Kind::RunLine));
     EXPECT_EQ(requests[0].line.from_mm, (std::vector<double>{10, 20, 30}));
     ASSERT_EQ(requests[0].line.blocks.size(), 1u);
-    const auto& move = std::get<LinearMove>(requests[0].line.blocks[0].action);
+    const auto& move = std::get<ProgramMove>(requests[0].line.blocks[0].action);
     EXPECT_EQ(move.target_mm, (std::vector<double>{12, 20, 30}));
     EXPECT_DOUBLE_EQ(move.feed_mm_s, 2);
     EXPECT_DOUBLE_EQ(requests[0].line.seconds, 1);
@@ -38,7 +38,8 @@ TEST_F(Sender, HasEachLineThatMovesBeginWhereTheOneBeforeEnds) {
     grbl.answer(requests[0].number, {.is_done = true});
     ASSERT_THAT(asked(), ElementsAre(Kind::RunLine));
     EXPECT_EQ(requests[0].line.from_mm, (std::vector<double>{15, 20, 30}));
-    EXPECT_GT(requests[0].line.blocks.size(), 10u) << "an arc is cut into chords";
+    ASSERT_EQ(requests[0].line.blocks.size(), 1u);
+    EXPECT_TRUE(std::get<ProgramMove>(requests[0].line.blocks[0].action).arc) << "an arc is one move";
 }
 
 TEST_F(Sender, IsRefusedALineByTheCoordinator) {
@@ -103,7 +104,7 @@ TEST_F(Sender, HasOffsetsSetWhenTheLinesBeforeWereRun) {
     grbl.answer(requests[0].number, {.is_done = true});
     EXPECT_THAT(lines(), ElementsAre("ok"));
     ASSERT_THAT(asked(), ElementsAre(Kind::RunLine));
-    EXPECT_EQ(std::get<LinearMove>(requests[0].line.blocks[0].action).target_mm[0], 13);
+    EXPECT_EQ(std::get<ProgramMove>(requests[0].line.blocks[0].action).target_mm[0], 13);
 }
 
 TEST_F(Sender, HasADwellAndAPauseAnsweredWhenTheyWereRun) {

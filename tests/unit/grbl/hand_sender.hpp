@@ -56,6 +56,24 @@ protected:
         return found.empty() ? "" : found.back();
     }
 
+    /// The machine's file lets the words for devices pass.
+    void assign_devices() {
+        MachineConfig machine = mill();
+        machine.unassigned = {
+            .spindle = WordRule::Ignore, .outputs = WordRule::Ignore, .tool_change = ToolChange::GoOn};
+        grbl = Grbl(machine, "1.0");
+        grbl.see(view);
+    }
+    /// A line is run, and the machine rests.
+    void run(const std::string& line) {
+        (void)send(line + "\n");
+        for (const Kind kind : asked()) {
+            if (kind == Kind::RunLine) { grbl.answer(requests.back().number, {.is_done = true}); }
+        }
+        grbl.see(view);
+        (void)lines();
+    }
+
     MachineView view;
     Grbl grbl{mill(), "1.0"};
     std::vector<Request> requests;

@@ -76,6 +76,17 @@ no alarms
 )");
 }
 
+TEST(Watch, ShowsWhatProgramsHaveSwitchedOn) {
+    proto::StatusReport status = cutting();
+    *status.mutable_devices() =
+        devices_report({.spindle = ProgramDevices::Spindle::Reverse, .spindle_rpm = 900, .mist = true}).value();
+    EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("\nspindle reverse 900 rpm, mist\naxis "));
+    EXPECT_THAT(watch_line(status, kScale), HasSubstr("; spindle reverse 900 rpm, mist"));
+    *status.mutable_devices() = devices_report({.outputs = ~0ull}).value();
+    std::istringstream lines(watch_text(status, kScale, Ink::Plain));
+    for (std::string line; std::getline(lines, line);) { EXPECT_LE(line.size(), 80u) << line; }
+}
+
 TEST(Watch, ShowsOverrides) {
     proto::StatusReport status = cutting();
     status.set_feed_override_percent(60);

@@ -13,10 +13,10 @@ using testing::HasSubstr;
 
 const std::vector<double> kStart{12.5, 3};
 
-LinearMove move_of(const MoveOptions& options) {
+ProgramMove move_of(const MoveOptions& options) {
     const auto program = move_program(two_axes(), kStart, options);
     EXPECT_TRUE(program) << program.error();
-    return program ? std::get<LinearMove>(program->blocks.at(0).action) : LinearMove{};
+    return program ? std::get<ProgramMove>(program->blocks.at(0).action) : ProgramMove{};
 }
 
 std::string error_of(const MoveOptions& options) {

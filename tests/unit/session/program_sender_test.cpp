@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 class Sender : public testing::Test {
 protected:
     void append(int blocks) {
-        for (int k = 0; k < blocks; ++k) { sender.append({++line, LinearMove{{1.0 * line, 2, 3}, 5, false}}); }
+        for (int k = 0; k < blocks; ++k) { sender.append({++line, ProgramMove{{1.0 * line, 2, 3}, 5, false}}); }
     }
     void answer(std::uint32_t parts, std::uint64_t free_blocks = 1'000'000) {
         EXPECT_TRUE(sender.take_answer({.client = 7, .sequence = newest, .parts = parts, .free_blocks = free_blocks}));

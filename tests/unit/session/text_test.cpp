@@ -54,6 +54,36 @@ TEST(StatusText, NamesTheWriterAndSinceWhen) {
     EXPECT_THAT(status_text(status), HasSubstr("writer: anna on bench, for 1 min 05 s, since 2026-01-31T14:03:12Z\n"));
 }
 
+TEST(StatusText, ShowsWhatProgramsHaveSwitchedOn) {
+    proto::StatusReport status = running();
+    EXPECT_THAT(status_text(status), Not(HasSubstr("devices")));
+    const ProgramDevices devices{
+        .spindle = ProgramDevices::Spindle::Forward, .spindle_rpm = 12'000, .flood = true, .tool = 3, .outputs = 0b101};
+    *status.mutable_devices() = devices_report(devices).value();
+    EXPECT_THAT(status_text(status), HasSubstr("devices: spindle forward 12000 rpm, flood, tool 3, outputs 0 2\n"));
+    *status.mutable_devices() = devices_report({.outputs = ~0ull}).value();
+    std::istringstream lines(status_text(status));
+    for (std::string line; std::getline(lines, line);) { EXPECT_LE(line.size(), 80u) << line; }
+}
+
+TEST(DevicesReport, IsAbsentWhileAllIsOffAndNoToolIsKnown) {
+    EXPECT_FALSE(devices_report({}));
+    EXPECT_EQ(devices_text({}), "");
+}
+
+TEST(DevicesReport, HasOnlyWhatIsOn) {
+    const auto text = [](const ProgramDevices& devices) {
+        proto::StatusReport status;
+        *status.mutable_devices() = devices_report(devices).value();
+        return devices_text(status);
+    };
+    EXPECT_EQ(text({.spindle = ProgramDevices::Spindle::Reverse, .spindle_rpm = 800.4}), "spindle reverse 800 rpm");
+    EXPECT_EQ(text({.mist = true, .flood = true}), "mist, flood");
+    EXPECT_EQ(text({.tool = 7}), "tool 7");
+    EXPECT_EQ(text({.outputs = 1ull << 63}), "output 63");
+    EXPECT_FALSE(devices_report({.tool = 7})->has_spindle());
+}
+
 TEST(StatusText, ShowsDegreesOfARotaryAxis) {
     proto::StatusReport status = running();
     status.mutable_axes(0)->set_name("C");

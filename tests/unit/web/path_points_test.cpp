@@ -20,10 +20,10 @@ std::vector<PathPoint> circle(std::size_t points) {
 TEST(PathPoints, AreTheStartAndTheEndOfEachMoveThatGoesElsewhere) {
     const Program program{.axes = {"Y", "X"},
                           .start_mm = {1, 2},
-                          .blocks = {{.line = 3, .action = LinearMove{.target_mm = {1, 5}, .rapid = true}},
-                                     {.line = 4, .action = LinearMove{.target_mm = {1, 5}}},
+                          .blocks = {{.line = 3, .action = ProgramMove{.target_mm = {1, 5}, .rapid = true}},
+                                     {.line = 4, .action = ProgramMove{.target_mm = {1, 5}}},
                                      {.line = 5, .action = Dwell{}},
-                                     {.line = 6, .action = LinearMove{.target_mm = {8, 5}}}}};
+                                     {.line = 6, .action = ProgramMove{.target_mm = {8, 5}}}}};
     const std::vector<PathPoint> expected{{2, 1, 0, 0, true}, {5, 1, 0, 3, true}, {5, 8, 0, 6, false}};
     EXPECT_EQ(path_points(program), expected);
 }

@@ -138,6 +138,14 @@ export interface Tool {
   diameter?: Maybe<number>;
 }
 
+export interface Devices {
+  spindle?: Maybe<{ direction: "stopped" | "forward" | "reverse"; rpm: number }>;
+  mist?: Maybe<boolean>;
+  flood?: Maybe<boolean>;
+  tool?: Maybe<number>;
+  outputs?: Maybe<number[]>;
+}
+
 export interface Writer {
   name: string;
   host: string;
@@ -157,7 +165,7 @@ export interface State {
   axes: Record<string, AxisState>;
   offsets?: Maybe<Offsets>;
   tools?: Maybe<Record<string, Tool>>;
-  outputs?: Maybe<Record<string, unknown>>;
+  devices?: Maybe<Devices>;
   writer?: Maybe<Writer>;
   viewers: number;
 }

@@ -68,6 +68,10 @@ export const de: Texts = {
     kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt" },
     number: "Auftrag {number}", held: "Angehalten in Zeile {line}", braking: "Bremst …",
   },
+  devices: {
+    title: "Eingeschaltet", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel", tool: "Werkzeug {number}",
+    output: "Ausgang {number}",
+  },
   overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
   program: {
     title: "Programm", load: "Programm laden", drop: "Lege eine G-Code-Datei hier ab, oder lade sie.", checking: "Prüfe …", none: "Kein Programm ist geladen.",

@@ -67,6 +67,10 @@ export const en = {
     kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog" },
     number: "Job {number}", held: "Held at line {line}", braking: "Braking …",
   },
+  devices: {
+    title: "Switched on", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood", tool: "Tool {number}",
+    output: "Output {number}",
+  },
   overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
   program: {
     title: "Program", load: "Load program", drop: "Drop a G-code file here, or load it.", checking: "Checking …", none: "No program is loaded.",

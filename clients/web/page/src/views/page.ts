@@ -5,6 +5,7 @@ import { t } from "../texts";
 import { Alarms } from "./alarms";
 import { Axes } from "./axes";
 import { giver, type Give, type Report } from "./command_button";
+import { DevicesRow } from "./devices";
 import { Header } from "./header";
 import { JobCard } from "./job_card";
 import { JogPad } from "./jog_pad";
@@ -38,7 +39,7 @@ export class Page {
     const [banner, writer, alarms] = [new LinkBanner(), new WriterBanner(this.give), new Alarms()];
     const [axes, jog] = [new Axes(machine, this.give), new JogPad(machine, stream, report)];
     const [path, strip] = [new PathView(machine), new Strip(machine)];
-    const [job, overrides] = [new JobCard(this.give), new Overrides(machine, this.give)];
+    const [job, devices, overrides] = [new JobCard(this.give), new DevicesRow(), new Overrides(machine, this.give)];
     const [program, mdi] = [new ProgramTab(machine, report), new MdiTab(this.give)];
     const [offsets, tools, reports] = [new OffsetsTab(machine, this.give), new ToolsTab(this.give), new ReportsTab(report)];
     const tabs = new Tabs(t.program.title, [
@@ -46,14 +47,14 @@ export class Page {
       { id: "offsets", title: t.offsets.title, content: offsets.element }, { id: "tools", title: t.tools.title, content: tools.element },
       { id: "reports", title: t.reports.title, content: reports.element },
     ]);
-    this.views = [header, safety, banner, writer, alarms, axes, jog, path, strip, job, overrides, program, mdi, offsets, tools, reports];
+    this.views = [header, safety, banner, writer, alarms, axes, jog, path, strip, job, devices, overrides, program, mdi, offsets, tools, reports];
     place.replaceChildren(
       h("a", { class: "skip", href: "#main" }, t.page.skip), header.element,
       h("main", { id: "main", tabindex: -1 },
         h("div", { class: "top" }, banner.element, writer.element, alarms.element),
         h("div", { class: "left" }, axes.element, jog.element),
         h("div", { class: "middle" }, path.element, strip.element),
-        h("div", { class: "right" }, h("div", { class: "job-area" }, job.element, overrides.element), tabs.element)),
+        h("div", { class: "right" }, h("div", { class: "job-area" }, job.element, devices.element, overrides.element), tabs.element)),
       notices.element, keys);
   }
 
