@@ -24,7 +24,7 @@ int main() {
         return 1;
     }
     for (const Block& block : program->blocks) {
-        if (const auto* move = std::get_if<LinearMove>(&block.action)) {
+        if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
             std::printf("line %d: to X%.4f Y%.4f at %.1f mm/s\n", block.line, move->target_mm[0], move->target_mm[1],
                         move->feed_mm_s);
         }

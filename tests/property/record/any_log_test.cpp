@@ -59,12 +59,20 @@ job_t job() {
     return message;
 }
 
+program_event_t event() {
+    program_event_t message{};
+    message.machine = "mill";
+    message.kind = "spindle-forward";
+    return message;
+}
+
 /// A log written by the program's own writer, read back as bytes.
 Bytes whole_log(const std::filesystem::path& path) {
     {
         auto writer = LogWriter::open(path).value();
         for (int i = 0; i < 4; ++i) {
             writer.write_message("LOCKSTEP_MILL_JOB", i, job());
+            writer.write_message("LOCKSTEP_MILL_EVENTS", i, event());
             writer.write_message("LOCKSTEP_MILL_X_STEPS", i, steps());
             writer.write_message("LOCKSTEP_MILL_Y_RUN", i, run());
             writer.write_message("LOCKSTEP_MILL_Z_POSITION", i, position());
@@ -110,6 +118,7 @@ void decode_as_everything(std::span<const std::uint8_t> data) {
     EXPECT_TRUE(is_decoded_or_refused<axis_position_t>(data));
     EXPECT_TRUE(is_decoded_or_refused<job_t>(data));
     EXPECT_TRUE(is_decoded_or_refused<axis_health_t>(data));
+    EXPECT_TRUE(is_decoded_or_refused<program_event_t>(data));
 }
 
 /// Reads everything and returns the number of bytes in events.

@@ -105,7 +105,7 @@ private:
 inline Program path_through(std::vector<std::vector<double>> places) {
     Program program{.name = "square", .axes = {"X", "Y"}, .start_mm = places.front(), .blocks = {}};
     for (std::size_t i = 1; i < places.size(); ++i) {
-        program.blocks.push_back({static_cast<std::int32_t>(i), LinearMove{places[i], 50, false}});
+        program.blocks.push_back({static_cast<std::int32_t>(i), ProgramMove{places[i], 50, false}});
     }
     return program;
 }

@@ -109,7 +109,9 @@ TEST_F(RunningAxis, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
     ASSERT_TRUE(reaches(MachinePhase::Idle));
     ASSERT_TRUE(axis_state_.homed);
     Program there_and_back{.name = "there and back", .axes = {"X"}, .start_mm = {5}};
-    for (const double x : {50.0, 10.0, 60.0, 5.0}) { there_and_back.blocks.push_back({1, LinearMove{{x}, 40, false}}); }
+    for (const double x : {50.0, 10.0, 60.0, 5.0}) {
+        there_and_back.blocks.push_back({1, ProgramMove{{x}, 40, false}});
+    }
     coordinator_.accept_program(1, there_and_back);
     run_hold_and_resume();
     const std::size_t steps_before = steps_.size();

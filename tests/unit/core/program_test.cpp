@@ -8,15 +8,15 @@ namespace {
 
 Program square() {
     Program program{.name = "square", .axes = {"X", "Y"}, .start_mm = {5, 5}};
-    program.blocks = {{2, LinearMove{{20, 5}, 0, true}},
-                      {3, LinearMove{{20, 30}, 10, false}},
+    program.blocks = {{2, ProgramMove{{20, 5}, 0, true}},
+                      {3, ProgramMove{{20, 30}, 10, false}},
                       {5, Dwell{0.5}},
-                      {6, LinearMove{{5, 30}, 10, false}}};
+                      {6, ProgramMove{{5, 30}, 10, false}}};
     return program;
 }
 
-const LinearMove& move(const Program& program, std::size_t block) {
-    return std::get<LinearMove>(program.blocks.at(block).action);
+const ProgramMove& move(const Program& program, std::size_t block) {
+    return std::get<ProgramMove>(program.blocks.at(block).action);
 }
 
 TEST(ProgramFrom, ALineGoesFirstToWhereItBegins) {

@@ -4,9 +4,11 @@ import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
+import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { shownMode } from "../../../clients/web/page/src/state/shown_mode";
+import { en } from "../../../clients/web/page/src/texts/en";
 import { workPlace } from "../../../clients/web/page/src/views/axis_places";
 import { shortcutVerb } from "../../../clients/web/page/src/views/shortcuts";
 
@@ -56,6 +58,19 @@ describe("the trace of a chart", () => {
     const trace = new Trace(2, 4);
     trace.add(1, [1, null]);
     expect(trace.since(1, 5)).toEqual([[0], [1], [null]]);
+  });
+});
+
+describe("devices", () => {
+  test("that are off are not shown", () => {
+    expect(deviceTexts(null, en)).toEqual([]);
+    expect(deviceTexts({ spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, en)).toEqual([]);
+  });
+
+  test("that are on have a text each, the spindle first", () => {
+    expect(deviceTexts({ spindle: { direction: "reverse", rpm: 12000 }, mist: true, flood: true, tool: 3, outputs: [0, 2] }, en)).toEqual(
+      ["Spindle reverse 12000 rpm", "Mist", "Flood", "Tool 3", "Output 0", "Output 2"]);
+    expect(deviceTexts({ spindle: { direction: "forward", rpm: 799.6 } }, en)).toEqual(["Spindle forward 800 rpm"]);
   });
 });
 
