@@ -63,7 +63,7 @@ struct Settle {};
 inline constexpr std::int32_t kMaxEventIndex = 1'000'000;
 inline constexpr std::uint32_t kMaxEventsTogether = 100;  // between two moves, dwells or pauses
 
-/// What a program switches without moving an axis. The coordinator publishes it when the motion comes to its place.
+/// A word of a program for a device that is no axis. The coordinator publishes it when the motion comes to its place.
 struct ProgramEvent {
     enum class Kind : std::uint8_t {
         SpindleStop,     // M5

@@ -22,7 +22,7 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
 /// "axis X: limit-hit (103): a limit switch closed", then the remedy on its own line; within `width` columns.
 std::string fault_text(const proto::FaultReport& fault, std::size_t width = 80);
 
-/// What programs have switched; nothing while all is off and no tool is known.
+/// The devices that programs have switched. Nothing: all are off, and no tool is known.
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices);
 
 /// The newest state of an axis; for an axis that was never received, only its name.

@@ -106,7 +106,8 @@ private:
         piece(place(middle, done + angle / 2), is_last ? to_ : place(b, done + angle));
     }
 
-    /// What the begin is off its place fades along the arc: with the piece's own error it is at most half a step.
+    /// The offset of the arc's begin decreases along the arc. Together with the piece's own error it is at most half a
+    /// step.
     double tolerance(double before, double share) const {
         return is_off_ ? std::min(kTolerance_steps, before / 2 + share / 8) : kTolerance_steps;
     }

@@ -85,8 +85,8 @@ void Grbl::refuse_gcode(const Refused& refused) {
     refuse(refused.error, refused.text);
 }
 
-/// A job that is stopped switches spindle and coolant off. What lines before it have left on is switched off here, as
-/// grbl does at a reset.
+/// The coordinator switches spindle and coolant off when it stops a job. At rest there is no job, so this switches off
+/// the devices that earlier lines have left on, as grbl does at a reset.
 void Grbl::switch_off() {
     const bool is_free = !waits_for_ && view_.lines == 0 && view_.phase == MachinePhase::Idle && is_settled();
     if (!is_to_switch_off_ || !view_.is_received || !is_free) { return; }

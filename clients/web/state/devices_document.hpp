@@ -1,4 +1,4 @@
-// What programs have switched, as the schema Devices of openapi.yaml. Pure.
+// The devices that programs have switched, as the schema Devices of openapi.yaml. Pure.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// What programs have switched on, in the order in which it is shown; and the tool.
+// The texts of the devices that are on, and of the tool, in the order in which they are shown.
 import type { Devices, Maybe } from "../api/contract";
 import { fixed } from "../format/numbers";
 import type { Texts } from "../texts/en";
