@@ -92,16 +92,14 @@ void ArcPath::each_chord(double tolerance_mm,
     visit({to_.begin(), to_.end()});
 }
 
-std::string why_no_arc(const ArcPath& arc) {
-    const double begin = arc.radius_begin();
-    const double end = arc.radius_end();
+std::string why_no_arc(double begin, double end) {
     if (!(begin >= kLeastRadius_mm) || !(end >= kLeastRadius_mm)) {
-        return "the arc has a radius of 0; its centre is where it starts or ends";
+        return "has a radius of 0; its centre is where it starts or ends";
     }
     const double error = std::abs(begin - end);
     const bool is_far = error > kRadiusErrorShare * std::max(begin, end);
     if (error <= kMostRadiusError_mm && (error <= kRadiusError_mm || !is_far)) { return {}; }
-    return "the arc does not close: its radius is " + number_text(begin) + " mm at the start and " + number_text(end) +
+    return "does not close: its radius is " + number_text(begin) + " mm at the start and " + number_text(end) +
            " mm at the end; correct the centre or the end";
 }
 

@@ -53,8 +53,10 @@ private:
     double sweep_ = 0;
 };
 
-/// Why an arc cannot be run: it has no radius, or it does not close; empty: it can. LinuxCNC's tolerances.
-std::string why_no_arc(const ArcPath& arc);
+/// Why an arc with these distances (mm) of its ends from the centre cannot be run, as "does not close: ...": it has no
+/// radius, or they differ by more than LinuxCNC's tolerances. Empty: it can.
+std::string why_no_arc(double radius_begin, double radius_end);
+inline std::string why_no_arc(const ArcPath& arc) { return why_no_arc(arc.radius_begin(), arc.radius_end()); }
 
 /// The ends of the chords of a move: of a straight one, its end alone.
 void each_chord(const ProgramMove& move, std::span<const double> from_mm, double tolerance_mm,

@@ -26,4 +26,12 @@ void ProgramDevices::apply(const ProgramEvent& event) {
     }
 }
 
+std::vector<std::uint32_t> ProgramDevices::outputs_on() const {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        if ((outputs >> i & 1) != 0) { numbers.push_back(i); }
+    }
+    return numbers;
+}
+
 }  // namespace lockstep

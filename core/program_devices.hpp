@@ -1,7 +1,8 @@
-// What the words of programs have switched: the state of spindle, coolant, tool and outputs.
+// The state of spindle, coolant, tool and outputs, as the words of programs have set it.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/program.hpp"
 
@@ -19,6 +20,8 @@ struct ProgramDevices {
     bool operator==(const ProgramDevices&) const = default;
 
     void apply(const ProgramEvent& event);
+    /// The numbers of the outputs that are on, rising.
+    std::vector<std::uint32_t> outputs_on() const;
 };
 
 }  // namespace lockstep

@@ -80,9 +80,7 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
     report.set_mist(devices.mist);
     report.set_flood(devices.flood);
     if (devices.tool != 0) { report.set_tool(devices.tool); }
-    for (std::uint32_t i = 0; i < 64; ++i) {
-        if ((devices.outputs >> i & 1) != 0) { report.add_outputs(i); }
-    }
+    for (const std::uint32_t output : devices.outputs_on()) { report.add_outputs(output); }
     return report;
 }
 

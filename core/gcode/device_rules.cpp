@@ -9,13 +9,16 @@ void ProgramBuilder::note(const std::string& kind, const std::string& text) {
     if (noted_.insert(kind).second) { notes_.push_back({line_, text}); }
 }
 
+bool ProgramBuilder::is_refused(WordRule rule, const char* what, const char* key) {
+    if (rule == WordRule::Ignore || setup_.switches.ignore_unassigned) { return false; }
+    fail(std::string(what) +
+         " is not configured on this machine; take the word out, pass --ignore-unassigned, or write unassigned { " +
+         key + ": IGNORE } in the machine's file");
+    return true;
+}
+
 void ProgramBuilder::device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event) {
-    if (rule == WordRule::Refuse && !setup_.switches.ignore_unassigned) {
-        return fail(std::string(what) +
-                    " is not configured on this machine; take the word out, pass --ignore-unassigned, or write "
-                    "unassigned { " +
-                    key + ": IGNORE } in the machine's file");
-    }
+    if (is_refused(rule, what, key)) { return; }
     note(what, std::string(what) + " is not configured: its words are published, and switch nothing");
     append(event);
 }
@@ -26,7 +29,7 @@ void ProgramBuilder::change_tool(int tool) {
     append(ProgramEvent{.kind = Kind::Tool, .index = tool});
 }
 
-/// What the program leaves on is switched off (RS274/NGC, 3.6.1).
+/// Switches off the spindle and the coolant if the program leaves them on (RS274/NGC, 3.6.1).
 void ProgramBuilder::end() {
     if (spindle_turns_) { append(ProgramEvent{.kind = Kind::SpindleStop}); }
     if (coolant_flows_) { append(ProgramEvent{.kind = Kind::CoolantOff}); }
@@ -68,12 +71,8 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::OutputOff: return output(Kind::OutputOff);
         case EventKind::AnalogOutput: return output(Kind::AnalogOutput);
         case EventKind::InputWait:
-            if (rules.inputs == WordRule::Ignore || setup_.switches.ignore_unassigned) {
-                return note("an input", "an input is not configured: its words are passed over");
-            }
-            return fail(
-                "an input is not configured on this machine; take the word out, pass --ignore-unassigned, or write "
-                "unassigned { inputs: IGNORE } in the machine's file");
+            if (is_refused(rules.inputs, "an input", "inputs")) { return; }
+            return note("an input", "an input is not configured: its words are passed over");
         case EventKind::Message: notes_.push_back({line_, "message: " + event.text}); return;
         case EventKind::Print: notes_.push_back({line_, "print: " + event.text}); return;
         default: return;

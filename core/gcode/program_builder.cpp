@@ -173,7 +173,7 @@ void ProgramBuilder::arc(const Arc& arc) {
     }
     const ArcPath path(*shape, position_, to);
     if (path.plane_length_mm() < kLeastArc_mm) { return move(arc.target, arc.feed, false); }
-    if (const std::string why = why_no_arc(path); !why.empty()) { return fail(why); }
+    if (const std::string why = why_no_arc(path); !why.empty()) { return fail("the arc " + why); }
     for (const std::size_t i : {shape->first, shape->second}) {
         const auto [least, greatest] = path.extent(i);
         within_travel(i, least);

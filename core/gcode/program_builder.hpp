@@ -60,6 +60,8 @@ private:
     void event(const Event& event);
     void end();
     void change_tool(int tool);
+    /// Reports the word as an error where its rule refuses it.
+    bool is_refused(WordRule rule, const char* what, const char* key);
     /// The event of a word for a device: none where the word is refused.
     void device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event);
     void note(const std::string& kind, const std::string& text);

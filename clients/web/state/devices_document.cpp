@@ -17,17 +17,13 @@ const char* direction_name(ProgramDevices::Spindle spindle) {
 }  // namespace
 
 nlohmann::json devices_document(const ProgramDevices& devices) {
-    nlohmann::json outputs = nlohmann::json::array();
-    for (int i = 0; i < 64; ++i) {
-        if ((devices.outputs >> i & 1) != 0) { outputs.push_back(i); }
-    }
     const bool turns = devices.spindle != ProgramDevices::Spindle::Stopped;
     return {{"spindle",
              {{"direction", direction_name(devices.spindle)}, {"rpm", turns ? rounded(devices.spindle_rpm, 1) : 0.0}}},
             {"mist", devices.mist},
             {"flood", devices.flood},
             {"tool", devices.tool != 0 ? nlohmann::json(devices.tool) : nlohmann::json()},
-            {"outputs", outputs}};
+            {"outputs", devices.outputs_on()}};
 }
 
 }  // namespace lockstep::web

@@ -9,30 +9,23 @@ void ProgramEvents::publish(PublishedEvent event, CoordinatorLoop& loop) {
     loop.out.events.push_back(event);
 }
 
-void ProgramEvents::happen(const PathEvent& event, Tick tick, const Of& of, CoordinatorLoop& loop) {
+/// Once: those that were published before are left out.
+void ProgramEvents::publish(const PathEvent& event, PublishedEvent place, CoordinatorLoop& loop) {
     if (event.block < from_) { return; }
     from_ = event.block + 1;
-    publish({.job = of.job,
-             .epoch = of.epoch,
-             .tick = tick,
-             .block = event.block,
-             .line = event.line,
-             .event = event.event},
-            loop);
+    place.block = event.block;
+    place.line = event.line;
+    place.event = event.event;
+    publish(place, loop);
+}
+
+void ProgramEvents::happen(const PathEvent& event, Tick tick, const Of& of, CoordinatorLoop& loop) {
+    publish(event, {.job = of.job, .epoch = of.epoch, .tick = tick}, loop);
 }
 
 void ProgramEvents::pass(std::span<const PathEvent> events, const Of& of, CoordinatorLoop& loop) {
     for (const PathEvent& event : events) {
-        if (event.block < from_) { continue; }
-        from_ = event.block + 1;
-        publish({.job = of.job,
-                 .epoch = of.epoch,
-                 .tick = loop.now,
-                 .at_rest = true,
-                 .block = event.block,
-                 .line = event.line,
-                 .event = event.event},
-                loop);
+        publish(event, {.job = of.job, .epoch = of.epoch, .tick = loop.now, .at_rest = true}, loop);
     }
 }
 

@@ -34,6 +34,7 @@ public:
 
 private:
     void publish(PublishedEvent event, CoordinatorLoop& loop);
+    void publish(const PathEvent& event, PublishedEvent place, CoordinatorLoop& loop);
 
     ProgramDevices devices_;
     std::uint32_t from_ = 0;

@@ -4,11 +4,13 @@
 // end. So an event is due when a move of a later block begins.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <limits>
 #include <vector>
 
+#include "core/path/frame_planner.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 
@@ -29,22 +31,30 @@ struct FrameEvent {
 
 class EventQueue {
 public:
-    static constexpr std::uint32_t kAll = std::numeric_limits<std::uint32_t>::max();
-
     /// In the order of the program.
     void add(const PathEvent& event) {
-        if (event.block >= from_) { events_.push_back(event); }
+        if (event.block < from_) { return; }
+        events_.push_back(event);
+        if (event.block < resumed_) { next_ = events_.size(); }
     }
-    /// Those before this block have happened: they are not kept.
-    void begin_from(std::uint32_t block) { from_ = block; }
+    /// The events before this block have happened: they are not kept.
+    void begin_from(std::uint32_t block) {
+        from_ = block;
+        std::erase_if(events_, [block](const PathEvent& event) { return event.block < block; });
+        next_ = 0;
+    }
     /// The motion goes on in this block: the events before it are not due again.
     void resume(std::uint32_t block) {
+        resumed_ = block;
         next_ = 0;
         while (next_ < events_.size() && events_[next_].block < block) { ++next_; }
     }
-    /// A move of this block begins: the events before it are due. They are appended to `due`.
-    void pass(std::uint32_t block, Ticks at, std::vector<FrameEvent>& due) {
-        for (; next_ < events_.size() && events_[next_].block < block; ++next_) { due.push_back({at, events_[next_]}); }
+    /// A frame was made: the events whose places it comes to. `begins`: of the moves that begin in it.
+    std::vector<FrameEvent> take_due(const PathFrame& frame, const std::vector<MoveBegin>& begins) {
+        std::vector<FrameEvent> due;
+        for (const MoveBegin& begin : begins) { take_before(begin.block, Ticks{std::llround(begin.at)}, due); }
+        if (frame.last) { take_before(kAll, frame.ticks, due); }
+        return due;
     }
     /// Those that are kept, before a block.
     std::vector<PathEvent> before(std::uint32_t block) const {
@@ -59,9 +69,16 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t kAll = std::numeric_limits<std::uint32_t>::max();
+
+    void take_before(std::uint32_t block, Ticks at, std::vector<FrameEvent>& due) {
+        for (; next_ < events_.size() && events_[next_].block < block; ++next_) { due.push_back({at, events_[next_]}); }
+    }
+
     std::deque<PathEvent> events_;
-    std::size_t next_ = 0;
+    std::size_t next_ = 0;  // of those that are due next
     std::uint32_t from_ = 0;
+    std::uint32_t resumed_ = 0;
 };
 
 }  // namespace lockstep

@@ -1,7 +1,6 @@
 #include "core/coordinator/path/lai_frames.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/motion/frame_limits.hpp"
 #include "core/motion/interpolate.hpp"
@@ -29,12 +28,6 @@ void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, con
     made_ = {};
     at_.assign(at.begin(), at.end());
     events_.resume(place.block);
-}
-
-std::vector<PathEvent> LaiFrames::events_before(std::uint32_t block) const {
-    std::vector<PathEvent> events = events_.before(block);
-    std::erase_if(events, [this](const PathEvent& event) { return event.block < begun_events_; });
-    return events;
 }
 
 /// At the end of a part the next one begins.
@@ -84,9 +77,7 @@ std::expected<std::optional<PathFrame>, PathStuck> LaiFrames::next() {
     last_ = frame.ticks;
     frame.last = is_done();
     frame.rest = frame.last ? place_at(whole) : fill_tail(frame, at_);
-    due_.clear();
-    for (const MoveBegin& begin : begins()) { events_.pass(begin.block, Ticks{std::llround(begin.at)}, due_); }
-    if (frame.last) { events_.pass(EventQueue::kAll, frame.ticks, due_); }
+    due_ = events_.take_due(frame, begins());
     return frame;
 }
 

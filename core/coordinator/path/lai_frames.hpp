@@ -25,8 +25,8 @@ public:
     bool turn(const Overrides&) override { return false; }
     LegEnd end() const override { return end_; }
     std::vector<FrameEvent> events() const override { return due_; }
-    void begin_events_from(std::uint32_t block) override { begun_events_ = block; }
-    std::vector<PathEvent> events_before(std::uint32_t block) const override;
+    void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
+    std::vector<PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
     std::int32_t line_of(std::uint32_t block) const override { return program_->block(block).value().line; }
     double seconds_from(const PathPlace& place) const override;
 
@@ -47,7 +47,6 @@ private:
     std::shared_ptr<const ProgramBlocks> program_;
     EventQueue events_;
     std::vector<FrameEvent> due_;  // in the last frame
-    std::uint32_t begun_events_ = 0;
     LegEnd end_;
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;

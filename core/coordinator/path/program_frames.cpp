@@ -67,7 +67,6 @@ bool ProgramFrames::read_block() {
         read_move(*move, number);
     } else if (const auto* event = std::get_if<ProgramEvent>(&block->action)) {
         events_.add({number, block->line, *event});
-        if (number < resumed_) { events_.resume(resumed_); }
     }
     return true;
 }
@@ -112,16 +111,10 @@ void ProgramFrames::read_move(const ProgramMove& move, std::uint32_t number) {
 std::expected<std::optional<PathFrame>, PathStuck> ProgramFrames::next() {
     auto frame = planner_.next();
     if (frame && *frame) {
-        note_events(**frame);
+        due_ = events_.take_due(**frame, planner_.begins());
         forget_lines(**frame);
     }
     return frame;
-}
-
-void ProgramFrames::note_events(const PathFrame& frame) {
-    due_.clear();
-    for (const MoveBegin& begin : planner_.begins()) { events_.pass(begin.block, Ticks{std::llround(begin.at)}, due_); }
-    if (frame.last) { events_.pass(EventQueue::kAll, frame.ticks, due_); }
 }
 
 void ProgramFrames::forget_lines(const PathFrame& frame) {

@@ -40,7 +40,6 @@ private:
     bool begin_at_place();
     void finish(LegEnd::Kind end);
     void read_move(const ProgramMove& move, std::uint32_t number);
-    void note_events(const PathFrame& frame);
     void forget_lines(const PathFrame& frame);
 
     std::shared_ptr<const ProgramBlocks> program_;

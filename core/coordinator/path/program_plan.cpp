@@ -84,7 +84,7 @@ std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move
     }
     const ArcPath arc(*move.arc, from_mm, move.target_mm);
     if (const std::string why = why_no_arc(arc); !why.empty()) {
-        return std::unexpected(PlanError{FaultCode::BadProgram, line, why});
+        return std::unexpected(PlanError{FaultCode::BadProgram, line, "the arc " + why});
     }
     for (const std::size_t i : {move.arc->first, move.arc->second}) {
         const auto [least, greatest] = arc.extent(i);

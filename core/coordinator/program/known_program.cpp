@@ -7,7 +7,6 @@
 #include "core/arc_path.hpp"
 
 namespace lockstep {
-namespace {}  // namespace
 
 std::expected<KnownProgram, ProgramCut> KnownProgram::begin(const MachineConfig& machine, ProgramHead head,
                                                             std::unique_ptr<RowStore> rows) {

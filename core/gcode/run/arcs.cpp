@@ -1,6 +1,7 @@
 // G2 and G3: arcs by centre or by radius, in each plane, with turns and a rise.
 #include <cmath>
 
+#include "core/arc_path.hpp"
 #include "core/gcode/run/arc_geometry.hpp"
 #include "core/gcode/run/compensation.hpp"
 #include "core/gcode/run/steps.hpp"
@@ -9,11 +10,7 @@
 namespace lockstep::gcode {
 namespace {
 
-// LinuxCNC's tolerances: an arc's radii at start and end may differ by the first, or by the second and a thousandth
-// of the radius; the radius of an R arc may be too small for its chord by the third.
-constexpr double kMostRadiusError_mm = 1.27;
-constexpr double kRadiusError_mm = 0.0127;
-constexpr double kRadiusErrorShare = 0.001;
+// LinuxCNC's tolerance: the radius of an R arc may be too small for its chord by so much.
 constexpr double kChordError_mm = 0.00127;
 constexpr double kLeastRadius_mm = 1e-6;
 
@@ -68,18 +65,8 @@ std::expected<Flat, GcodeError> centre_by_offsets(const Context& context, PlaneA
 }
 
 Result check_radii(const Context& context, Flat from, Flat centre, Flat to) {
-    const double begins = length_of(from - centre);
-    const double ends = length_of(to - centre);
-    if (begins < kLeastRadius_mm || ends < kLeastRadius_mm) {
-        return context.refuse_motion(" has a radius of 0; its centre is where it starts or ends");
-    }
-    const double error = std::abs(begins - ends);
-    const bool is_far = error > kRadiusErrorShare * std::max(begins, ends);
-    if (error > kMostRadiusError_mm || (error > kRadiusError_mm && is_far)) {
-        return context.refuse_motion(" does not close: its radius is " + in_mm(begins) + " at the start and " +
-                                     in_mm(ends) + " at the end; correct the centre or the end");
-    }
-    return {};
+    const std::string why = why_no_arc(length_of(from - centre), length_of(to - centre));
+    return why.empty() ? Result{} : context.refuse_motion(" " + why);
 }
 
 Result check_words(const Context& context, PlaneAxes axes) {
