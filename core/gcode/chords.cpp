@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/gcode/spline_curve.hpp"
+
 namespace lockstep::gcode {
 namespace {
 
@@ -72,46 +74,9 @@ double chords_of(const Cylinder& cylinder, double tolerance) {
     return std::ceil(std::abs(cylinder.sweep) / (2 * std::acos(share)));
 }
 
-/// De Boor's algorithm with weights, on clamped knots one apart.
-class Curve {
-public:
-    explicit Curve(const Spline& spline) : spline_(spline), degree_(static_cast<std::size_t>(spline.order) - 1) {}
-
-    std::size_t spans() const { return spline_.controls.size() - degree_; }
-
-    Vector at(double parameter) const {
-        const auto span = std::min(static_cast<std::size_t>(parameter), spans() - 1);
-        std::vector<Vector> points;
-        std::vector<double> weights;
-        for (std::size_t i = span; i <= span + degree_; ++i) {
-            points.push_back(spline_.controls[i].at * spline_.controls[i].weight);
-            weights.push_back(spline_.controls[i].weight);
-        }
-        for (std::size_t level = 1; level <= degree_; ++level) {
-            for (std::size_t i = degree_; i >= level; --i) {
-                const double low = knot(span + i);
-                const double high = knot(span + i + degree_ + 1 - level);
-                const double share = (parameter - low) / (high - low);
-                points[i] = points[i - 1] * (1 - share) + points[i] * share;
-                weights[i] = weights[i - 1] * (1 - share) + weights[i] * share;
-            }
-        }
-        return points[degree_] * (1 / weights[degree_]);
-    }
-
-private:
-    double knot(std::size_t index) const {
-        const std::size_t inner = index < degree_ ? 0 : index - degree_;
-        return static_cast<double>(std::min(inner, spans()));
-    }
-
-    const Spline& spline_;
-    std::size_t degree_;
-};
-
 class CurveCutter {
 public:
-    CurveCutter(const Curve& curve, double tolerance, const std::function<void(double, Vector)>& take)
+    CurveCutter(const SplineCurve& curve, double tolerance, const std::function<void(double, Vector)>& take)
         : curve_(curve), tolerance_(tolerance), take_(take) {}
 
     void cut(double from, Vector begin, double to, Vector end, int depth) {
@@ -133,7 +98,7 @@ private:
         return length(place - begin - chord * share) <= tolerance_;
     }
 
-    const Curve& curve_;
+    const SplineCurve& curve_;
     double tolerance_;
     const std::function<void(double, Vector)>& take_;
 };
@@ -150,7 +115,7 @@ void cut(const Arc& arc, const Point& from, double tolerance, const TakeChord& t
 void cut(const Spline& spline, const Point& from, double tolerance, const TakeChord& take) {
     constexpr int kPieces = 4;  // of each span, before halving
     constexpr int kHalvings = 12;
-    const Curve curve(spline);
+    const SplineCurve curve(spline);
     const double all = static_cast<double>(curve.spans());
     const std::function<void(double, Vector)> chord = [&](double parameter, Vector at) {
         if (parameter < all) { take(between(from, spline.target, parameter / all, at)); }

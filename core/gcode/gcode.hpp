@@ -53,7 +53,7 @@ struct GcodeSetup {
     GcodeSwitches switches;
     UnassignedWords unassigned;
     gcode::KeptValues values;
-    double chord_tolerance_mm = 0.001;  // of splines, and of arcs that are cut
+    double chord_tolerance_mm = 0.001;  // of curves that are cut into chords
     bool curves_as_chords = false;      // for a planner that takes straight moves only
     gcode::Limits limits;
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;

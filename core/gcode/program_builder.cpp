@@ -6,6 +6,7 @@
 #include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
 #include "core/gcode/chords.hpp"
+#include "core/gcode/spline_arcs.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::gcode {
@@ -100,8 +101,7 @@ void ProgramBuilder::take(const Action& action, int line, const Interpreter& int
     } else if (const auto* arc = std::get_if<Arc>(&action)) {
         this->arc(*arc);
     } else if (const auto* spline = std::get_if<Spline>(&action)) {
-        cut(*spline, Point(at_), setup_.chord_tolerance_mm,
-            [&](const Point& target) { move(target, spline->feed, false); });
+        this->spline(*spline);
     } else if (const auto* dwell = std::get_if<gcode::Dwell>(&action)) {
         append(lockstep::Dwell{dwell->seconds});
     } else if (const auto* happens = std::get_if<Event>(&action)) {
@@ -158,6 +158,15 @@ std::optional<ArcShape> ProgramBuilder::shape_of(const Arc& arc) const {
     const bool is_near =
         std::abs(shape.centre_first_mm) <= kMaxCentre_mm / 2 && std::abs(shape.centre_second_mm) <= kMaxCentre_mm / 2;
     return has_axes && is_near && shape.turns <= kMaxTurns ? std::optional(shape) : std::nullopt;
+}
+
+void ProgramBuilder::spline(const Spline& spline) {
+    const Point from = at_;
+    if (setup_.curves_as_chords) {
+        return cut(spline, from, setup_.chord_tolerance_mm,
+                   [&](const Point& target) { move(target, spline.feed, false); });
+    }
+    cut_into_arcs(spline, from, [&](const Action& part) { take(part, line_, *interpreter_); });
 }
 
 void ProgramBuilder::arc(const Arc& arc) {

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/gcode/chords.hpp"
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/program_builder.hpp"
+#include "core/gcode/spline_arcs.hpp"
 #include "core/number_text.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/files/line_reader.hpp"
@@ -36,8 +36,7 @@ public:
         } else if (const auto* arc = std::get_if<gcode::Arc>(&action)) {
             take_arc(*arc);
         } else if (const auto* spline = std::get_if<gcode::Spline>(&action)) {
-            gcode::cut(*spline, Point(at_), setup_.chord_tolerance_mm,
-                       [&](const Point& target) { add("feed", target, spline->feed); });
+            gcode::cut_into_arcs(*spline, Point(at_), [&](const gcode::Action& part) { take(part, line); });
         } else if (std::holds_alternative<gcode::Dwell>(action)) {
             add("dwell", at_, 0);
         }

@@ -72,10 +72,47 @@ TEST(GcodeCurves, AnArcInNoPlaneOfTwoAxesIsCutIntoChords) {
     for (const Block& block : blocks) { EXPECT_FALSE(move(block).arc); }
 }
 
+TEST(GcodeCurves, ASplineBecomesArcsThatMeetInTheSameDirection) {
+    const auto blocks = blocks_of("G0 X10 Y10\nG5 X60 Y10 I15 J30 P-15 Q30 F600\n");
+    ASSERT_GT(blocks.size(), 20U);
+    EXPECT_LT(blocks.size(), 600U);
+    EXPECT_THAT(move(blocks.back()).target_mm, ElementsAre(60, 10, 0));
+    double heading = std::atan2(30, 15);
+    for (std::size_t i = 1; i < blocks.size(); ++i) {
+        const ProgramMove& arc = move(blocks[i]);
+        EXPECT_DOUBLE_EQ(arc.feed_mm_s, 10);
+        ASSERT_TRUE(arc.arc) << i;
+        const ArcPath path(*arc.arc, move(blocks[i - 1]).target_mm, arc.target_mm);
+        EXPECT_NEAR(std::atan2(path.turn_second(0), path.turn_first(0)), heading, 1e-6) << i;
+        heading = std::atan2(path.turn_second(1), path.turn_first(1));
+    }
+    EXPECT_NEAR(heading, -std::atan2(30, 15), 1e-6);
+}
+
+TEST(GcodeCurves, AStraightSplineIsStraightMoves) {
+    const auto blocks = blocks_of("G5 X30 Y30 I10 J10 P-10 Q-10 F600\n");
+    ASSERT_EQ(blocks.size(), 2U);
+    EXPECT_FALSE(move(blocks[0]).arc);
+    EXPECT_THAT(move(blocks[1]).target_mm, ElementsAre(30, 30, 0));
+}
+
+TEST(GcodeCurves, ASplineWithAllItsPointsInOnePlaceIsNoMove) {
+    EXPECT_TRUE(blocks_of("G5 X0 Y0 I0 J0 P0 Q0 F600\n").empty());
+}
+
+TEST(GcodeCurves, ASplineThatTouchesTheEndOfTheTravelIsTaken) {
+    EXPECT_FALSE(blocks_of("G0 X10 Y190\nG5.1 X30 Y190 I10 J20 F600\n").empty());
+    EXPECT_THAT(error_of("G0 X10 Y190\nG5.1 X30 Y190 I10 J20.01 F600\n"), HasSubstr("outside its travel"));
+}
+
 TEST(GcodeCurves, AMachineForStraightMovesGetsChords) {
     GcodeSetup setup = all_taken();
     setup.curves_as_chords = true;
-    EXPECT_GT(blocks_of("G0 X10 Y5\nG2 X20 Y15 I10 J0 F600\n", setup).size(), 20U);
+    for (const char* text : {"G0 X10 Y5\nG2 X20 Y15 I10 J0 F600\n", "G0 X10 Y5\nG5.1 X30 Y5 I10 J20 F600\n"}) {
+        const auto blocks = blocks_of(text, setup);
+        EXPECT_GT(blocks.size(), 20U);
+        for (const Block& block : blocks) { EXPECT_FALSE(move(block).arc); }
+    }
 }
 
 TEST(GcodeCurves, AnArcThatLeavesTheTravelBetweenItsEndsIsRefused) {

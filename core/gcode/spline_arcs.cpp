@@ -1,0 +1,168 @@
+#include "core/gcode/spline_arcs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/gcode/flat.hpp"
+#include "core/gcode/spline_curve.hpp"
+
+namespace lockstep::gcode {
+namespace {
+
+constexpr int kHalvings = 14;       // of half a span, at most
+constexpr std::size_t kChecks = 7;  // places between the ends of a part
+
+Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
+Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
+Flat operator*(Flat a, double factor) { return {a.x * factor, a.y * factor}; }
+double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
+double cross(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
+double length(Flat a) { return std::sqrt(dot(a, a)); }
+Flat flat(const Vector& at) { return {at[0], at[1]}; }
+Flat unit(Flat a) { return dot(a, a) > 0 ? a * (1 / length(a)) : Flat{}; }
+
+struct Spot {
+    Flat at;
+    Flat direction;  // of length 1, or 0 where there is none
+};
+
+/// From a spot in its direction to a place: an arc of less than half a turn, or a straight line.
+class FlatArc {
+public:
+    static FlatArc line(Flat from, Flat to) { return {from, to, {}, 0}; }
+    /// Nothing: it would be half a turn or more.
+    static std::optional<FlatArc> from_to(const Spot& from, Flat to) {
+        const Flat chord = to - from.at;
+        const double along = dot(from.direction, chord);
+        const double aside = cross(from.direction, chord);  // above 0: to the left
+        if (!(along > 0)) { return std::nullopt; }
+        if (std::abs(aside) / 4 <= kSplineArcs_mm / 8) { return line(from.at, to); }  // its height
+        const double radius = dot(chord, chord) / (2 * aside);
+        return FlatArc{from.at, to, from.at + Flat{-from.direction.y, from.direction.x} * radius, radius};
+    }
+
+    double distance(Flat place) const {
+        if (radius_ != 0) { return std::abs(length(place - centre_) - std::abs(radius_)); }
+        const Flat chord = to_ - from_;
+        const double square = dot(chord, chord);
+        const double share = square > 0 ? std::clamp(dot(place - from_, chord) / square, 0.0, 1.0) : 0;
+        return length(place - from_ - chord * share);
+    }
+
+    /// A motion to `target`, which has the arc's end as its X and Y.
+    Action motion(const Point& target, double feed) const {
+        if (radius_ == 0) { return Straight{.target = target, .feed = feed}; }
+        return Arc{.target = target,
+                   .centre = {centre_.x, centre_.y, target[2]},
+                   .axis = {0, 0, 1},
+                   .turns = radius_ > 0 ? 1 : -1,
+                   .feed = feed};
+    }
+    Flat end() const { return to_; }
+
+private:
+    FlatArc(Flat from, Flat to, Flat centre, double radius) : from_(from), to_(to), centre_(centre), radius_(radius) {}
+
+    Flat from_;
+    Flat to_;
+    Flat centre_;
+    double radius_;  // 0: straight; below 0: clockwise
+};
+
+/// Where the two arcs between two spots meet. Their tangents at the ends are equally long, up to that in the middle.
+Spot meeting(const Spot& begin, const Spot& end) {
+    const Flat chord = end.at - begin.at;
+    const double along = dot(chord, begin.direction + end.direction);
+    const double turn = 2 * (1 - dot(begin.direction, end.direction));
+    const double square = dot(chord, chord);
+    const double tangent = square / (along + std::sqrt(along * along + turn * square));
+    const Flat first = begin.at + begin.direction * tangent;
+    const Flat last = end.at - end.direction * tangent;
+    return {(first + last) * 0.5, unit(last - first)};
+}
+
+class SplineCut {
+public:
+    SplineCut(const Spline& spline, const Point& from, const std::function<void(const Action&)>& take)
+        : spline_(spline), curve_(spline), take_(take), at_(spline.target), begin_{from[0], from[1]} {}
+
+    void cut() {
+        for (span_ = 0; span_ < curve_.spans(); ++span_) {
+            const auto low = static_cast<double>(span_);
+            halve(low, low + 0.5, kHalvings);
+            halve(low + 0.5, low + 1, kHalvings);
+        }
+    }
+
+private:
+    void halve(double low, double high, int halvings) {
+        const Part part = part_of(low, high);
+        const FlatArc line = FlatArc::line(begin_, part.end.at);
+        if (halvings == 0 || is_near(part, line, line)) { return add(line); }
+        if (try_arcs(part)) { return; }
+        const double middle = (low + high) / 2;
+        halve(low, middle, halvings - 1);
+        halve(middle, high, halvings - 1);
+    }
+
+    struct Part {
+        Spot begin;
+        Spot end;
+        std::array<Flat, kChecks> between;
+    };
+
+    Part part_of(double low, double high) const {
+        Part part{spot(low), spot(high), {}};
+        part.begin.at = begin_;
+        if (high == static_cast<double>(curve_.spans())) { part.end.at = {spline_.target[0], spline_.target[1]}; }
+        for (std::size_t k = 0; k < kChecks; ++k) {
+            part.between[k] = spot(low + (high - low) * static_cast<double>(k + 1) / (kChecks + 1)).at;
+        }
+        return part;
+    }
+
+    Spot spot(double parameter) const {
+        const SplineCurve::Spot spot = curve_.in_span(span_, parameter);
+        return {flat(spot.at), unit(flat(spot.direction))};
+    }
+
+    bool try_arcs(const Part& part) {
+        if (part.begin.direction == Flat{} || part.end.direction == Flat{}) { return false; }
+        const Spot middle = meeting(part.begin, part.end);
+        const auto first = FlatArc::from_to(part.begin, middle.at);
+        const auto second = FlatArc::from_to(middle, part.end.at);
+        if (!first || !second || !is_near(part, *first, *second)) { return false; }
+        add(*first);
+        add(*second);
+        return true;
+    }
+
+    static bool is_near(const Part& part, const FlatArc& first, const FlatArc& second) {
+        return std::ranges::all_of(part.between, [&](Flat place) {
+            return std::min(first.distance(place), second.distance(place)) <= kSplineArcs_mm / 2;
+        });
+    }
+
+    void add(const FlatArc& arc) {
+        begin_ = arc.end();
+        at_[0] = begin_.x;
+        at_[1] = begin_.y;
+        take_(arc.motion(at_, spline_.feed));
+    }
+
+    const Spline& spline_;
+    SplineCurve curve_;
+    const std::function<void(const Action&)>& take_;
+    Point at_;
+    Flat begin_;  // of what is left
+    std::size_t span_ = 0;
+};
+
+}  // namespace
+
+void cut_into_arcs(const Spline& spline, const Point& from, const std::function<void(const Action&)>& take) {
+    SplineCut(spline, from, take).cut();
+}
+
+}  // namespace lockstep::gcode
