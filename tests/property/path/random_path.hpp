@@ -56,7 +56,8 @@ inline void bend(TestProgram& program, Random& random) {
         const double x = move.to[first] - from[first];
         const double y = move.to[second] - from[second];
         if (random() % 3 == 0 && std::hypot(x, y) > 0.01) {
-            const double aside = log_uniform(random, 0.01, 20) * (random() % 2 == 0 ? 1 : -1);
+            // Radii of 20 mm at most: programs of hours would only be slow.
+            const double aside = log_uniform(random, 0.01, 20) / std::hypot(x, y) * (random() % 2 == 0 ? 1 : -1);
             move.arc = ArcShape{.first = first,
                                 .second = second,
                                 .centre_first_mm = from[first] + x / 2 - aside * y,
