@@ -10,17 +10,11 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr int kHalvings = 14;       // of half a span, at most
+constexpr int kMostHalvings = 14;   // of half a span, at most
 constexpr std::size_t kChecks = 7;  // places between the ends of a part
 
-Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
-Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
-Flat operator*(Flat a, double factor) { return {a.x * factor, a.y * factor}; }
-double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
-double cross(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
-double length(Flat a) { return std::sqrt(dot(a, a)); }
-Flat flat(const Vector& at) { return {at[0], at[1]}; }
-Flat unit(Flat a) { return dot(a, a) > 0 ? a * (1 / length(a)) : Flat{}; }
+Flat xy_of(const Vector& at) { return {at[0], at[1]}; }
+Flat unit(Flat a) { return dot(a, a) > 0 ? a * (1 / length_of(a)) : Flat{}; }
 
 struct Spot {
     Flat at;
@@ -39,15 +33,15 @@ public:
         if (!(along > 0)) { return std::nullopt; }
         if (std::abs(aside) / 4 <= kSplineArcs_mm / 8) { return line(from.at, to); }  // its height
         const double radius = dot(chord, chord) / (2 * aside);
-        return FlatArc{from.at, to, from.at + Flat{-from.direction.y, from.direction.x} * radius, radius};
+        return FlatArc{from.at, to, from.at + left_of(from.direction) * radius, radius};
     }
 
     double distance(Flat place) const {
-        if (radius_ != 0) { return std::abs(length(place - centre_) - std::abs(radius_)); }
+        if (radius_ != 0) { return std::abs(length_of(place - centre_) - std::abs(radius_)); }
         const Flat chord = to_ - from_;
         const double square = dot(chord, chord);
         const double share = square > 0 ? std::clamp(dot(place - from_, chord) / square, 0.0, 1.0) : 0;
-        return length(place - from_ - chord * share);
+        return length_of(place - from_ - chord * share);
     }
 
     /// A motion to `target`, which has the arc's end as its X and Y.
@@ -90,8 +84,8 @@ public:
     void cut() {
         for (span_ = 0; span_ < curve_.spans(); ++span_) {
             const auto low = static_cast<double>(span_);
-            halve(low, low + 0.5, kHalvings);
-            halve(low + 0.5, low + 1, kHalvings);
+            halve(low, low + 0.5, kMostHalvings);
+            halve(low + 0.5, low + 1, kMostHalvings);
         }
     }
 
@@ -124,7 +118,7 @@ private:
 
     Spot spot(double parameter) const {
         const SplineCurve::Spot spot = curve_.in_span(span_, parameter);
-        return {flat(spot.at), unit(flat(spot.direction))};
+        return {xy_of(spot.at), unit(xy_of(spot.direction))};
     }
 
     bool try_arcs(const Part& part) {

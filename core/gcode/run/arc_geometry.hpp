@@ -23,14 +23,6 @@ constexpr PlaneAxes axes_of(Plane plane) {
     return kAll[static_cast<std::size_t>(plane)];
 }
 
-constexpr Flat operator+(Flat a, Flat b) { return {a.x + b.x, a.y + b.y}; }
-constexpr Flat operator-(Flat a, Flat b) { return {a.x - b.x, a.y - b.y}; }
-constexpr Flat operator*(Flat a, double factor) { return {a.x * factor, a.y * factor}; }
-constexpr double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
-constexpr double cross(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
-constexpr Flat left_of(Flat a) { return {-a.y, a.x}; }
-inline double length_of(Flat a) { return std::hypot(a.x, a.y); }
-
 constexpr Flat in_plane(PlaneAxes axes, const Point& point) { return {point[axes.first], point[axes.second]}; }
 
 /// The angle that an arc goes through, above 0, for so many turns: 1 is at most a whole one.
