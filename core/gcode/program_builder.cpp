@@ -5,8 +5,8 @@
 
 #include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
-#include "core/gcode/chords.hpp"
-#include "core/gcode/spline_arcs.hpp"
+#include "core/gcode/curves/chords.hpp"
+#include "core/gcode/curves/spline_arcs.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::gcode {

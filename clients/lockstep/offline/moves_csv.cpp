@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/gcode/curves/spline_arcs.hpp"
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/program_builder.hpp"
-#include "core/gcode/spline_arcs.hpp"
 #include "core/number_text.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/files/line_reader.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "core/arc_path.hpp"
-#include "core/gcode/spline_arcs.hpp"
+#include "core/gcode/curves/spline_arcs.hpp"
 
 namespace lockstep::gcode {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/gcode/chords.hpp"
+#include "core/gcode/curves/chords.hpp"
 #include "tests/unit/gcode/actions.hpp"
 
 namespace lockstep::gcode {

@@ -1,4 +1,4 @@
-#include "core/gcode/spline_curve.hpp"
+#include "core/gcode/curves/spline_curve.hpp"
 
 #include <algorithm>
 

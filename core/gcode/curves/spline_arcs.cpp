@@ -1,11 +1,11 @@
-#include "core/gcode/spline_arcs.hpp"
+#include "core/gcode/curves/spline_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "core/gcode/curves/spline_curve.hpp"
 #include "core/gcode/flat.hpp"
-#include "core/gcode/spline_curve.hpp"
 
 namespace lockstep::gcode {
 namespace {

@@ -1,10 +1,10 @@
-#include "core/gcode/chords.hpp"
+#include "core/gcode/curves/chords.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/gcode/spline_curve.hpp"
+#include "core/gcode/curves/spline_curve.hpp"
 
 namespace lockstep::gcode {
 namespace {
