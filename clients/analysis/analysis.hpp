@@ -18,6 +18,7 @@
 #include "clients/analysis/axis_log.hpp"
 #include "clients/analysis/event_log.hpp"
 #include "clients/analysis/log/damage.hpp"
+#include "clients/analysis/log/program_events.hpp"
 #include "clients/analysis/log/record_end.hpp"
 #include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/skew.hpp"
@@ -79,6 +80,8 @@ struct Analysis {
     std::vector<Damage> damages;                   // by reason; the last of kDamagesKept is of all further reasons
     std::vector<Event> happened;                   // in the order of time
     std::uint64_t events_not_kept = 0;
+    std::vector<HappenedEvent> program_events;  // the first of the log, in the order of time
+    std::uint64_t program_events_not_kept = 0;
     std::vector<PairSkew> step_skew;                         // between axes that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the one before

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "clients/analysis/findings.hpp"
+#include "clients/text/event_text.hpp"
 #include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kBreaksShown = 5;  // per axis
 constexpr std::size_t kEventsShown = 10;
+constexpr std::size_t kProgramEventsShown = 20;
 
 std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&)) {
     std::int64_t sum = 0;
@@ -95,6 +97,39 @@ std::string job_table(const Analysis& analysis) {
                 : "-";
         text += fmt::format("{:>5}  {:<8} {:<32} {:<10} {:>10}\n", job.job, job.kind, job.name,
                             job.outcome.empty() ? "not ended" : job.outcome, lasted);
+    }
+    return text;
+}
+
+/// "X 25 mm  Y 5 mm"
+std::string place_text(const ProgramPlace& place) {
+    std::string text;
+    for (const auto& [axis, mm] : place) {
+        text += fmt::format("{}{} {:.3f} {}", text.empty() ? "" : "  ", axis, mm, unit_of(axis));
+    }
+    return text;
+}
+
+std::string program_event_row(const Analysis& analysis, const HappenedEvent& event) {
+    const std::string line = event.line ? std::to_string(*event.line) : "-";
+    const std::string place = event.is_of_program ? place_text(event.place) : "switched off at the job's end";
+    std::string row = fmt::format("{:>5} {:>10.3f} {:>7}  {:<36} {}", event.job,
+                                  analysis.seconds(event.at - analysis.first_tick().value_or(event.at)), line,
+                                  event_text(event.event), place);
+    row.erase(row.find_last_not_of(' ') + 1);
+    return row + "\n";
+}
+
+std::string program_event_table(const Analysis& analysis) {
+    const auto& events = analysis.program_events;
+    if (events.empty()) { return ""; }
+    std::string text = fmt::format("\n{:>5} {:>10} {:>7}  {:<36} {}\n", "job", "at, s", "line", "event", "place");
+    for (std::size_t i = 0; i < std::min(events.size(), kProgramEventsShown); ++i) {
+        text += program_event_row(analysis, events[i]);
+    }
+    const std::uint64_t all = events.size() + analysis.program_events_not_kept;
+    if (all > kProgramEventsShown) {
+        text += fmt::format("and {} more events\n", grouped(static_cast<std::int64_t>(all - kProgramEventsShown)));
     }
     return text;
 }
@@ -224,7 +259,8 @@ std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
     text += findings_text(analysis) + "\n";
-    text += axis_table(analysis) + job_table(analysis) + skew_table(analysis);
+    text += axis_table(analysis) + job_table(analysis) + program_event_table(analysis);
+    text += skew_table(analysis);
     auto lines = notes(analysis);
     for (std::string& line : open_sentences(analysis.end)) { lines.push_back(std::move(line)); }
     if (!lines.empty() || !analysis.damages.empty()) { text += "\n"; }

@@ -12,15 +12,26 @@ namespace {
 
 std::string title(const Analysis& analysis, const std::string& what) { return analysis.machine + ": " + what; }
 
+/// Marks the events of programs in every row.
+drawing::Figure with_events(const Analysis& analysis, drawing::Figure figure) {
+    drawing::Moments moments{.x = {}, .label = "events of programs"};
+    for (const HappenedEvent& event : analysis.program_events) {
+        moments.x.push_back(analysis.seconds(event.at - analysis.first_tick().value_or(event.at)));
+    }
+    for (drawing::Chart& row : figure.rows) { row.moments = moments; }
+    return figure;
+}
+
 }  // namespace
 
 drawing::Figure speed_figure(const Analysis& analysis) {
-    return drawing::speed_figure(title(analysis, "speed of each axis"), in_a_line(analysis), speed_curves(analysis));
+    return with_events(analysis, drawing::speed_figure(title(analysis, "speed of each axis"), in_a_line(analysis),
+                                                       speed_curves(analysis)));
 }
 
 drawing::Figure position_figure(const Analysis& analysis) {
-    return drawing::position_figure(title(analysis, "position of each axis"), in_a_line(analysis),
-                                    position_curves(analysis));
+    return with_events(analysis, drawing::position_figure(title(analysis, "position of each axis"), in_a_line(analysis),
+                                                          position_curves(analysis)));
 }
 
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane) {

@@ -62,11 +62,16 @@ void Recorder::on_job(const job_t& message, LogPlace place) {
                       .axis = {},
                       .remedy = {}});
     } else if (message.event == "ended") {
+        program_events_.end(message);
         record->ended_us = message.utime;
         record->outcome = message.outcome;
     } else {
         on_damage(place, "a job's event is neither begun, epoch, override nor ended");
     }
+}
+
+void Recorder::on_event(const program_event_t& message, const ProgramEvent& event) {
+    program_events_.take(message, event);
 }
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
@@ -96,6 +101,7 @@ void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
     const auto program = read_documents(message, place);
+    if (program) { program_events_.begin(message, *program); }
     if (!has_whole_program(message)) { record.unplannable = program_of(message).error(); }
     if (!analysis_.config) { return; }
     AskedPath asked;
@@ -200,6 +206,9 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.happened = std::move(events_.events());
     analysis_.events_not_kept = events_.not_kept();
     std::ranges::stable_sort(analysis_.happened, {}, &Event::at);
+    analysis_.program_events = std::move(program_events_.events());
+    std::ranges::stable_sort(analysis_.program_events, {}, &HappenedEvent::at);
+    analysis_.program_events_not_kept = program_events_.not_kept();
     analysis_.steps_of_no_job = moves_.steps_of_no_job();
     analysis_.stepped_ways = moves_.plane().ways();
     std::ranges::sort(analysis_.damages, {}, &Damage::first_byte);

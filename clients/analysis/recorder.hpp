@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
+#include "clients/analysis/log/program_events.hpp"
 #include "clients/analysis/measure/move_meter.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
 #include "clients/analysis/measure/step_merge.hpp"
@@ -25,6 +26,7 @@ public:
     void on_position(const axis_position_t& message) override;
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const job_t& message, LogPlace place) override;
+    void on_event(const program_event_t& message, const ProgramEvent& event) override;
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
@@ -50,6 +52,7 @@ private:
     void note_move(JobLog& job, MoveLog move);
 
     EventLog events_;
+    ProgramEventLog program_events_;
     using Names = std::vector<std::string>;
     MoveMeter moves_{[this](std::size_t job, const Names& axes, JobMoves& moves) {
         note_unknown(analysis_.jobs[job], axes, moves);

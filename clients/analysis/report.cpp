@@ -5,6 +5,8 @@
 
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/findings.hpp"
+#include "clients/text/event_text.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -129,6 +131,33 @@ void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report)
     }
 }
 
+/// Steps where the machine's configuration is known.
+void fill(const Analysis& analysis, const ProgramPlace& place,
+          google::protobuf::RepeatedPtrField<proto::FinalPosition>& out) {
+    for (const auto& [axis, mm] : place) {
+        proto::FinalPosition& position = *out.Add();
+        position.set_name(axis);
+        position.set_position_mm(mm);
+        if (const AxisConfig* config = analysis.axis_config(axis)) {
+            position.set_position_steps(to_steps(*config, mm));
+        }
+    }
+}
+
+void fill(const Analysis& analysis, const HappenedEvent& event, proto::ProgramEventReport& report) {
+    report.set_tick(event.at.value);
+    report.set_at_s(since_first_step(analysis, event.at));
+    report.set_what(event_text(event.event));
+    report.set_kind(std::string(name_of(event.event.kind)));
+    report.set_index(event.event.index);
+    report.set_value(event.event.value);
+    report.set_job(event.job);
+    if (event.line) { report.set_line(*event.line); }
+    report.set_at_rest(event.at_rest);
+    report.set_of_program(event.is_of_program);
+    fill(analysis, event.place, *report.mutable_place());
+}
+
 void fill_findings(const Analysis& analysis, proto::AnalysisReport& report) {
     const auto found = findings(analysis);
     report.set_verdict(std::string(name_of(worst_grade(found))));
@@ -176,6 +205,8 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     for (const std::string& line : missing_sentences(analysis.end)) { report.add_missing_at_end(line); }
     for (const std::string& line : open_sentences(analysis.end)) { report.add_not_known(line); }
     for (const Event& event : analysis.happened) { fill(analysis, event, *report.add_events()); }
+    for (const HappenedEvent& event : analysis.program_events) { fill(analysis, event, *report.add_program_events()); }
+    report.set_program_events_not_listed(analysis.program_events_not_kept);
     for (const Damage& damage : analysis.damages) { fill_unread(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;

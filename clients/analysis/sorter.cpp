@@ -4,6 +4,7 @@
 
 #include "clients/analysis/log/log_step.hpp"
 #include "services/documents/names.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {
 
@@ -60,12 +61,16 @@ void Sorter::on_job(const job_t& message, LogPlace place) {
     listener_.on_job(message, place);
 }
 
-/// Only its number: no figure is made of it.
 void Sorter::on_event(const program_event_t& message, LogPlace place) {
     if (!is_ours(message.machine)) { return; }
     if (!is_message_number(message.sequence)) { return on_damage(place, "an event with an impossible number"); }
     job_numbers_.add(message.coordinator, message.sequence);
     end_.saw(RecordKind::Event, message.machine, "", message.coordinator, message.sequence);
+    const auto event = event_of(message);
+    if (!event || !is_countable(message.tick)) {
+        return on_damage(place, "an event of unknown kind or with impossible numbers");
+    }
+    listener_.on_event(message, *event);
 }
 
 void Sorter::on_program_part(const program_part_t& message, LogPlace /*place*/) {

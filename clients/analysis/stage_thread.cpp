@@ -26,6 +26,10 @@ void StageThread::on_job(const job_t& message, LogPlace place) {
     add([message, place](SortedListener& to) { to.on_job(message, place); });
 }
 
+void StageThread::on_event(const program_event_t& message, const ProgramEvent& event) {
+    add([message, event](SortedListener& to) { to.on_event(message, event); });
+}
+
 void StageThread::on_damage(LogPlace place, const std::string& what) {
     add([place, what](SortedListener& to) { to.on_damage(place, what); });
 }

@@ -75,6 +75,17 @@ void draw_spans(Svg& svg, const Chart& chart, const Panel& panel) {
     }
 }
 
+/// One for all that fall into the same pixel.
+void draw_moments(Svg& svg, const Chart& chart, const Panel& panel) {
+    double last = panel.box.x - 1;
+    for (const double moment : chart.moments.x) {
+        const double x = panel.across(moment);
+        if (moment < panel.x.low || moment > panel.x.high || x < last + 1) { continue; }
+        svg.line({x, panel.box.y}, {x, panel.box.bottom()}, kMomentStroke);
+        last = x;
+    }
+}
+
 void draw_levels(Svg& svg, const Chart& chart, const Panel& panel) {
     for (const Level& level : chart.levels) {
         if (level.y < panel.y.low || level.y > panel.y.high) { continue; }
@@ -125,6 +136,7 @@ void draw_row(Svg& svg, const Chart& chart, const Panel& panel, bool with_x_labe
     draw_level_labels(svg, chart, panel);
     draw_spans(svg, chart, panel);
     draw_grid(svg, panel, with_x_labels);
+    draw_moments(svg, chart, panel);
     for (const Series& series : chart.series) { draw_series(svg, series, panel); }
     draw_levels(svg, chart, panel);
     draw_marks(svg, chart, panel);

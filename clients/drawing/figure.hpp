@@ -48,6 +48,12 @@ struct Mark {
     std::string colour{palette::kInk};
 };
 
+/// A thin line across a chart at each x within its range.
+struct Moments {
+    std::vector<double> x;  // rising
+    std::string label;      // in the legend; empty: not in the legend
+};
+
 struct Chart {
     std::string title;    // at its upper left: "X"
     std::string y_label;  // beside it, with the unit: "speed, mm/s"
@@ -55,6 +61,7 @@ struct Chart {
     std::vector<Level> levels;
     std::vector<Span> spans;
     std::vector<Mark> marks;
+    Moments moments;
 };
 
 /// `equal_aspect`: a millimetre has the same length in both directions.

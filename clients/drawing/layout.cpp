@@ -72,6 +72,7 @@ std::vector<LegendEntry> legend_entries(const Figure& figure) {
     for (const Chart& chart : figure.rows) {
         for (const Series& series : chart.series) { add(series.label, series.stroke, false); }
         if (!chart.spans.empty()) { add(figure.span_label, {}, true); }
+        if (!chart.moments.x.empty()) { add(chart.moments.label, kMomentStroke, false); }
     }
     return entries;
 }

@@ -14,6 +14,7 @@ inline constexpr TextStyle kTitleText{.size = 17, .bold = true};
 inline constexpr TextStyle kSubtitleText{.size = 12.5, .colour = palette::kSoftInk};
 inline constexpr TextStyle kRowText{.size = 13, .bold = true};
 inline constexpr TextStyle kLabelText{.size = 12, .colour = palette::kSoftInk};
+inline const Stroke kMomentStroke{.colour = std::string(palette::kSoftInk), .width = 1, .opacity = 0.6};
 inline constexpr double kMargin = 20;
 inline constexpr double kSwatchWidth = 26;
 

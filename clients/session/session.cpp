@@ -85,15 +85,16 @@ std::expected<void, Failure> Session::reach(nanoseconds patience) {
     return {};
 }
 
+/// Positions are as new as the machine's state: an axis's own may come later than the report that a job is done.
 std::expected<void, Failure> Session::reach_axes() {
     const nanoseconds deadline = monotonic_now() + kReachPatience;
+    const Slot known = state_ ? state_->state.stamp : Slot{};
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        while (!axis_present(i)) {
-            if (monotonic_now() > deadline) {
-                return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
-                                                   "' is not received; start its lockstep-axis, or see its log"));
-            }
-            receive(50ms);
+        const auto is_known = [&] { return axis_present(i) && axes_[i]->state.stamp >= known; };
+        while (!is_known() && monotonic_now() <= deadline) { receive(50ms); }
+        if (!axis_present(i)) {
+            return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
+                                               "' is not received; start its lockstep-axis, or see its log"));
         }
     }
     return {};
@@ -113,6 +114,26 @@ void Session::await_healths(nanoseconds patience) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         while (axes_[i] && !healths_[i] && monotonic_now() < deadline) { receive(20ms); }
     }
+}
+
+std::expected<void, Failure> Session::follow_events(nanoseconds patience) {
+    if (!events_) { events_.emplace(viewer_bus().participant); }
+    const nanoseconds deadline = monotonic_now() + patience;
+    while (events_->matched() == 0 || events_->matched() < viewer_bus().machine.matched()) {
+        if (monotonic_now() > deadline) {
+            return std::unexpected(failed("events of programs are not received from every coordinator"));
+        }
+        receive(10ms);
+    }
+    return {};
+}
+
+std::vector<PublishedEvent> Session::take_events() {
+    std::vector<PublishedEvent> events;
+    if (events_) {
+        events_->take([&](PublishedEvent&& event) { events.push_back(event); });
+    }
+    return events;
 }
 
 void Session::receive(nanoseconds at_most) {

@@ -54,6 +54,11 @@ public:
     /// Waits for the live figures of every axis that is received: they are published ten times a second.
     void await_healths(std::chrono::nanoseconds patience);
 
+    /// Receives events of programs from now on; waits until every coordinator's are received. Error: they are not.
+    std::expected<void, Failure> follow_events(std::chrono::nanoseconds patience);
+    /// Those received since the last call, oldest first. Those of a reader that is slow may be missing: see
+    /// PublishedEvent::sequence.
+    std::vector<PublishedEvent> take_events();
     /// Waits for messages and takes them.
     void receive(std::chrono::nanoseconds at_most);
 
@@ -161,6 +166,7 @@ private:
     std::uint64_t sequence_ = 0;
     std::optional<Received<MachineState>> state_;  // the owner's
     std::optional<Received<MachineState>> standby_;
+    std::optional<Reader<PublishedEvent>> events_;
     std::optional<MachineValues> values_;  // the owner's
     std::vector<std::optional<Received<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;

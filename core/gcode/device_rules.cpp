@@ -2,6 +2,11 @@
 #include "core/gcode/program_builder.hpp"
 
 namespace lockstep::gcode {
+namespace {
+
+constexpr int kSpindleOverrideWord = 510;  // M51, in tenths
+
+}  // namespace
 
 using Kind = ProgramEvent::Kind;
 
@@ -73,6 +78,15 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::InputWait:
             if (is_refused(rules.inputs, "an input", "inputs")) { return; }
             return note("an input", "an input is not configured: its words are passed over");
+        case EventKind::SpeedOverride:  // of M49 too, which has an effect, on the feed
+            if (event.value != 0 || interpreter_->block().code(Group::Override) != kSpindleOverrideWord) { return; }
+            return note("M51", "M51 P0 has no effect: the machine has no spindle override");
+        case EventKind::AdaptiveFeed:
+            if (event.value == 0) { return; }
+            return note("M52", "M52 P1 has no effect: the machine has no input for adaptive feed");
+        case EventKind::FeedHold:
+            if (event.value != 0) { return; }
+            return note("M53", "M53 P0 has no effect: feed hold stays on");
         case EventKind::Message: notes_.push_back({line_, "message: " + event.text}); return;
         case EventKind::Print: notes_.push_back({line_, "print: " + event.text}); return;
         default: return;

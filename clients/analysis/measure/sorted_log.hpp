@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <lockstep/axis_position_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/program_event_t.hpp>
 #include <string>
 
 #include "clients/analysis/log/damage.hpp"
 #include "clients/analysis/log/run.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/measured_step.hpp"
+#include "core/program.hpp"
 
 namespace lockstep::analysis {
 
@@ -22,6 +24,8 @@ public:
     virtual void on_position(const axis_position_t& message) = 0;
     virtual void on_run(std::size_t lane, const Run& run) = 0;
     virtual void on_job(const job_t& message, LogPlace place) = 0;
+    /// `event`: what the message switches.
+    virtual void on_event(const program_event_t& message, const ProgramEvent& event) = 0;
     /// The content cannot be read or decoded.
     virtual void on_damage(LogPlace place, const std::string& what) = 0;
     /// The lateness of the steps of a run: from LateMeter, which passes on everything else.

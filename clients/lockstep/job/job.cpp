@@ -18,6 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
+constexpr nanoseconds kEventPatience = 1s;  // for the coordinators' events to be received
+
 std::string outcome_name(JobResult result) {
     switch (result) {
         case JobResult::Done: return "done";
@@ -134,7 +136,23 @@ void report_stream(const Session& session, const Job& job, Output& output) {
     }
 }
 
-ExitCode end(Session& session, const Job& job, JobResult result, proto::RunReport& report, Output& output) {
+ExitCode end_begun(const Job& job, proto::RunReport& report, Output& output) {
+    report.set_outcome(outcome_name(JobResult::InProgress));
+    output.report(report);
+    output.print(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
+    return kExitDone;
+}
+
+/// Before the job begins, so that its first events are received too.
+void follow_events(Session& session, const Job& job, Output& output) {
+    if (job.command != CommandKind::Run || job.detach) { return; }
+    if (const auto follows = session.follow_events(kEventPatience); !follows) {
+        output.warn(follows.error().errors.front().message + "; not all may be printed");
+    }
+}
+
+ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch, proto::RunReport& report,
+             Output& output) {
     report.set_outcome(outcome_name(result));
     if (result == JobResult::Failed) {
         if (auto fault = fault_of(session.state()->state, session.config())) {
@@ -148,13 +166,10 @@ ExitCode end(Session& session, const Job& job, JobResult result, proto::RunRepor
     }
     const std::int32_t line = state.line;
     if (result == JobResult::CutShort && line > 0) { report.set_line(line); }
-    if (result != JobResult::InProgress) { add_final_positions(session, report); }
+    add_final_positions(session, report);
+    watch.print_events();
     if (result == JobResult::Done) { await_values(session, job, output); }
     output.report(report);
-    if (result == JobResult::InProgress) {
-        output.print(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
-        return kExitDone;
-    }
     print_end(session, job, report, output);
     return result == JobResult::Done ? kExitDone : kExitFailed;
 }
@@ -170,6 +185,7 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     const LeaseTurn turn(session, job.take, &stop);
     if (!turn.answer()) { return output.fail(turn.answer().error()); }
     if (turn.is_refused()) { return refused(job, *turn.answer(), report, output); }
+    follow_events(session, job, output);
     const auto reply = begin(session, job, stop);
     if (!reply) { return output.fail(reply.error()); }
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }
@@ -177,17 +193,18 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     if (job.detach && job.stream != nullptr) {
         if (const auto sent = send_rest(session, stop); !sent) { return output.fail(sent.error()); }
     }
-    if (job.detach) { return end(session, job, JobResult::InProgress, report, output); }
+    if (job.detach) { return end_begun(job, report, output); }
     output.print(title(job) + ": job " + std::to_string(reply->job) +
                  (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
-    const auto result = JobWatch(session, reply->job, job.command, output, stop, hang_up).wait();
+    JobWatch watch(session, reply->job, job.command, output, stop, hang_up);
+    const auto result = watch.wait();
     if (!result) { return output.fail(result.error()); }
     if (job.stream != nullptr) { report_stream(session, job, output); }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
     if (report.lost_records() > 0) { output.warn(record_loss_text(status_report(session))); }
-    return end(session, job, *result, report, output);
+    return end(session, job, *result, watch, report, output);
 }
 
 }  // namespace lockstep

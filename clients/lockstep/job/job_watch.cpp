@@ -24,12 +24,14 @@ JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, 
       output_(output),
       stop_(stop),
       hang_up_(hang_up),
+      event_lines_(number),
       asked_(session.state()->state.term),
       runs_it_(asked_) {}
 
 std::expected<JobResult, Failure> JobWatch::wait() {
     for (;;) {
         session_.receive(kGlance);
+        print_events();
         if (session_.is_silent()) { return std::unexpected(silent()); }
         const MachineState& state = session_.state()->state;
         const JobResult result = result_of(state, number_, asked_, runs_it_);
@@ -41,6 +43,10 @@ std::expected<JobResult, Failure> JobWatch::wait() {
         print_lost_lease();
         if (state.job == number_) { print_phase(state); }
     }
+}
+
+void JobWatch::print_events() {
+    for (const std::string& line : event_lines_.of(session_.take_events())) { output_.print(line); }
 }
 
 Failure JobWatch::silent() const {

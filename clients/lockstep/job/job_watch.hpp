@@ -6,6 +6,7 @@
 #include <expected>
 #include <optional>
 
+#include "clients/lockstep/job/event_lines.hpp"
 #include "clients/lockstep/job/hang_up.hpp"
 #include "clients/session/job_result.hpp"
 #include "clients/session/session.hpp"
@@ -23,6 +24,8 @@ public:
     /// A stop signal stops the machine on its path. A closed terminal holds it, or stops what cannot be held. Then this
     /// waits for rest, with a limit. Error: the coordinator fell silent, refused the stop, or the job continues.
     std::expected<JobResult, Failure> wait();
+    /// Prints the events of the program that were received since the last call.
+    void print_events();
 
 private:
     Failure silent() const;
@@ -41,6 +44,7 @@ private:
     Output& output_;
     const StopSignal& stop_;
     const HangUp& hang_up_;
+    EventLines event_lines_;
     Term asked_;
     Term runs_it_;  // of the owner last received as running it
     bool has_lease_ = true;

@@ -29,7 +29,7 @@ function follow(u, key) {
 }
 
 // Shades stretches without data and draws limits and events.
-function marksPlugin(row, events) {
+function marksPlugin(row, events, programEvents) {
   const vertical = (u, x, colour) => {
     const at = u.valToPos(x, "x", true);
     if (at < u.bbox.left || at > u.bbox.left + u.bbox.width) { return; }
@@ -57,12 +57,13 @@ function marksPlugin(row, events) {
     u.ctx.save();
     (row.missing ?? []).forEach((stretch) => shade(u, stretch));
     (row.limits ?? []).forEach((y) => limit(u, y));
+    programEvents.forEach((event) => vertical(u, event.at_s, css("--soft")));
     events.forEach((event) => vertical(u, event.at_s, css("--alarm")));
     u.ctx.restore();
   } } };
 }
 
-function timeChart(host, row, events, last) {
+function timeChart(host, row, events, programEvents, last) {
   const width = () => Math.max(240, host.clientWidth);
   const pad = (min, max) => {
     const room = 0.06 * (max - min) || Math.abs(max) * 0.1 || 1;
@@ -75,7 +76,7 @@ function timeChart(host, row, events, last) {
     axes: [{ ...axisStyle(last ? "time, s" : undefined), size: last ? 46 : 26 }, axisStyle(row.unit)],
     series: [{ label: "s", value: (u, value) => value?.toFixed(4) },
       { label: row.name, stroke: colours[row.colour % colours.length], width: 1.3, points: { show: false }, spanGaps: false }],
-    plugins: [marksPlugin(row, events)],
+    plugins: [marksPlugin(row, events, programEvents)],
     hooks: { setScale: [follow] },
   }, [row.x, row.y], host);
   timeCharts.push(chart);

@@ -126,6 +126,22 @@ function events() {
   ], report.events, { first: 50, onRow: (event) => showTime(event.at_s - 1, event.at_s + 1) }));
 }
 
+function programEvents() {
+  const rows = report.program_events;
+  if (rows.length === 0) { return; }
+  const place = (event) => (event.of_program ? event.place.map((at) => `${at.name} ${at.position_mm.toFixed(3)} ${unitOf(at.name)}`).join("  ") : "switched off at the job's end");
+  const more = Number(report.program_events_not_listed);
+  const note = more ? `The first ${count(rows.length)} of ${count(rows.length + more)}.` : "";
+  section("Events of programs", make("p", { className: "soft" }, `What programs switch; the place is the program's, in machine coordinates. ${note}`), table([
+    { head: "at, s", of: (event) => event.at_s, show: fixed(3) },
+    { head: "job", of: (event) => Number(event.job) },
+    { head: "line", of: (event) => event.line, show: (line) => line ?? "–" },
+    { head: "event", of: (event) => event.what, text: true },
+    { head: "place", of: place, text: true },
+    { head: "at rest", of: (event) => (event.at_rest ? "yes" : "no"), text: true },
+  ], rows, { first: 50, onRow: (event) => showTime(event.at_s - 1, event.at_s + 1) }));
+}
+
 function record() {
   const gaps = report.axes.flatMap((axis) => axis.gaps.map((gap) => ({ ...gap, axis: axis.name })));
   if (gaps.length > 0) {
@@ -154,7 +170,7 @@ function overTime() {
   const buttons = make("p");
   const holder = make("div");
   const part = section("Over time", make("p", { className: "soft" },
-    "Drag to zoom, double-click to see all again. Dashed: limits; shaded: steps missing from the log; red: faults and stops."), buttons, holder);
+    "Drag to zoom, double-click to see all again. Dashed: limits; shaded: steps missing from the log; red: faults and stops; grey: events of programs."), buttons, holder);
   part.id = "time";
   const kinds = [...new Set(charts.rows.map((row) => row.kind))];
   const draw = (kind) => {
@@ -166,7 +182,7 @@ function overTime() {
     rows.forEach((row, i) => {
       const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
       holder.append(figure);
-      timeChart(figure, row, report.events, i + 1 === rows.length);
+      timeChart(figure, row, report.events, report.program_events, i + 1 === rows.length);
     });
     zoomTo(...zoom);
     [...buttons.children].forEach((button) => button.setAttribute("aria-pressed", button.textContent === kind));
@@ -191,6 +207,7 @@ function stepTimes() {
 
 jobs();
 events();
+programEvents();
 moves();
 axes();
 overTime();

@@ -1,6 +1,8 @@
 #include "services/wire/lcm/translate_lcm.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/axis/state/fsm.hpp"
 
@@ -9,6 +11,10 @@ namespace {
 
 /// LCM has no unsigned numbers: the same 64 bits.
 std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+
+constexpr std::array<std::string_view, ProgramEvent::kKinds> kEventKinds{
+    "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off", "mist-on",
+    "flood-on",     "output-on",       "output-off",      "analog-output", "tool"};
 
 }  // namespace
 
@@ -166,11 +172,12 @@ program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns
     return out;
 }
 
-std::string_view name_of(ProgramEvent::Kind kind) {
-    constexpr std::array<std::string_view, ProgramEvent::kKinds> kNames{
-        "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off", "mist-on",
-        "flood-on",     "output-on",       "output-off",      "analog-output", "tool"};
-    return kNames[static_cast<std::size_t>(kind)];
+std::string_view name_of(ProgramEvent::Kind kind) { return kEventKinds[static_cast<std::size_t>(kind)]; }
+
+std::optional<ProgramEvent> event_of(const program_event_t& message) {
+    const auto place = std::ranges::find(kEventKinds, message.kind) - kEventKinds.begin();
+    if (place == std::ssize(kEventKinds) || !std::isfinite(message.value)) { return std::nullopt; }
+    return ProgramEvent{.kind = static_cast<ProgramEvent::Kind>(place), .index = message.index, .value = message.value};
 }
 
 }  // namespace lockstep

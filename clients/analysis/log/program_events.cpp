@@ -1,0 +1,64 @@
+#include "clients/analysis/log/program_events.hpp"
+
+#include <algorithm>
+
+namespace lockstep::analysis {
+
+void ProgramEventLog::begin(const job_t& job, const Program& program) {
+    job_ = static_cast<std::uint64_t>(job.job);
+    const auto is_of_it = [&](const HappenedEvent& event) {
+        return event.job == *job_ && event.coordinator == job.coordinator;
+    };
+    const auto first = std::find_if_not(events_.rbegin(), events_.rend(), is_of_it).base();
+    const auto before = static_cast<std::size_t>(events_.end() - first);
+    note_places(program, before + (kEventsKept - events_.size()));
+    std::for_each(first, events_.end(), [this](HappenedEvent& event) { find_place(event); });
+}
+
+void ProgramEventLog::end(const job_t& job) {
+    if (job_ != static_cast<std::uint64_t>(job.job)) { return; }
+    job_.reset();
+    places_.clear();
+}
+
+/// The place of an event is the end of the move before it. Events happen in the order of the program, so places of more
+/// than will be kept are not needed.
+void ProgramEventLog::note_places(const Program& program, std::size_t at_most) {
+    places_.clear();
+    const std::vector<double>* at_mm = &program.start_mm;
+    for (std::size_t block = 0; block < program.blocks.size() && places_.size() < at_most; ++block) {
+        const auto& action = program.blocks[block].action;
+        if (const auto* move = std::get_if<ProgramMove>(&action)) { at_mm = &move->target_mm; }
+        if (!std::holds_alternative<ProgramEvent>(action)) { continue; }
+        ProgramPlace& place = places_[static_cast<std::int64_t>(block)];
+        for (std::size_t i = 0; i < std::min(program.axes.size(), at_mm->size()); ++i) {
+            place.emplace_back(program.axes[i], (*at_mm)[i]);
+        }
+    }
+}
+
+void ProgramEventLog::find_place(HappenedEvent& event) const {
+    const auto place = event.is_of_program && event.job == job_ ? places_.find(event.block) : places_.end();
+    event.place = place == places_.end() ? ProgramPlace{} : place->second;
+}
+
+void ProgramEventLog::take(const program_event_t& message, const ProgramEvent& event) {
+    if (events_.size() == kEventsKept) {
+        ++not_kept_;
+        return;
+    }
+    HappenedEvent happened{.at = Tick{message.tick},
+                           .event = event,
+                           .coordinator = message.coordinator,
+                           .job = static_cast<std::uint64_t>(message.job),
+                           .block = message.block,
+                           .line = {},
+                           .at_rest = message.at_rest != 0,
+                           .is_of_program = message.of_program != 0,
+                           .place = {}};
+    if (message.line > 0) { happened.line = message.line; }
+    find_place(happened);
+    events_.push_back(std::move(happened));
+}
+
+}  // namespace lockstep::analysis

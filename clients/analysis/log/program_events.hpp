@@ -1,0 +1,57 @@
+// The events of programs in a log: what the coordinator published, when, and where on the path.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <lockstep/job_t.hpp>
+#include <lockstep/program_event_t.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/program.hpp"
+#include "core/units.hpp"
+
+namespace lockstep::analysis {
+
+/// A place in machine coordinates: each axis of the program, in mm or degrees.
+using ProgramPlace = std::vector<std::pair<std::string, double>>;
+
+struct HappenedEvent {
+    Tick at;  // machine time: when the motion came to its place; at rest: when it was published
+    ProgramEvent event;
+    std::int64_t coordinator = 0;
+    std::uint64_t job = 0;
+    std::int64_t block = 0;            // of the program
+    std::optional<std::int32_t> line;  // of the G-code file
+    bool at_rest = false;
+    bool is_of_program = true;  // false: the job ended before its end, and the coordinator switched the device off
+    ProgramPlace place;         // empty: the log does not have its program, or it is not of the program
+};
+
+class ProgramEventLog {
+public:
+    static constexpr std::size_t kEventsKept = 1000;
+
+    /// The job begins. Events of it may be before this in the log.
+    void begin(const job_t& job, const Program& program);
+    void end(const job_t& job);
+    /// `event`: what the message switches.
+    void take(const program_event_t& message, const ProgramEvent& event);
+
+    std::vector<HappenedEvent>& events() { return events_; }  // in the order of the log, the first kEventsKept
+    std::uint64_t not_kept() const { return not_kept_; }
+
+private:
+    void note_places(const Program& program, std::size_t at_most);
+    void find_place(HappenedEvent& event) const;
+
+    std::vector<HappenedEvent> events_;
+    std::uint64_t not_kept_ = 0;
+    std::optional<std::uint64_t> job_;             // in progress
+    std::map<std::int64_t, ProgramPlace> places_;  // of its first events, by block
+};
+
+}  // namespace lockstep::analysis

@@ -1,0 +1,26 @@
+// The lines that report the events of a job while it runs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+class EventLines {
+public:
+    explicit EventLines(std::uint64_t job) : job_(job) {}
+
+    /// A line for each event of the job, and one where events were not received. `events`: the next ones received.
+    std::vector<std::string> of(std::span<const PublishedEvent> events);
+
+private:
+    std::uint64_t job_;
+    std::optional<PublishedEvent> last_;  // received, of any job
+};
+
+}  // namespace lockstep
