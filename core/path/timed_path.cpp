@@ -51,14 +51,18 @@ void TimedPath::add(PathPhase phase, double mm, double u, double w0, double w1) 
     add_phase(phase);
 }
 
+/// One piece may pass over rests that follow each other: a frame has room for few pieces, and each of many short rests
+/// would take one.
 void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, w1, phases_.size()});
     const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};
+    const bool is_rest = part.kind == IntervalKind::Rest;
+    const bool has_rested = stop_.shape != nullptr && stop_.shape->length == 0;
     stop_ = here;
     stop_.ticks = 0x1p40;
     stop_.u = part.to;
-    breaks_ = part.turn * std::sqrt(w0) > kBreak || part.kind == IntervalKind::Rest;
-    if (part.kind == IntervalKind::Rest) {
+    breaks_ = part.turn * std::sqrt(w0) > kBreak || (is_rest && !has_rested);
+    if (is_rest) {
         PathPhase rest = here;
         rest.ticks = static_cast<double>(shape.rest.value);
         add_phase(rest);

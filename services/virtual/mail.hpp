@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/reused_vector.hpp"
 #include "services/virtual/virtual_network.hpp"
 
 namespace lockstep {
@@ -16,7 +17,7 @@ public:
         network.receive(now, static_cast<VirtualNetwork::Address>(address), *this);
     }
 
-    std::vector<Frame> frames;
+    ReusedVector<Frame> frames;
     std::vector<AxisState> axes;
     std::vector<MachineState> machine;
     std::vector<AxisCommand> axis_commands;
@@ -26,7 +27,7 @@ public:
     std::vector<ClockRequest> clock_requests;
     std::vector<ClockReply> clock_replies;
 
-    void operator()(const Frame& m) { frames.push_back(m); }
+    void operator()(const Frame& m) { frames.append() = m; }
     void operator()(const AxisState& m) { axes.push_back(m); }
     void operator()(const MachineState& m) { machine.push_back(m); }
     void operator()(const AxisCommand& m) { axis_commands.push_back(m); }

@@ -176,14 +176,14 @@ void VirtualMachine::run_loop(std::size_t process) {
 }
 
 template <typename Outputs>
-void VirtualMachine::act(std::size_t process, Outputs&& out) {
+void VirtualMachine::act(std::size_t process, const Outputs& out) {
     Stall& stall = stalls_[process];
     if (stall.until <= now_) { return carry_out(process, out); }
-    stall.decided = std::forward<Outputs>(out);
+    stall.decided = out;
     schedule_.delay(process, stall.until);
 }
 
-AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
+const AxisOutputs& VirtualMachine::decide_axis(std::size_t i) {
     const Mail& mail = post_.collect(now_, i);
     const auto on_step = [&](StepEdge step) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
@@ -191,7 +191,7 @@ AxisOutputs VirtualMachine::decide_axis(std::size_t i) {
     AxisNode& node = *axes_[i].node;
     const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
     devices_.advance(i, now_);
-    AxisOutputs out =
+    const AxisOutputs& out =
         node.decide(clocks_.process(i, now_),
                     {mail.frames, mail.axes, mail.machine, mail.axis_commands, mail.commands, exchanges}, on_step);
     for (VirtualObserver* observer : observers_) { observer->on_axis(i, now_, out, node); }

@@ -145,8 +145,8 @@ private:
     // Loops.
     void run_loop(std::size_t process);
     template <typename Outputs>
-    void act(std::size_t process, Outputs&& out);
-    AxisOutputs decide_axis(std::size_t axis);
+    void act(std::size_t process, const Outputs& out);
+    const AxisOutputs& decide_axis(std::size_t axis);
     CoordinatorOutputs decide_coordinator(std::size_t process);
     void carry_out(std::size_t axis, const AxisOutputs& out);
     void carry_out(std::size_t process, const CoordinatorOutputs& out);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
 #include "tests/simulation/simtest/record/violation.hpp"
 
@@ -37,6 +38,11 @@ inline Scenario two_axes() {
     program.blocks = {{1, ProgramMove{{18, 14}, 0, true}}, {2, ProgramMove{{18, 20}, 0, true}}};
     scenario.tasks = {{program, {}, {}, {}}};
     return scenario;
+}
+
+inline Violations check_limits(const Recording& recording) { return check_limits(recording, follow_all(recording)); }
+inline Violations check_together(const Recording& recording) {
+    return check_together(recording, follow_all(recording));
 }
 
 inline bool has(const Violations& violations, const std::string& rule) {

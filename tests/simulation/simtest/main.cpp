@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "tests/simulation/simtest/run/report.hpp"
 
@@ -38,13 +40,19 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults device --axes 3
   stream     no fault: programs are sent while they run, in parts that come in time or late:
                                                      lockstep-simtest --faults stream,override
-  curve      no fault: programs have arcs, path modes, fixed feeds and events (not in all):
+  curve      no fault: programs have arcs, path modes, fixed feeds and events:
                                                      lockstep-simtest --faults curve,override
   mixed      a half of the other kinds named, in each run:
                                                      lockstep-simtest --faults mixed,loss,clock
 
 Everything follows from the seed. A run that fails prints the command that replays it:
   lockstep-simtest --seed 93 --runs 1 --faults freeze --trace)";
+
+std::vector<std::string> names_of_faults() {
+    std::vector<std::string> names{"none", "all"};
+    for (const NamedKind& named : kFaultKinds) { names.emplace_back(named.name); }
+    return names;
+}
 
 Tally run_all(const Options& options) {
     Tally tally;
@@ -74,9 +82,7 @@ int main(int argc, char** argv) {
     app.add_option("--faults", options.faults,
                    "none, all (half of the kinds in each run), or a list of the kinds below")
         ->delimiter(',')
-        ->check(CLI::IsMember({"none", "delay", "reorder", "duplicate", "loss", "freeze", "crash", "partition",
-                               "corrupt", "stall", "clock", "override", "standby", "limit", "device", "stream", "curve",
-                               "mixed", "all"}));
+        ->check(CLI::IsMember(names_of_faults()));
     app.footer(kKinds);
     app.add_option("--coverage", options.coverage, "write the coverage of the runs to this file, as JSON");
     app.add_flag("--json", options.json, "print the figures as JSON");

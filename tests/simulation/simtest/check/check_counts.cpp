@@ -57,8 +57,9 @@ Violations check_counts(const Recording& recording) {
 
 Violations check_all(const Recording& recording) {
     Violations violations = check_counts(recording);
-    append(violations, check_limits(recording));
-    if (violations.empty()) { append(violations, check_together(recording)); }
+    const Followings followings = follow_all(recording);
+    append(violations, check_limits(recording, followings));
+    if (violations.empty()) { append(violations, check_together(recording, followings)); }
     append(violations, check_frames(recording));
     append(violations, check_stops(recording));
     append(violations, check_owners(recording));

@@ -64,7 +64,15 @@ public:
           rounding_(own_clock(recording.machine).rounding),
           hurry_(own_clock(recording.machine).hurry),
           ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
-          violations_(violations) {}
+          violations_(violations) {
+        const Joints joints(job.course, axis);
+        for (std::size_t n = 0; at_ != nullptr && n < steps_.size(); ++n) {
+            joints_before_.push_back(joints.before((*at_)[n].first));
+            joints_up_to_.push_back(joints.up_to((*at_)[n].last));
+        }
+        joints_up_to_.push_back(joints.up_to(end_.last));
+        for (const StepEdge& step : steps_) { counts_.push_back(counts_.back() + step.direction); }
+    }
 
     void check() {
         for (std::size_t begin = 0; begin < steps_.size();) {
@@ -82,16 +90,16 @@ private:
         return turns || (steps_[n].tick - steps_[n - 1].tick).value >= least_rest_;
     }
 
-    /// Between two steps.
+    /// Between two steps; the one behind the last is the end of the job.
     std::size_t joints(std::size_t from, std::size_t to) const {
-        return at_ == nullptr ? 0 : course_.joints(axis_, (*at_)[from].first, (*at_)[to].last);
+        if (at_ == nullptr) { return 0; }
+        return joints_up_to_[to] - std::min(joints_before_[from], joints_up_to_[to]);
     }
 
     /// The joints between a rest in this gap and the step beside it. The start and the end of a motion are not joints.
     std::size_t joints_beside_rest(std::size_t gap) const {
         if (at_ == nullptr) { return 0; }
-        const double from = gap == 0 ? 0 : (*at_)[gap - 1].first;
-        return course_.joints(axis_, from, gap == steps_.size() ? end_.last : (*at_)[gap].last);
+        return gap == 0 ? joints_up_to_[0] : joints(gap - 1, gap);
     }
 
     double time(std::size_t from, std::size_t to) const {
@@ -100,9 +108,8 @@ private:
 
     /// A forward step to count c is made half a step before c, a backward step half a step after it.
     double distance(std::size_t from, std::size_t to) const {
-        double d = 0;
-        for (std::size_t n = from + 1; n <= to; ++n) { d += steps_[n].direction; }
-        return d + 0.5 * (steps_[from].direction - steps_[to].direction);
+        return static_cast<double>(counts_[to + 1] - counts_[from + 1]) +
+               0.5 * (steps_[from].direction - steps_[to].direction);
     }
 
     void check_stretch(std::size_t begin, std::size_t end) {
@@ -217,22 +224,23 @@ private:
     std::int64_t least_rest_;
     std::size_t axis_;
     std::size_t first_;
-    double rounding_;  // ticks, in the time between two steps
-    double hurry_;     // factor of a feed, because of the device's own clock
-    bool ceases_;      // the steps may end at any speed
+    double rounding_;                         // ticks, in the time between two steps
+    double hurry_;                            // factor of a feed, because of the device's own clock
+    bool ceases_;                             // the steps may end at any speed
+    std::vector<std::int64_t> counts_{0};     // after each number of steps
+    std::vector<std::size_t> joints_before_;  // the earliest place of each step
+    std::vector<std::size_t> joints_up_to_;   // the latest place of each step, and the end
     Violations& violations_;
 };
 
 }  // namespace
 
-Violations check_limits(const Recording& recording) {
+Violations check_limits(const Recording& recording, const Followings& followings) {
     Violations violations;
-    const auto epochs = epoch_runs(recording);
-    for (const JobRecord& job : recording.jobs) {
-        std::optional<Following> following;
-        if (!job.homing) { following = follow(recording, job, bound_until(recording, epochs, job)); }
+    for (std::size_t k = 0; k < recording.jobs.size(); ++k) {
+        const Following* following = followings[k] ? &*followings[k] : nullptr;
         for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-            LimitCheck(recording, job, i, following ? &*following : nullptr, violations).check();
+            LimitCheck(recording, recording.jobs[k], i, following, violations).check();
         }
     }
     return violations;

@@ -6,17 +6,15 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kHair = 1e-6;
+constexpr double kEndTolerance = 1e-6;
 
-void check_job(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until,
-               Violations& violations) {
-    const Following following = follow(recording, job, until);
+void check_job(const JobRecord& job, const Following& following, Violations& violations) {
     if (const auto& left = following.departure) {
         violations.push_back({"together", left->axis, left->tick.value, job.first_step[left->axis] + left->step,
                               "no place on the program fits this step: before it the machine was from " +
                                   std::to_string(left->before.first) + " to " + std::to_string(left->before.last) +
                                   " of " + std::to_string(job.course.stretches.size()) + " moves"});
-    } else if (job.outcome == JobOutcome::Done && following.end.last < job.course.end() - kHair) {
+    } else if (job.outcome == JobOutcome::Done && following.end.last < job.course.end() - kEndTolerance) {
         violations.push_back({"together",
                               {},
                               {},
@@ -28,11 +26,10 @@ void check_job(const Recording& recording, const JobRecord& job, const std::vect
 
 }  // namespace
 
-Violations check_together(const Recording& recording) {
+Violations check_together(const Recording& recording, const Followings& followings) {
     Violations violations;
-    const auto epochs = epoch_runs(recording);
-    for (const JobRecord& job : recording.jobs) {
-        if (!job.homing) { check_job(recording, job, bound_until(recording, epochs, job), violations); }
+    for (std::size_t k = 0; k < recording.jobs.size(); ++k) {
+        if (followings[k]) { check_job(recording.jobs[k], *followings[k], violations); }
     }
     return violations;
 }

@@ -2,6 +2,7 @@
 // that they check.
 #pragma once
 
+#include "tests/simulation/simtest/record/follow.hpp"
 #include "tests/simulation/simtest/record/recording.hpp"
 #include "tests/simulation/simtest/record/violation.hpp"
 
@@ -18,13 +19,13 @@ Violations check_counts(const Recording& recording);
 /// plus one start velocity for each joint of moves that can be in them. The mean of a window is computed with its time
 /// one tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked;
 /// rests with v^2 = v0^2 + 2 a s.
-Violations check_limits(const Recording& recording);
+Violations check_limits(const Recording& recording, const Followings& followings);
 
 /// Together: at every step there is a place on the program's path, never before the one of the step before, such that
 /// no axis is more than one step from it: half of it is the error of rounding a place to whole steps. Moves between
 /// sharp corners are not joined with others: there no axis is more than this half and 0.04 step from it. A completed
 /// job has come to the path's end. Rests are on whole steps.
-Violations check_together(const Recording& recording);
+Violations check_together(const Recording& recording, const Followings& followings);
 
 /// Frames: every axis ran the same frames of each epoch and the same tail, in order, each once, at the time they were
 /// sent for. It ran only armed frames, and made no step outside them.

@@ -1,6 +1,7 @@
 // What one run does, all drawn from one seed: a machine, its network, its programs, and its commands.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -40,12 +41,30 @@ struct FaultKinds {
     bool breaks_processes() const {
         return freeze || crash || partition || stall || clock || standby || limit || device;
     }
-    /// Without curves: with every fault at once, one run in some hundred finds moves of a few steps that no frame
-    /// carries.
-    static constexpr FaultKinds all() {
-        return {true, true, true, true, true, true, true, true, true, true, true, true, true, true, true, true};
-    }
+    static constexpr FaultKinds all();
 };
+
+struct NamedKind {
+    const char* name;
+    bool FaultKinds::*kind;
+};
+inline constexpr std::array kFaultKinds{
+    NamedKind{"delay", &FaultKinds::delay},         NamedKind{"reorder", &FaultKinds::reorder},
+    NamedKind{"duplicate", &FaultKinds::duplicate}, NamedKind{"loss", &FaultKinds::loss},
+    NamedKind{"freeze", &FaultKinds::freeze},       NamedKind{"crash", &FaultKinds::crash},
+    NamedKind{"partition", &FaultKinds::partition}, NamedKind{"corrupt", &FaultKinds::corrupt},
+    NamedKind{"stall", &FaultKinds::stall},         NamedKind{"clock", &FaultKinds::clock},
+    NamedKind{"mixed", &FaultKinds::mixed},         NamedKind{"override", &FaultKinds::override},
+    NamedKind{"standby", &FaultKinds::standby},     NamedKind{"limit", &FaultKinds::limit},
+    NamedKind{"device", &FaultKinds::device},       NamedKind{"stream", &FaultKinds::stream},
+    NamedKind{"curve", &FaultKinds::curve}};
+static_assert(sizeof(FaultKinds) == kFaultKinds.size() * sizeof(bool), "each kind has a name");
+
+constexpr FaultKinds FaultKinds::all() {
+    FaultKinds all;
+    for (const NamedKind& named : kFaultKinds) { all.*named.kind = true; }
+    return all;
+}
 
 /// The kind of machines that are drawn.
 struct MachineKind {

@@ -11,6 +11,7 @@ constexpr double kExactly = 0.5 + 0.04;  // steps: whole pulses, and what pieces
 constexpr double kArc = 1.04;            // the same, and where its pieces are: up to half a step from it at a rest
 constexpr double kSharp = 0.9;           // cosine: at greater angles of the directions moves are not joined,
 constexpr double kLong_mm = 0.1;         // if both are so long
+constexpr double kJointHair = 1e-9;      // of a stretch: so near to a joint a place is at it
 
 double length_mm(const MachineConfig& machine, const Places& from, const Places& to) {
     double square = 0;
@@ -235,17 +236,23 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm) {
     return static_cast<std::int64_t>(std::round(mm * axis.steps_per_mm));
 }
 
-std::size_t Course::joints(std::size_t axis, double first, double last) const {
-    constexpr double kHair = 1e-9;
-    std::size_t joints = 0;
-    for (auto k = static_cast<std::size_t>(std::max(1.0, std::ceil(first - kHair))); k < stretches.size(); ++k) {
-        if (static_cast<double>(k) > last + kHair) { break; }
-        const bool moved = at(k, axis) != at(k - 1, axis);
-        const bool moves = at(k + 1, axis) != at(k, axis);
-        const bool at_pause = stretches[k - 1].pauses || stretches[k].pauses;
-        joints += (moved || moves) && !at_pause ? 1 : 0;
+Joints::Joints(const Course& course, std::size_t axis) : before_{0, 0} {
+    for (std::size_t k = 1; k < course.stretches.size(); ++k) {
+        const bool moved = course.at(k, axis) != course.at(k - 1, axis);
+        const bool moves = course.at(k + 1, axis) != course.at(k, axis);
+        const bool at_pause = course.stretches[k - 1].pauses || course.stretches[k].pauses;
+        before_.push_back(before_.back() + ((moved || moves) && !at_pause ? 1 : 0));
     }
-    return joints;
+}
+
+std::size_t Joints::before(double place) const {
+    const auto k = static_cast<std::size_t>(std::max(0.0, std::ceil(place - kJointHair)));
+    return before_[std::min(k, before_.size() - 1)];
+}
+
+std::size_t Joints::up_to(double place) const {
+    const auto k = static_cast<std::size_t>(std::max(0.0, place + kJointHair));
+    return before_[std::min(k + 1, before_.size() - 1)];
 }
 
 Course course_of(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed) {

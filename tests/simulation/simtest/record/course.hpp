@@ -42,8 +42,18 @@ struct Course {
     double at(std::size_t stretch, std::size_t axis) const {
         return stretch == 0 ? static_cast<double>(from[axis]) : stretches[stretch - 1].to[axis];
     }
-    /// Ends of moves of an axis between two places, where its speed may change at once. Pauses have none.
-    std::size_t joints(std::size_t axis, double first, double last) const;
+};
+
+/// Ends of moves of an axis, where its speed may change at once. Pauses have none.
+class Joints {
+public:
+    Joints(const Course& course, std::size_t axis);
+    /// How many are before a place, and how many up to it.
+    std::size_t before(double place) const;
+    std::size_t up_to(double place) const;
+
+private:
+    std::vector<std::size_t> before_;  // each stretch's begin
 };
 
 /// `most_feed`: the largest factor of the feeds.

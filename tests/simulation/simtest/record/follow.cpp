@@ -107,7 +107,10 @@ public:
         for (std::size_t i = 0; i < recording.axes.size(); ++i) {
             Axis axis{
                 .index = i, .steps = recording.steps_of(job, i), .until = until[i], .counts = {job.course.from[i]}};
-            for (const StepEdge& step : axis.steps) { axis.counts.push_back(axis.counts.back() + step.direction); }
+            for (const StepEdge& step : axis.steps) {
+                axis.counts.push_back(axis.counts.back() + step.direction);
+                axis.times.push_back(times_of(i, step));
+            }
             look_ahead(axis);
             axes_.push_back(std::move(axis));
             following_.at_step.emplace_back(axes_.back().steps.size(), Reached{0, job.course.end()});
@@ -123,14 +126,19 @@ public:
     }
 
 private:
+    struct StepTimes {
+        Tick earliest;
+        Tick latest;
+    };
     struct Axis {
         std::size_t index = 0;
         std::span<const StepEdge> steps;
         Tick until;
         std::vector<std::int64_t> counts;  // after each number of steps
-        std::size_t made = 0;              // steps certainly made
-        std::size_t may_have = 0;          // steps possibly made
-        Tick next_made = kNever;           // latest time of the next step
+        std::vector<StepTimes> times{};
+        std::size_t made = 0;      // steps certainly made
+        std::size_t may_have = 0;  // steps possibly made
+        Tick next_made = kNever;   // latest time of the next step
         Tick next_may = kNever;
     };
 
@@ -156,7 +164,7 @@ private:
             return;
         }
         for (Axis& axis : axes_) {
-            for (std::size_t n = axis.made; n > 0 && latest(axis.index, axis.steps[n - 1]) == tick; --n) {
+            for (std::size_t n = axis.made; n > 0 && axis.times[n - 1].latest == tick; --n) {
                 if (tick <= axis.until) { following_.at_step[axis.index][n - 1].last = places_.fitting().last; }
             }
         }
@@ -182,17 +190,14 @@ private:
         const bool own_clocks = recording_.machine.timing.time_source == TimeSource::Network;
         return own_clocks ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
     }
-    Tick latest(std::size_t i, const StepEdge& step) const {
+    StepTimes times_of(std::size_t i, const StepEdge& step) const {
         const Tick truth = recording_.axes[i].truth(step);
-        return truth + error_at(i, truth);
+        const Ticks error = error_at(i, truth);
+        return {truth - error, truth + error};
     }
-    Tick earliest(std::size_t i, const StepEdge& step) const {
-        const Tick truth = recording_.axes[i].truth(step);
-        return truth - error_at(i, truth);
-    }
-    void look_ahead(Axis& axis) const {
-        axis.next_made = axis.made < axis.steps.size() ? latest(axis.index, axis.steps[axis.made]) : kNever;
-        axis.next_may = axis.may_have < axis.steps.size() ? earliest(axis.index, axis.steps[axis.may_have]) : kNever;
+    static void look_ahead(Axis& axis) {
+        axis.next_made = axis.made < axis.steps.size() ? axis.times[axis.made].latest : kNever;
+        axis.next_may = axis.may_have < axis.steps.size() ? axis.times[axis.may_have].earliest : kNever;
     }
 
     const Recording& recording_;
@@ -225,6 +230,16 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
         until[fault.process] = std::min(until[fault.process], unread_from(fault, recording));
     }
     return until;
+}
+
+Followings follow_all(const Recording& recording) {
+    const auto epochs = epoch_runs(recording);
+    Followings all;
+    for (const JobRecord& job : recording.jobs) {
+        all.emplace_back();
+        if (!job.homing) { all.back() = follow(recording, job, bound_until(recording, epochs, job)); }
+    }
+    return all;
 }
 
 }  // namespace lockstep::simtest

@@ -39,6 +39,10 @@ struct Following {
 /// made any number of steps from those certainly made to those possibly made.
 Following follow(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until);
 
+/// Of each job of the recording; nothing for a homing.
+using Followings = std::vector<std::optional<Following>>;
+Followings follow_all(const Recording& recording);
+
 /// An axis is bound until an emergency stop; one that a fault may separate from the others, until that fault;
 /// one that a switch may stop, until that stop.
 std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,

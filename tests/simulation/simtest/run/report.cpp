@@ -69,9 +69,9 @@ void print_text(const Tally& t) {
 FaultKinds Options::kinds() const {
     const auto has = [this](const char* name) { return std::ranges::find(faults, name) != faults.end(); };
     if (has("all")) { return FaultKinds::all(); }
-    return {has("delay"),     has("reorder"), has("duplicate"), has("loss"),  has("freeze"), has("crash"),
-            has("partition"), has("corrupt"), has("stall"),     has("clock"), has("mixed"),  has("override"),
-            has("standby"),   has("limit"),   has("device"),    has("stream")};
+    FaultKinds kinds;
+    for (const NamedKind& named : kFaultKinds) { kinds.*named.kind = has(named.name); }
+    return kinds;
 }
 
 void Tally::add(const RunResult& result) {

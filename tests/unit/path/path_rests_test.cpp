@@ -1,0 +1,52 @@
+// Many rests in the time of one frame: each alone would take a piece, and a frame has room for few.
+#include <gtest/gtest.h>
+
+#include "core/path/path_planner.hpp"
+#include "tests/property/path/path_run.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr MoveSettings kExactStop{.feed_mm_per_tick = 100e-6, .mode = PathMode::ExactStop};
+constexpr std::uint32_t kMany = 2'000;  // least rests of 64 ticks: half a frame of 230 ms
+
+/// Makes the frames of what the planner was given, and returns the last place of the first axis.
+double finish(PathPlanner& planner, const PathSetup& setup) {
+    planner.finish();
+    PathRun run;
+    drain(planner, run);
+    EXPECT_TRUE(planner.is_done());
+    expect_within_limits(setup, run);
+    return samples_of(run, 1'000).back()[0];
+}
+
+/// Each ends at rest, at the place where it began.
+TEST(PathRests, CarriesMovesWithoutLengthInOneFrame) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    for (std::uint32_t k = 1; k <= kMany; ++k) { planner.line({{5, 0, 0}}, kExactStop, k); }
+    planner.line({{10, 0, 0}}, kExactStop, kMany + 1);
+    EXPECT_EQ(finish(planner, setup), 800);
+}
+
+TEST(PathRests, CarriesShortDwellsInOneFrame) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    planner.line({{5, 0, 0}}, kExactStop, 1);
+    for (std::uint32_t k = 2; k <= kMany; ++k) { planner.rest(Ticks{1}, k); }
+    planner.line({{10, 0, 0}}, kExactStop, kMany + 1);
+    EXPECT_EQ(finish(planner, setup), 800);
+}
+
+TEST(PathRests, CarriesMovesOfOneStepThatEachEndAtRest) {
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    for (std::uint32_t k = 1; k <= kMany; ++k) { planner.line({{0.0125 * k, 0, 0}}, kExactStop, k); }
+    EXPECT_EQ(finish(planner, setup), kMany);
+}
+
+}  // namespace
+}  // namespace lockstep
